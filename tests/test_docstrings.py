@@ -23,9 +23,8 @@ MODULES = sorted(
 LONG = {
     "comparisons.graded_agreement.solving",
     "comparisons.paper.figures.fig11_gradient_effect",
-    "comparisons.paper.studies.error_lines",
-    "comparisons.paper.values.causes",
-    "comparisons.paper.studies.graded_equivalent",
+    "comparisons.paper.studies.errors",
+    "comparisons.paper.values.printed_values",
     "comparisons.paper.studies.graded_routes",
     "comparisons.paper.studies.layered_adhesion",
     "comparisons.problem.elastic_energy",

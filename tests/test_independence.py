@@ -22,14 +22,11 @@ ALLOWED = {
     # A solid that is no power law has no dimensionless problem.
     "comparisons.paper.studies.graded_routes": ("fscm", "fem_reference"),
     "comparisons.paper.studies.layered_adhesion": ("fscm",),
-    # The landing of a jump and the surface at pull-off are no quantities of a model.
-    "comparisons.paper.figures.fig03_s_curve": ("fscm",),
-    "comparisons.paper.figures.fig05_07_pull_off_surfaces": ("fscm",),
-    "comparisons.paper.statements.surfaces": ("fscm",),
+    # The landing of a jump and the surface at pull-off are no quantities of a model; both jumps of one path, in half the
+    # time of two computations.
+    "comparisons.paper.solver_tasks": ("fscm",),
     # Judges statements on the functions inside the FSCM and on the two Tabor numbers (Eqs. 18-22 and 30).
-    "comparisons.paper.statements.formulas": ("fscm",),
-    # Both jumps of one path, at every Tabor number, in half the time of two computations.
-    "comparisons.paper.figures.fig08_jumps": ("fscm",),
+    "comparisons.paper.statements.formula_measures": ("fscm",),
     # Measure a solver at every accuracy, the others beside it, and the linear solvers inside the finite elements.
     "comparisons.bench.pull_off": ("fscm", "fem_reference"),
     "comparisons.bench.elements": ("fem_reference",),
@@ -43,12 +40,12 @@ ALLOWED = {
     "comparisons.description.propagation": ("fscm",),
     # Solves the same graded solids by both.
     "comparisons.graded_agreement.solving": ("fscm", "fem_reference"),
-    # Changes one ingredient of the Stieltjes scheme at a time.
-    "comparisons.paper.values.scheme_ingredients": ("fscm",),
+    # The Stieltjes scheme from an accurate surface on.
+    "comparisons.paper.values.scheme_forces": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
     # The references of the error maps are those of the atlas.
-    "comparisons.paper.studies.error_lines": ("fscm.interpolation",),
+    "comparisons.paper.studies.errors": ("fscm.interpolation",),
     "comparisons.models.atlas_model": ("fscm",),
     "comparisons.models.gibson_limit": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),

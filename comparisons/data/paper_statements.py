@@ -28,8 +28,8 @@ class PaperStatement:
         Name, and where the paper states it.
     statement : str
         What it states, in words of our own.
-    test : str
-        Name of the test, as in `comparisons.paper.statements.registry`.
+    tests : list of mapping
+        Kinds of tests, as in `comparisons.paper.statements.kinds`, each with its terms and what it needs.
     how : str
         How it is tested: what is compared, and how a word without a number ("small") is read.
     range : str
@@ -37,7 +37,7 @@ class PaperStatement:
     command : str
         Repeats the decisive numbers.
     arguments : mapping
-        Of the test.
+        Of all tests: cases, and the number as which a word is read.
     own : mapping
         The cases that the paper shows or names: admissible values by parameter (n, k, mu).  Empty: none.
     general : bool
@@ -47,7 +47,7 @@ class PaperStatement:
     id: str
     section: str
     statement: str
-    test: str
+    tests: list[Mapping[str, Any]]
     how: str
     range: str
     command: str
@@ -63,10 +63,6 @@ class PaperStatement:
         """Whether the paper does not state it for a case."""
         return bool(self.own) and not self.general and not self.is_own(case)
 
-    def numbers(self, name: str, default: tuple[float, ...] = ()) -> tuple[float, ...]:
-        """Return an argument that is a list of numbers."""
-        return tuple(float(value) for value in self.arguments.get(name, default))
-
 
 def read_statements(text: str, source: str = _FILE) -> list[PaperStatement]:
     r"""Return the statements of a TOML text.
@@ -80,7 +76,7 @@ def read_statements(text: str, source: str = _FILE) -> list[PaperStatement]:
     --------
     >>> read_statements('[[statement]]\nid = "a"', "mine.toml")
     Traceback (most recent call last):
-    ValueError: mine.toml: statement a: section, statement, test, how, range, command missing; ...
+    ValueError: mine.toml: statement a: section, statement, tests, how, range, command missing; ...
     """
     document = parse(text, source)
     validated(document, "paper_statements", source)

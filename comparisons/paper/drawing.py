@@ -1,16 +1,30 @@
-"""Lines, labels and legends that the pictures of the paper share."""
+"""Panels, lines, labels and legends that the pictures of the paper share."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from string import ascii_lowercase
 from typing import Any
 
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, LINES, MODEL_LINES, MODEL_NAMES
+from comparisons.output.style import COLOURS, LINES, MODEL_LINES, MODEL_NAMES, lettered
 
-__all__ = ["LABELS", "by_model", "crosses", "dashed", "gradient", "legend_below", "level", "of_model", "one_a_value"]
+__all__ = [
+    "LABELS",
+    "by_model",
+    "crosses",
+    "dashed",
+    "gradient",
+    "held",
+    "legend_below",
+    "level",
+    "line_a_value",
+    "of_model",
+    "panels",
+]
 
 #: Labels of axes, by what is on them.
 LABELS = {
@@ -23,7 +37,9 @@ LABELS = {
     "displacement": r"displacement $\delta/z_0$",
     "load": r"load $\bar P$",
     "force": r"pull-off force $-\bar P_c$",
+    "central_gap": r"central gap $H_0/z_0$",
 }
+_SYMBOLS = {"n": "$n$", "k": "$k$", "mu": r"$\mu$"}
 
 
 def dashed(index: int) -> dict[str, Any]:
@@ -31,9 +47,38 @@ def dashed(index: int) -> dict[str, Any]:
     return {"color": COLOURS[index], "ls": LINES[index]}
 
 
+def held(**values: float) -> str:
+    """Return parameters that a panel holds, or a line, e.g. ``$n$ = 2, $k$ = 0.4``."""
+    return ", ".join(f"{_SYMBOLS[name]} = {value:g}" for name, value in values.items())
+
+
 def gradient(k: float) -> str:
     """Name of a gradient exponent in a legend."""
-    return f"$k$ = {k:g}" + (" (Gibson)" if k == 1.0 else "")
+    return held(k=k) + (" (Gibson)" if k == 1.0 else "")
+
+
+def panels(
+    figure: Figure, rows: int, columns: int, words: Iterable[str], x: str = "", y: str = "", **grid: Any
+) -> list[Axes]:
+    """Return lettered panels, row by row, with what each alone shows; labels are at the left and below.
+
+    Parameters
+    ----------
+    words : iterable of str
+        One text a panel.
+    x, y : str
+        Labels of the axes.
+    **grid
+        Of `Figure.subplots`.
+    """
+    lattice = figure.subplots(rows, columns, squeeze=False, **grid)
+    for letter, text, axes in zip(ascii_lowercase, words, lattice.flat, strict=False):
+        lettered(axes, letter, text)
+    for axes in lattice[-1]:
+        axes.set_xlabel(x)
+    for axes in lattice[:, 0]:
+        axes.set_ylabel(y)
+    return list(lattice.flat)
 
 
 def of_model(table: pd.DataFrame, *models: str, column: str = "model") -> list[pd.DataFrame]:
@@ -47,22 +92,25 @@ def by_model(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
         axes.plot(part[x], part[y], label=MODEL_NAMES[model], **MODEL_LINES[model])
 
 
-def one_a_value(axes: Axes, table: pd.DataFrame, name: str, x: str, y: str, scale: float = 1.0) -> None:
+def line_a_value(
+    axes: Axes, table: pd.DataFrame, name: str, x: str, y: str, scale: float = 1.0, label: str = "", **style: Any
+) -> None:
     """Draw a line for each value of a parameter."""
     for index, (value, part) in enumerate(table.groupby(name)):
-        axes.plot(part[x], scale * part[y], label=f"${name}$ = {value:g}", **dashed(index))
+        text = label + (gradient(value) if name == "k" else held(**{name: value}))
+        axes.plot(part[x], scale * part[y], **{"label": text} | dashed(index) | style)
 
 
 def crosses(axes: Axes, x: Any, y: Any, **style: Any) -> None:
     """Mark points of the finite elements."""
-    marked: dict[str, Any] = {"ls": "none", "marker": "x", "ms": 8, "color": "0.2"} | style
-    axes.plot(x, y, **marked)
+    marked: dict[str, Any] = {"ls": "none", "marker": "x", "ms": 8, "color": "0.2"}
+    axes.plot(x, y, **marked | style)
 
 
 def level(axes: Axes, y: float = 0.0, **style: Any) -> None:
     """Draw a thin horizontal line."""
-    thin: dict[str, Any] = {"color": "0.4", "lw": 0.8} | style
-    axes.axhline(y, **thin)
+    thin: dict[str, Any] = {"color": "0.4", "lw": 0.8}
+    axes.axhline(y, **thin | style)
 
 
 def legend_below(figure: Figure, columns: int, **style: Any) -> None:

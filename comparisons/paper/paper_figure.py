@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -19,7 +19,19 @@ from comparisons.paper.cache import CachedCall, Results
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["PaperFigure", "Plan", "Tables", "calls_of", "given", "lines_of", "results_by", "rows_of", "write"]
+__all__ = [
+    "FIGURES",
+    "PaperFigure",
+    "Plan",
+    "Tables",
+    "calls_of",
+    "given",
+    "lines_of",
+    "paper_figure",
+    "result_of",
+    "rows_of",
+    "together",
+]
 
 T = TypeVar("T")
 K = TypeVar("K")
@@ -27,8 +39,8 @@ K = TypeVar("K")
 #: The data of a figure, by the name of each table.
 Tables = dict[str, pd.DataFrame]
 
-#: What is made of calls: it yields once, the calls, the longest first; is sent their results; and returns what it made.
-Plan = Generator[Sequence[CachedCall], Results, T]
+#: What is made of calls: it yields once, the calls by keys of its own; is sent their results; and returns what it made.
+Plan = Generator[Mapping[Any, CachedCall], Mapping[Any, Any], T]
 
 #: Each picture for the screen, and as vectors for print.
 _FORMATS = (".png", ".pdf")
@@ -42,7 +54,7 @@ def calls_of(plan: Plan[Any]) -> list[CachedCall]:
     >>> calls_of(rows_of([({"x": 3}, CachedCall("math:sqrt", (3,)))]))
     [CachedCall(function='math:sqrt', arguments=(3,))]
     """
-    return list(dict.fromkeys(next(plan)))
+    return list(dict.fromkeys(next(plan).values()))
 
 
 def given(plan: Plan[T], results: Results) -> T:
@@ -53,7 +65,10 @@ def given(plan: Plan[T], results: Results) -> T:
     ComputationFailed
         If a call that it needs has failed.
     """
-    next(plan)
+    return _made(plan, {key: results[call] for key, call in next(plan).items()})
+
+
+def _made(plan: Plan[T], results: Mapping[Any, Any]) -> T:
     try:
         plan.send(results)
     except StopIteration as end:
@@ -62,20 +77,27 @@ def given(plan: Plan[T], results: Results) -> T:
     raise RuntimeError("a plan yields its calls once")
 
 
-def results_by(calls: Mapping[K, CachedCall]) -> Plan[dict[K, Any]]:
-    """Plan the results of calls, by their keys."""
-    results = yield list(calls.values())
-    return {key: results[call] for key, call in calls.items()}
+def together(plans: Mapping[K, Plan[T]]) -> Plan[dict[K, T]]:
+    """Plan what several plans make, by their keys."""
+    calls = {key: next(plan) for key, plan in plans.items()}
+    results = yield {(key, name): call for key, of_plan in calls.items() for name, call in of_plan.items()}
+    return {key: _made(plan, {name: results[key, name] for name in calls[key]}) for key, plan in plans.items()}
+
+
+def result_of(function: Callable[..., Any], *arguments: float | str) -> Plan[Any]:
+    """Plan the result of one call."""
+    results = yield {"": CachedCall.of(function, *arguments)}
+    return results[""]
 
 
 def rows_of(calls: Iterable[tuple[Mapping[str, Any], CachedCall]]) -> Plan[pd.DataFrame]:
     """Plan a table of one row a call: its keys, and the dictionary that it returns."""
     keyed = list(calls)
-    results = yield [call for _, call in keyed]
-    return pd.DataFrame([{**key, **results[call]} for key, call in keyed])
+    results = yield dict(enumerate(call for _, call in keyed))
+    return pd.DataFrame([{**key, **results[index]} for index, (key, _) in enumerate(keyed)])
 
 
-def lines_of(key: Mapping[str, Any], found: Mapping[str, Any], names: Iterable[str]) -> pd.DataFrame:
+def lines_of(key: Mapping[str, Any], result: Mapping[str, Any], names: Iterable[str]) -> pd.DataFrame:
     """Return the lists and numbers of these names in a result as columns, one row without numbers if it has none.
 
     Examples
@@ -83,7 +105,7 @@ def lines_of(key: Mapping[str, Any], found: Mapping[str, Any], names: Iterable[s
     >>> lines_of({"k": 0.4}, {"load": [0.0, -1.0], "u": 0.1}, ["load", "u"]).values.tolist()
     [[0.4, 0.0, 0.1], [0.4, -1.0, 0.1]]
     """
-    return pd.DataFrame({**key, **{name: found.get(name, [math.nan]) for name in names}})
+    return pd.DataFrame({**key, **{name: result.get(name, [math.nan]) for name in names}})
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,20 +145,6 @@ class PaperFigure:
     shown: Callable[[Tables], RenderableType] | None = None
     follows_path: bool = False
 
-    def tasks(self) -> list[CachedCall]:
-        """Return the calls that it needs, the longest first."""
-        return calls_of(self.plan())
-
-    def tables(self, results: Results) -> Tables:
-        """Return its tables.
-
-        Raises
-        ------
-        comparisons.model.ComputationFailed
-            If a call that it needs has failed.
-        """
-        return given(self.plan(), results)
-
     def draw(self, tables: Tables) -> Figure | None:
         """Return the picture of its tables, None for a figure that is a table only."""
         if self.picture is None:
@@ -154,30 +162,56 @@ class PaperFigure:
         """Return the files of the figure that a folder holds, sorted."""
         return sorted(folder.glob(f"{self.stem}[._]*"))
 
+    def write(self, tables: Tables, folder: Path) -> list[Path]:
+        """Write the CSV of every table, the picture and the texts; return the paths.
+
+        Raises
+        ------
+        ValueError
+            If a file cannot be written.
+        """
+        picture = self.draw(tables)
+        texts = {self.table_file(name): csv_text(table) for name, table in tables.items()}
+        if self.texts:
+            texts |= {f"{self.stem}{suffix}": text for suffix, text in self.texts(tables).items()}
+        for name, text in texts.items():
+            with atomic(folder / name) as file:
+                file.write(text.encode())
+        pictures = [folder / f"{self.stem}{suffix}" for suffix in _FORMATS if picture]
+        for path in pictures:
+            save(picture, path)  # type: ignore[arg-type]
+        return [*(folder / name for name in texts), *pictures]
+
+
+#: Every figure by its name; `comparisons.paper.registry` imports the modules that declare them.
+FIGURES: dict[str, PaperFigure] = {}
+
+
+def paper_figure(
+    picture: Callable[[Figure, Tables], None] | None = None, *, name: str | None = None, **options: Any
+) -> Callable[[Callable[[], Plan[Tables]]], Callable[[], Plan[Tables]]]:
+    """Declare the figure of a plan: the plan's name is the stem of its files, its docstring the title.
+
+    Parameters
+    ----------
+    picture, **options
+        As of `PaperFigure`.
+    name : str, optional
+        By default the number of a stem as ``fig03_s_curve``, of another stem the stem with hyphens.
+    """
+
+    def declare(plan: Callable[[], Plan[Tables]]) -> Callable[[], Plan[Tables]]:
+        stem, title = plan.__name__, (plan.__doc__ or "").strip().removesuffix(".")
+        number = stem[3:5].lstrip("0") if stem.startswith("fig") else stem.replace("_", "-")
+        figure = PaperFigure(name or number, stem, title, plan, picture, **options)
+        if figure.name in FIGURES:
+            raise ValueError(f"two figures have the name {figure.name!r}: {FIGURES[figure.name].stem} and {stem}")
+        FIGURES[figure.name] = figure
+        return plan
+
+    return declare
+
 
 def texts_of(whole: pd.DataFrame, short: pd.DataFrame, title: str, notes: str, label: str) -> dict[str, str]:
     """Return a table for reading as a page, and one in LaTeX for which a page of paper has room."""
     return {".md": f"{markdown(whole, title)}\n{notes}\n", ".tex": latex(short, f"{title}. {notes}", label)}
-
-
-def write(paper_figure: PaperFigure, tables: Tables, folder: Path) -> list[Path]:
-    """Write the CSV of every table, the picture and the texts; return the paths.
-
-    Raises
-    ------
-    ValueError
-        If a file cannot be written.
-    """
-    picture = paper_figure.draw(tables)
-    texts = {paper_figure.table_file(name): csv_text(table) for name, table in tables.items()}
-    if paper_figure.texts:
-        texts |= {f"{paper_figure.stem}{suffix}": text for suffix, text in paper_figure.texts(tables).items()}
-    for name, text in texts.items():
-        with atomic(folder / name) as file:
-            file.write(text.encode())
-    written = [folder / name for name in texts]
-    if picture is not None:
-        for path in (folder / f"{paper_figure.stem}{suffix}" for suffix in _FORMATS):
-            save(picture, path)
-            written.append(path)
-    return written

@@ -5,21 +5,24 @@ A refusal is a result here: a figure leaves the point out or writes its status, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from comparisons.model import ComputationFailed, HasCurve, HasProfile, NotApplicable
-from comparisons.problem import Problem
+from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from comparisons.quantities.points import FARTHEST_GAP
 from comparisons.registry import create
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["curve", "profile", "quantity"]
+__all__ = ["COHESIVE", "cohesive_surface", "curve", "profile", "quantity"]
 
 Json = dict[str, Any]
+
+#: The Maugis-Dugdale models, by name.
+COHESIVE = {model.name: model for model in (MaugisDugdaleOriginal(), MaugisDugdaleImproved())}
 
 
 def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
@@ -45,14 +48,12 @@ def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
     >>> quantity("bradley", "jump_in_gap", 2, 0.4, 1)["status"]
     'not-applicable'
     """
-    return {"value": None, "u_num": None} | _with_status(
-        lambda: _quantity(model, name, Problem.dimensionless(n, k, mu))
-    )
 
+    def evaluated() -> Json:
+        row = evaluate(create(model), name, Case(n, k, mu))
+        return {name: getattr(row, name) for name in ("value", "u_num", "status", "reason")}
 
-def _quantity(model: str, name: str, case: Problem) -> Json:
-    row = evaluate(create(model), name, case)
-    return {"value": row.value, "u_num": row.u_num, "status": row.status, "reason": row.reason}
+    return {"value": None, "u_num": None} | _with_status(evaluated)
 
 
 def curve(model: str, n: float, k: float, mu: float) -> Json:
@@ -67,25 +68,25 @@ def curve(model: str, n: float, k: float, mu: float) -> Json:
 
     Examples
     --------
-    >>> found = curve("jkr", 2, 0.4, 1)
-    >>> found["status"], found["displacement"][0], sorted(found["columns"])
+    >>> path = curve("jkr", 2, 0.4, 1)
+    >>> path["status"], path["displacement"][0], sorted(path["columns"])
     ('ok', 0.0, ['contact_radius'])
     """
-    return _with_status(lambda: _curve(model, Problem.dimensionless(n, k, mu)))
 
+    def traced() -> Json:
+        tracing = create(model)
+        if not isinstance(tracing, HasCurve):
+            raise NotApplicable(f"{model} has no force-displacement curve")
+        path = tracing.curve(Case(n, k, mu).problem())
+        return {
+            "displacement": _numbers(path.displacement),
+            "load": _numbers(path.load),
+            "u_displacement": path.u_distance * float(np.ptp(path.displacement)),
+            "u_load": path.u_distance * float(np.ptp(path.load)),
+            "columns": {name: _numbers(values) for name, values in path.columns.items()},
+        }
 
-def _curve(model: str, case: Problem) -> Json:
-    tracing = create(model)
-    if not isinstance(tracing, HasCurve):
-        raise NotApplicable(f"{model} has no force-displacement curve")
-    found = tracing.curve(case)
-    return {
-        "displacement": _numbers(found.displacement),
-        "load": _numbers(found.load),
-        "u_displacement": found.u_distance * float(np.ptp(found.displacement)),
-        "u_load": found.u_distance * float(np.ptp(found.load)),
-        "columns": {name: _numbers(values) for name, values in found.columns.items()},
-    }
+    return _with_status(traced)
 
 
 def profile(model: str, n: float, k: float, mu: float) -> Json:
@@ -103,21 +104,42 @@ def profile(model: str, n: float, k: float, mu: float) -> Json:
     >>> profile("bradley", 2, 0.4, 1)["reason"]
     'bradley has no profile at pull-off'
     """
-    return _with_status(lambda: _profile(model, Problem.dimensionless(n, k, mu)))
+
+    def traced() -> Json:
+        tracing = create(model)
+        if not isinstance(tracing, HasProfile):
+            raise NotApplicable(f"{model} has no profile at pull-off")
+        whole = tracing.pull_off_profile(Case(n, k, mu).problem())
+        inside = whole.gap <= FARTHEST_GAP
+        columns = {name: _numbers(getattr(whole, name)[inside]) for name in ("radius", "pressure", "gap")}
+        return columns | {"u_distance": float(whole.u_distance)}
+
+    return _with_status(traced)
 
 
-def _profile(model: str, case: Problem) -> Json:
-    tracing = create(model)
-    if not isinstance(tracing, HasProfile):
-        raise NotApplicable(f"{model} has no profile at pull-off")
-    found = tracing.pull_off_profile(case)
-    near = found.gap <= FARTHEST_GAP
-    shapes: Mapping[str, NDArray[np.float64]] = {
-        "radius": found.radius,
-        "pressure": found.pressure,
-        "gap": found.gap,
-    }
-    return {name: _numbers(values[near]) for name, values in shapes.items()} | {"u_distance": float(found.u_distance)}
+def cohesive_surface(model: str, n: float, k: float, mu: float) -> Json:
+    """Return the surface of a Maugis-Dugdale model at pull-off.
+
+    Returns
+    -------
+    dict
+        ``contact_radius`` and ``cohesive_radius`` (a and c), ``displacement``; ``radius``, ``pressure``, ``gap`` as
+        lists, in barred variables.
+
+    Raises
+    ------
+    NotApplicable
+        Where the cohesive zone has no width.
+
+    Examples
+    --------
+    >>> zone = cohesive_surface("md-improved", 2, 0.4, 1)
+    >>> round(zone["contact_radius"], 3), round(zone["cohesive_radius"], 3)
+    (1.264, 2.054)
+    """
+    zone = COHESIVE[model].profiles(Case(n, k, mu).problem())
+    numbers = {name: getattr(zone, name) for name in ("contact_radius", "cohesive_radius", "displacement")}
+    return numbers | {name: getattr(zone, name).tolist() for name in ("radius", "pressure", "gap")}
 
 
 def _with_status(function: Callable[[], Json]) -> Json:

@@ -11,7 +11,7 @@ from pathlib import Path
 from comparisons.console.progress import counting
 from comparisons.model import ComputationFailed
 from comparisons.paper.cache import CachedCall, CallCache
-from comparisons.paper.paper_figure import PaperFigure, Tables, write
+from comparisons.paper.paper_figure import PaperFigure, Tables, calls_of, given
 from comparisons.paper.registry import paper_figures
 from comparisons.pipeline.record_content import now, record_content
 from comparisons.runs.atomic_files import prepare_folder
@@ -88,7 +88,7 @@ def make_figures(
     chosen = paper_figures(wanted)
     target = RunFolder(prepare_folder(folder))
     started = now()
-    calls = [call for figure in chosen for call in figure.tasks()]
+    calls = [call for figure in chosen for call in calls_of(figure.plan())]
     cache, missing = _computed(calls, target, jobs, retry_failed)
     finished = tuple(_finished(figure, cache, folder) for figure in chosen)
     distinct = dict.fromkeys(calls)
@@ -129,7 +129,7 @@ def _computed(calls: list[CachedCall], folder: RunFolder, jobs: int, retry_faile
 
 def _finished(figure: PaperFigure, cache: CallCache, folder: Path) -> FinishedFigure:
     try:
-        tables = figure.tables(cache.results)
-        return FinishedFigure(figure, tables, tuple(write(figure, tables, folder)))
+        tables = given(figure.plan(), cache.results)
+        return FinishedFigure(figure, tables, tuple(figure.write(tables, folder)))
     except ComputationFailed as failure:
         return FinishedFigure(figure, {}, (), str(failure))

@@ -118,7 +118,7 @@ def test_the_reference_is_written_with_the_packages_of_the_extra_docs_alone():
 def test_the_text_is_of_the_data_and_not_of_others_with_the_same_name(api):
     assert api.comment("comparisons", "QUANTITIES") == api.comment("comparisons.quantities", "QUANTITIES")
     assert api.comment("comparisons", "QUANTITIES") != api.comment(
-        "comparisons.paper.figures.fig08_jumps", "QUANTITIES"
+        "comparisons.paper.studies.graded_routes", "QUANTITIES"
     )
 
 

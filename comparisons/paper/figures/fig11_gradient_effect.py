@@ -8,13 +8,13 @@ from matplotlib.figure import Figure
 from scipy.optimize import brentq, minimize_scalar
 
 from comparisons.models.jkr import JKR
-from comparisons.output.style import COLOURS, lettered
+from comparisons.output.style import COLOURS
 from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import LABELS, level, one_a_value
-from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
-from comparisons.problem import Problem
+from comparisons.paper.drawing import LABELS, level, line_a_value, panels
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure
+from comparisons.runs.cases import Case
 
-__all__ = ["GRADIENT_EFFECT", "chi", "insensitive_regions", "largest_chi"]
+__all__ = ["chi", "insensitive_regions", "largest_chi"]
 
 _SHAPES = (1.0, 1.5, 2.0, 5.0)
 _GRADIENTS = np.linspace(0.0, 1.0, 101)
@@ -58,10 +58,10 @@ def largest_chi(n: float, up_to: float = 1.0) -> tuple[float, float]:
     values = [chi(n, float(k)) for k in gradients]
     at = int(np.argmax(values))
     low, high = gradients[max(at - 1, 0)], gradients[min(at + 1, len(gradients) - 1)]
-    found = minimize_scalar(
+    peak = minimize_scalar(
         lambda k: -chi(n, float(k)), bounds=(low, high), method="bounded", options={"xatol": _PLACE_TOLERANCE}
     )
-    return max((values[at], float(gradients[at])), (-float(found.fun), float(found.x)))
+    return max((values[at], float(gradients[at])), (-float(peak.fun), float(peak.x)))
 
 
 def insensitive_regions(up_to: float = 1.0) -> list[float]:
@@ -85,48 +85,27 @@ def over_shapes() -> list[tuple[float, float]]:
     return [largest_chi(float(n)) for n in _SHAPE_INDICES]
 
 
-def _plan() -> Plan[Tables]:
-    largest_chis, ends = CachedCall.of(over_shapes), CachedCall.of(insensitive_regions)
-    of_shapes = {n: CachedCall.of(over_gradients, n) for n in _SHAPES}
-    results = yield [largest_chis, ends, *of_shapes.values()]
-    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": results[call]}) for n, call in of_shapes.items()]
-    largest = pd.DataFrame(results[largest_chis], columns=["chi_max", "k_of_chi_max"])
-    largest.insert(0, "n", _SHAPE_INDICES)
-    regions = pd.DataFrame({"limit": _LIMIT, "n_from": results[ends][::2], "n_to": results[ends][1::2]})
-    return {"": pd.concat(parts, ignore_index=True), "largest": largest, "regions": regions}
-
-
 def _picture(figure: Figure, tables: Tables) -> None:
-    left, right = figure.subplots(1, 2)
-    one_a_value(left, tables[""], "n", "k", "chi", 100)
+    left, right = panels(figure, 1, 2, ("", ""))
+    line_a_value(left, tables[""], "n", "k", "chi", 100)
     left.set(xlabel=LABELS["k"], ylabel=r"deviation $\chi$ (%)", xlim=(0, 1), ylim=(0, None))
-    lettered(left, "a")
     left.legend()
-    largest = tables["largest"]
-    right.plot(largest["n"], 100 * largest["chi_max"], color=COLOURS[0])
+    right.plot(tables["largest"]["n"], 100 * tables["largest"]["chi_max"], color=COLOURS[0])
     level(right, 100 * _LIMIT, ls="--")
-    ends = tables["regions"][["n_from", "n_to"]].to_numpy()
-    # The first region is too narrow for its text, which stands beside it.
-    for (low, high), place, align, then in zip(
-        ends, ((1.3, 2.0), (4.8, 17.0)), ("left", "center"), ("\n", " "), strict=True
-    ):
-        right.axvspan(low, high, color=COLOURS[1], alpha=0.2, lw=0)
-        right.annotate(
-            f"{low:.3f} ≤ $n${then}≤ {high:.3f}",
-            (0.5 * (low + high), 100 * _LIMIT),
-            place,
-            ha=align,
-            fontsize=8,
-            arrowprops={"arrowstyle": "-", "lw": 0.6, "color": "0.3"},
-        )
+    for row, place in zip(tables["regions"].itertuples(), ((1.3, 2.0), (3.5, 17.0)), strict=True):
+        right.axvspan(row.n_from, row.n_to, color=COLOURS[1], alpha=0.2, lw=0)
+        ends, arrow = f"{row.n_from:.3f} ≤ $n$ ≤ {row.n_to:.3f}", {"arrowstyle": "-", "lw": 0.6, "color": "0.3"}
+        right.annotate(ends, (0.5 * (row.n_from + row.n_to), 100 * _LIMIT), place, fontsize=8, arrowprops=arrow)
     right.set(xlabel=LABELS["n"], ylabel=r"largest deviation $\chi_{\max}$ (%)", ylim=(0, 50), xlim=(0.9, 8))
-    lettered(right, "b")
 
 
-GRADIENT_EFFECT = PaperFigure(
-    name="11",
-    stem="fig11_gradient_effect",
-    title="Deviation chi of the JKR pull-off force from the homogeneous solid's, and its largest over k",
-    plan=_plan,
-    picture=_picture,
-)
+@paper_figure(_picture)
+def fig11_gradient_effect() -> Plan[Tables]:
+    """Deviation chi of the JKR pull-off force from the homogeneous solid's, and its largest over k."""
+    calls = {n: CachedCall.of(over_gradients, n) for n in _SHAPES}
+    results = yield {"largest": CachedCall.of(over_shapes), "ends": CachedCall.of(insensitive_regions), **calls}
+    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": results[n]}) for n in _SHAPES]
+    largest = pd.DataFrame(results["largest"], columns=["chi_max", "k_of_chi_max"])
+    largest.insert(0, "n", _SHAPE_INDICES)
+    regions = pd.DataFrame({"limit": _LIMIT, "n_from": results["ends"][::2], "n_to": results["ends"][1::2]})
+    return {"": pd.concat(parts, ignore_index=True), "largest": largest, "regions": regions}

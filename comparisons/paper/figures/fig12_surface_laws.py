@@ -10,13 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
-from comparisons.output.style import COLOURS, MODEL_LINES, lettered
+from comparisons.output.style import COLOURS, MODEL_LINES
 from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import LABELS, level, of_model
-from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
-from fscm.laws import LennardJones
+from comparisons.paper.drawing import LABELS, level, of_model, panels
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure
+from comparisons.paper.solver_tasks import TRACTION
 
-__all__ = ["SURFACE_LAWS"]
+__all__ = ["dugdale", "fig12_surface_laws"]
 
 _MARKED = (1.0, 1.5, 2.0, 5.0)
 _SHAPES = np.unique(np.concatenate([np.geomspace(0.7, 100.0, 200), _MARKED]))
@@ -42,18 +42,8 @@ def dugdale(stress: float) -> pd.DataFrame:
     return pd.DataFrame({"gap": ends, "pressure": [0.0, -stress, -stress, 0.0, 0.0]})
 
 
-def _plan() -> Plan[Tables]:
-    call = CachedCall.of(stresses)
-    results = yield [call]
-    stress = pd.DataFrame({"n": [*_SHAPES, math.inf], "eta": [*results[call], eta(math.inf)]})
-    exact = pd.DataFrame({"gap": _GAPS, "pressure": LennardJones().traction(_GAPS)})
-    laws = {"fscm": exact, "md-original": dugdale(THEORETICAL_STRENGTH), "md-improved": dugdale(eta(_DRAWN))}
-    parts = [law.assign(model=model)[["model", "gap", "pressure"]] for model, law in laws.items()]
-    return {"": stress, "laws": pd.concat(parts, ignore_index=True)}
-
-
 def _picture(figure: Figure, tables: Tables) -> None:
-    left, right = figure.subplots(1, 2)
+    left, right = panels(figure, 1, 2, ("", ""))
     _stresses(left, tables[""][np.isfinite(tables[""]["n"])])
     names = {
         "fscm": "FSCM (9-3 law)",
@@ -64,7 +54,6 @@ def _picture(figure: Figure, tables: Tables) -> None:
         right.plot(law["gap"], law["pressure"], label=names[model], **MODEL_LINES[model])
     level(right)
     right.set(xlabel=r"gap $H/z_0$", ylabel=r"pressure $p_s z_0/\Delta\gamma$", xlim=(-0.1, 4), ylim=(-1.15, 0.9))
-    lettered(right, "b")
     right.legend(loc="upper right")
 
 
@@ -75,19 +64,25 @@ def _stresses(axes: Axes, table: pd.DataFrame) -> None:
         axes.plot(n, eta(n), "o", color=COLOURS[0], ms=4)
         axes.annotate(f"({n:g}, {eta(n):.3f})", (n, eta(n)), (6, -9), textcoords="offset points", fontsize=8)
     axes.annotate(f"{THEORETICAL_STRENGTH:.3f}", (1.0, THEORETICAL_STRENGTH), (0, 3), textcoords="offset points")
-    axes.set(xlabel=LABELS["n"], ylabel=r"cohesive stress $\sigma_0 z_0/\Delta\gamma$", xscale="log")
     ticks = (1, 2, 5, 10, 20, 50, 100)
-    axes.set(xlim=(0.7, 100), ylim=(0, 1.15))
+    axes.set(xscale="log", xlim=(0.7, 100), ylim=(0, 1.15))
+    axes.set(xlabel=LABELS["n"], ylabel=r"cohesive stress $\sigma_0 z_0/\Delta\gamma$")
     axes.set_xticks(ticks, [str(tick) for tick in ticks])
     axes.minorticks_off()
-    lettered(axes, "a")
     axes.legend(loc="lower right")
 
 
-SURFACE_LAWS = PaperFigure(
-    name="12",
-    stem="fig12_surface_laws",
-    title="The cohesive stress eta(n), and the surface laws of the FSCM and both Maugis-Dugdale models",
-    plan=_plan,
-    picture=_picture,
-)
+@paper_figure(_picture)
+def fig12_surface_laws() -> Plan[Tables]:
+    """The cohesive stress eta(n), and the surface laws of the FSCM and both Maugis-Dugdale models."""
+    results = yield {"eta": CachedCall.of(stresses)}
+    laws = {
+        "fscm": pd.DataFrame({"gap": _GAPS, "pressure": TRACTION(_GAPS)}),
+        "md-original": dugdale(THEORETICAL_STRENGTH),
+        "md-improved": dugdale(eta(_DRAWN)),
+    }
+    parts = [law.assign(model=model)[["model", "gap", "pressure"]] for model, law in laws.items()]
+    return {
+        "": pd.DataFrame({"n": [*_SHAPES, math.inf], "eta": [*results["eta"], eta(math.inf)]}),
+        "laws": pd.concat(parts, ignore_index=True),
+    }

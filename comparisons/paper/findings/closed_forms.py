@@ -8,17 +8,16 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, LINES, MARKERS, MODEL_LINES, MODEL_NAMES, lettered
+from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES
 from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import LABELS, crosses, dashed, legend_below, level, of_model
+from comparisons.paper.drawing import LABELS, crosses, dashed, held, legend_below, level, of_model, panels
 from comparisons.paper.figures.fig11_gradient_effect import insensitive_regions, largest_chi
-from comparisons.paper.figures.fig17_surface_models import cohesive_surface
-from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
-from comparisons.paper.statements.numbers import case_keys, number, numbers, relative_error, tasks_of
-from comparisons.paper.tasks import profile
-from comparisons.paper.values.causes import LAST_K
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure
+from comparisons.paper.statements.measures import named, table_of
+from comparisons.paper.tasks import COHESIVE, cohesive_surface, profile, quantity
+from comparisons.paper.values.printed_values import LAST_K
 
-__all__ = ["CHI_RANGE", "COHESIVE_ERRORS", "SEMI_RIGID", "SURFACE_INSIDE"]
+__all__ = ["near_the_end"]
 
 _CHI_SHAPES = np.linspace(6.213, 6.223, 11)
 _LAST = (1.0, 0.9995, LAST_K)
@@ -27,14 +26,13 @@ _PRINTED, _LIMIT = 6.219, 10.0
 #: Of all errors here.
 _K = 0.4
 _SHAPES = (1.0, 1.5, 2.0, 5.0)
-_MODELS = {"md-original": "--", "md-improved": "-"}
 _FORCES = [
-    *(("fscm", (n, _K, mu)) for n in _SHAPES for mu in (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)),
-    *(("fem", (n, _K, mu)) for n, mu in ((1.0, 2.0), (1.5, 2.0), (5.0, 2.0), (5.0, 3.0))),
+    *(("fscm", n, mu) for n in _SHAPES for mu in (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)),
+    *(("fem", n, mu) for n, mu in ((1.0, 2.0), (1.5, 2.0), (5.0, 2.0), (5.0, 3.0))),
 ]
 _JUMPS = [
-    *(("fscm", (n, _K, mu)) for n in _SHAPES for mu in (1.25, 1.5, 2.0, 3.0, 5.0)),
-    *(("fem", (n, _K, 3.0)) for n in _SHAPES),
+    *(("fscm", n, mu) for n in _SHAPES for mu in (1.25, 1.5, 2.0, 3.0, 5.0)),
+    *(("fem", n, 3.0) for n in _SHAPES),
 ]
 _CASE = (2.0, _K, 1.0)
 _RADII = np.linspace(0.02, 3.0, 150)
@@ -51,17 +49,6 @@ def near_the_end(up_to: float) -> list[float]:
     return [largest_chi(float(n), up_to)[0] for n in _CHI_SHAPES]
 
 
-def _chi_range() -> Plan[Tables]:
-    functions = (near_the_end, insensitive_regions)
-    calls = {last: [CachedCall.of(function, last) for function in functions] for last in _LAST}
-    results = yield [call for of_last in calls.values() for call in of_last]
-    parts = [
-        pd.DataFrame({"last_k": last, "n": _CHI_SHAPES, "chi_max": results[near]}) for last, (near, _) in calls.items()
-    ]
-    ends = [{"last_k": last, "n_to": results[regions][3]} for last, (_, regions) in calls.items()]
-    return {"": pd.concat(parts, ignore_index=True), "ends": pd.DataFrame(ends)}
-
-
 def _draw_chi_range(figure: Figure, tables: Tables) -> None:
     axes = figure.subplots()
     for index, (last, end) in enumerate(tables["ends"].to_numpy()):
@@ -74,126 +61,69 @@ def _draw_chi_range(figure: Figure, tables: Tables) -> None:
     axes.legend()
 
 
-CHI_RANGE = PaperFigure(
-    name="finding-chi-range",
-    stem="finding_chi_range",
-    title="End of the second range of small chi, for three largest gradient exponents",
-    plan=_chi_range,
-    picture=_draw_chi_range,
-    size=(5.0, 3.4),
-)
-
-
-def _cohesive_errors() -> Plan[Tables]:
-    places = [(model, case) for reference, case in _FORCES for model in (reference, *_MODELS)]
-    force = yield from numbers("pull_off_force", places)
-    rows = []
-    for reference, case in _FORCES:
-        for model in _MODELS:
-            error = relative_error(model, force[model, case], reference, force[reference, case])
-            row: dict[str, Any] = {"reference": reference, "model": model} | case_keys(case)
-            rows.append(row | {"error": error.value, "u_error": error.u})
-    return {"": pd.DataFrame(rows)}
+@paper_figure(_draw_chi_range, size=(5.0, 3.4))
+def finding_chi_range() -> Plan[Tables]:
+    """End of the second range of small chi, for three largest gradient exponents."""
+    functions = (near_the_end, insensitive_regions)
+    results = yield {(of, last): CachedCall.of(of, last) for last in _LAST for of in functions}
+    parts = [pd.DataFrame({"last_k": at, "n": _CHI_SHAPES, "chi_max": results[near_the_end, at]}) for at in _LAST]
+    ends = [{"last_k": last, "n_to": results[insensitive_regions, last][3]} for last in _LAST]
+    return {"": pd.concat(parts, ignore_index=True), "ends": pd.DataFrame(ends)}
 
 
 def _draw_cohesive_errors(figure: Figure, tables: Tables) -> None:
-    left, right = figure.subplots(1, 2)
+    left, right = panels(figure, 1, 2, (held(k=_K), held(n=5, k=_K)), LABELS["mu"])
     for axes, shapes in ((left, _SHAPES), (right, (5.0,))):
-        for n in shapes:
-            index = _SHAPES.index(n)
-            of_shape = tables[""][tables[""]["n"] == n]
-            for part, (model, line) in zip(of_model(of_shape, *_MODELS), _MODELS.items(), strict=True):
+        for (model, n), part in tables[""].groupby(["model", "n"]):
+            if n in shapes:
                 exact, fem = of_model(part, "fscm", "fem", column="reference")
-                style = {"color": COLOURS[index], "marker": MARKERS[index], "ms": 3, "ls": line}
-                label = f"{model.removeprefix('md-')}, $n$ = {n:g}"
-                axes.plot(exact["mu"], 100.0 * exact["error"], label=label, **style)
+                index, label = _SHAPES.index(n), f"{model.removeprefix('md-')}, {held(n=n)}"
+                style = {"color": COLOURS[index], "marker": MARKERS[index], "ls": MODEL_LINES[model]["ls"]}
+                axes.plot(exact["mu"], 100.0 * exact["error"], label=label, ms=3, **style)
                 crosses(axes, fem["mu"], 100.0 * fem["error"])
-        axes.set(xlabel=LABELS["mu"])
-    left.axhline(2.0, color="0.5", lw=0.8, ls=":")
-    left.set(xscale="log", yscale="log")
-    left.set(ylabel="relative error of the pull-off force (%)", ylim=(0.05, 30.0))
-    right.set(xlim=(1.4, 4.0), ylim=(0.0, 4.5))
     crosses(left, [], [], label="against fem")
-    lettered(left, "a", f"$k$ = {_K:g}")
-    lettered(right, "b", f"$n$ = 5, $k$ = {_K:g}")
+    level(left, 2.0, ls=":")
+    left.set(xscale="log", yscale="log", ylabel="relative error of the pull-off force (%)", ylim=(0.05, 30.0))
+    right.set(xlim=(1.4, 4.0), ylim=(0.0, 4.5))
     legend_below(figure, 5, fontsize=7)
 
 
-COHESIVE_ERRORS = PaperFigure(
-    name="finding-cohesive-errors",
-    stem="finding_cohesive_errors",
-    title="Errors of both Maugis-Dugdale pull-off forces from mu = 1 on, k = 0.4",
-    plan=_cohesive_errors,
-    picture=_draw_cohesive_errors,
-    size=(7.2, 3.6),
-)
-
-
-def _semi_rigid() -> Plan[Tables]:
-    share, place = "jump_in_deformation", "jump_in_displacement"
-    calls = [
-        call for model, case in _JUMPS for call in (*tasks_of(model, share, case), *tasks_of("semi-rigid", place, case))
-    ]
-    results = yield calls
-    rows = []
-    for model, case in _JUMPS:
-        deformation = number(results, model, share, case)
-        exact, closed = (number(results, one, place, case) for one in (model, "semi-rigid"))
-        error = relative_error("semi-rigid", closed, model, exact)
-        found = {"deformation": deformation.value, "u_deformation": deformation.u}
-        rows.append({"reference": model} | case_keys(case) | found | {"error": error.value, "u_error": error.u})
-    return {"": pd.DataFrame(rows)}
+@paper_figure(_draw_cohesive_errors, size=(7.2, 3.6))
+def finding_cohesive_errors() -> Plan[Tables]:
+    """Errors of both Maugis-Dugdale pull-off forces from mu = 1 on, k = 0.4."""
+    places = [(reference, {"model": model}, named(n, _K, mu)) for reference, n, mu in _FORCES for model in COHESIVE]
+    table = yield from table_of(places, error="relative_error pull_off_force {model}")
+    return {"": table}
 
 
 def _draw_semi_rigid(figure: Figure, tables: Tables) -> None:
-    left, right = figure.subplots(1, 2)
-    for axes, column, scale in ((left, "deformation", 1.0), (right, "error", 100.0)):
-        for index, n in enumerate(_SHAPES):
-            exact, fem = of_model(tables[""][tables[""]["n"] == n], "fscm", "fem", column="reference")
-            style = {"ls": LINES[index], "color": COLOURS[index], "marker": MARKERS[index], "ms": 3.5}
-            axes.plot(exact["mu"], scale * exact[column], label=f"fscm, $n$ = {n:g}", **style)
+    lattice = panels(figure, 1, 2, (held(k=_K),) * 2, LABELS["mu"])
+    for axes, column, scale in zip(lattice, ("deformation", "error"), (1.0, 100.0), strict=True):
+        for index, (n, part) in enumerate(tables[""].groupby("n")):
+            exact, fem = of_model(part, "fscm", "fem", column="reference")
+            style: Any = {"marker": MARKERS[index], "ms": 3.5, "label": f"fscm, {held(n=n)}"}
+            axes.plot(exact["mu"], scale * exact[column], **dashed(index), **style)
             crosses(axes, fem["mu"], scale * fem[column])
-        crosses(axes, [], [], label="fem")
-        axes.set(xlabel=LABELS["mu"], ylim=(0.0, None))
-    left.set_ylabel(r"deformation over gap at jump-in, $|w(0)|/H_0$")
-    right.set_ylabel("error of the asymptote of jump-in (%)")
-    lettered(left, "a", f"$k$ = {_K:g}")
-    lettered(right, "b", f"$k$ = {_K:g}")
+        axes.set(ylim=(0.0, None))
+    crosses(lattice[0], [], [], label="fem")
+    lattice[0].set_ylabel(r"deformation over gap at jump-in, $|w(0)|/H_0$")
+    lattice[1].set_ylabel("error of the asymptote of jump-in (%)")
     legend_below(figure, 5)
 
 
-SEMI_RIGID = PaperFigure(
-    name="finding-semi-rigid",
-    stem="finding_semi_rigid",
-    title="Deformation at jump-in, and the error of the asymptote that neglects it",
-    plan=_semi_rigid,
-    picture=_draw_semi_rigid,
-)
-
-
-def _surface_inside() -> Plan[Tables]:
-    exact = {model: CachedCall.of(profile, model, *_CASE) for model in ("fscm", "fem")}
-    closed = {model: CachedCall.of(cohesive_surface, model, *_CASE) for model in _MODELS}
-    places = [call for model in exact for call in tasks_of(model, "pull_off_displacement", _CASE)]
-    results = yield [*exact.values(), *places, *closed.values()]
-    parts = []
-    for model, call in (exact | closed).items():
-        found = results[call]
-        displacement = (
-            number(results, model, "pull_off_displacement", _CASE).value if model in exact else found["displacement"]
-        )
-        # H + delta is the height of the surface below the punch's tip, w + f (Eq. 4).
-        height = np.interp(_RADII, found["radius"], found["gap"]) + displacement
-        parts.append(pd.DataFrame({"model": model, "radius": _RADII, "gap_and_displacement": height}))
-    names = ("contact_radius", "cohesive_radius")
-    radii = [{"model": model} | {name: results[call][name] for name in names} for model, call in closed.items()]
-    return {"": pd.concat(parts, ignore_index=True), "radii": pd.DataFrame(radii)}
+@paper_figure(_draw_semi_rigid)
+def finding_semi_rigid() -> Plan[Tables]:
+    """Deformation at jump-in, and the error of the asymptote that neglects it."""
+    places: Any = [(reference, {}, named(n, _K, mu)) for reference, n, mu in _JUMPS]
+    error = "relative_error jump_in_displacement semi-rigid"
+    table = yield from table_of(places, deformation="jump_in_deformation", error=error)
+    return {"": table}
 
 
 def _draw_surface_inside(figure: Figure, tables: Tables) -> None:
     table = tables[""].pivot(index="radius", columns="model", values="gap_and_displacement")
     axes = figure.subplots()
-    for model in _MODELS:
+    for model in COHESIVE:
         axes.plot(table.index, table[model] - table["fscm"], label=MODEL_NAMES[model], **MODEL_LINES[model])
     axes.plot(table.index, table["fem"] - table["fscm"], color=COLOURS[0], lw=0.9, ls=":", label="fem")
     level(axes)
@@ -205,12 +135,21 @@ def _draw_surface_inside(figure: Figure, tables: Tables) -> None:
     axes.legend(loc="upper right", fontsize=8)
 
 
-SURFACE_INSIDE = PaperFigure(
-    name="finding-surface-inside",
-    stem="finding_surface_inside",
-    title="Difference of the surfaces of both Maugis-Dugdale models from the FSCM; n = 2, k = 0.4, mu = 1",
-    plan=_surface_inside,
-    picture=_draw_surface_inside,
-    size=(5.4, 3.6),
-    follows_path=True,
-)
+@paper_figure(_draw_surface_inside, size=(5.4, 3.6), follows_path=True)
+def finding_surface_inside() -> Plan[Tables]:
+    """Difference of the surfaces of both Maugis-Dugdale models from the FSCM; n = 2, k = 0.4, mu = 1."""
+    references = ("fscm", "fem")
+    calls = {model: CachedCall.of(profile, model, *_CASE) for model in references}
+    calls |= {model: CachedCall.of(cohesive_surface, model, *_CASE) for model in COHESIVE}
+    places = {("at", of): CachedCall.of(quantity, of, "pull_off_displacement", *_CASE) for of in references}
+    results = yield {**calls, **places}
+    parts = []
+    for model in calls:
+        shape = results[model]
+        displacement = results["at", model]["value"] if model in references else shape["displacement"]
+        # H + delta is the height of the surface below the punch's tip, w + f (Eq. 4).
+        height = np.interp(_RADII, shape["radius"], shape["gap"]) + displacement
+        parts.append(pd.DataFrame({"model": model, "radius": _RADII, "gap_and_displacement": height}))
+    names = ("contact_radius", "cohesive_radius")
+    radii = [{"model": model} | {name: results[model][name] for name in names} for model in COHESIVE]
+    return {"": pd.concat(parts, ignore_index=True), "radii": pd.DataFrame(radii)}

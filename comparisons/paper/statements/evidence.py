@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import NamedTuple
 
 import pandas as pd
 
@@ -35,8 +35,7 @@ _FAR = 2.0
 _SMALL = 1e-3
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(NamedTuple):
     """A value, a bound on its numerical error, and what it is of."""
 
     value: float
@@ -44,8 +43,7 @@ class Number:
     what: str
 
 
-@dataclass(frozen=True, slots=True)
-class Evidence:
+class Evidence(NamedTuple):
     """One comparison of a clause of a statement: the decisive one of several.
 
     Attributes
@@ -127,9 +125,8 @@ def by_clause(comparisons: Iterable[Evidence]) -> list[Evidence]:
     if not groups:
         raise ValueError("a statement has no comparison: its cases are empty")
     return [
-        replace(
-            min(rows, key=lambda row: (_RANK[row.outcome], row.margin)),
-            comparisons=sum(row.comparisons for row in rows),
+        min(rows, key=lambda row: (_RANK[row.outcome], row.margin))._replace(
+            comparisons=sum(row.comparisons for row in rows)
         )
         for rows in groups.values()
     ]
@@ -145,7 +142,7 @@ def clauses(evidence: Iterable[Evidence]) -> dict[str, str]:
     --------
     >>> one, two = Number(1.0, 0.0, ""), Number(2.0, 0.0, "")
     >>> by_one = Evidence("n = 2", "fscm", one, ">", two)
-    >>> clauses([by_one]), clauses([by_one, replace(by_one, model="fem")])
+    >>> clauses([by_one]), clauses([by_one, by_one._replace(model="fem")])
     ({'n = 2': 'not decided'}, {'n = 2': 'fails'})
     """
     rows_of: dict[str, list[Evidence]] = {}
@@ -223,12 +220,12 @@ def verdict_at(evidence: Iterable[Evidence], number: float) -> str:
 
     Both references are given what only one of them computes: nothing is left open for lack of the other.
     """
-    rows = [replace(row, limit=Number(number, 0.0, READING)) if row.is_read else row for row in evidence]
+    rows = [row._replace(limit=Number(number, 0.0, READING)) if row.is_read else row for row in evidence]
     models: dict[str, set[str]] = {}
     for row in rows:
         models.setdefault(row.clause, set()).add(row.model)
     alone = [row for row in rows if row.model in REFERENCES and models[row.clause] == {row.model}]
-    return verdict([*rows, *(replace(row, model=model) for row in alone for model in REFERENCES)])
+    return verdict([*rows, *(row._replace(model=model) for row in alone for model in REFERENCES)])
 
 
 def flips(evidence: Sequence[Evidence]) -> dict[str, float]:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Sequence
 
 import pandas as pd
 
-from comparisons.data.paper_statements import PaperStatement, paper_statements
+from comparisons.data.paper_statements import PaperStatement
+from comparisons.data.paper_statements import paper_statements as stated
 from comparisons.numerics.number_text import value_text
 from comparisons.output.terminal import records
-from comparisons.paper.cache import Results
-from comparisons.paper.paper_figure import PaperFigure, Plan, Tables, calls_of, given, texts_of
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure, texts_of, together
 from comparisons.paper.statements.evidence import (
     FAILS,
     HOLDS,
@@ -25,9 +24,9 @@ from comparisons.paper.statements.evidence import (
     read_number,
     verdict,
 )
-from comparisons.paper.statements.registry import find_test
+from comparisons.paper.statements.kinds import comparisons_of
 
-__all__ = ["PAPER_STATEMENTS", "evidence_for", "judged"]
+__all__ = ["decisive", "judged", "paper_statements"]
 
 _TITLE = "Statements of the paper, judged"
 _NOTES = (
@@ -50,12 +49,12 @@ _ON_PAPER = [name for name in _SHORT if name != "beyond the paper"]
 _PARAMETER = re.compile(r"\b(n|k|mu) = ([0-9][0-9.e+-]*)")
 
 
-def evidence_for(statement: PaperStatement, results: Results) -> list[Evidence]:
+def decisive(statement: PaperStatement, comparisons: Iterable[Evidence]) -> list[Evidence]:
     """Return the decisive comparisons of every clause, each with whether it is one of the paper's own cases."""
     rows = []
-    for row in by_clause(given(find_test(statement)(statement), results)):
+    for row in by_clause(comparisons):
         case = {name: float(value) for name, value in _PARAMETER.findall(row.clause)}
-        rows.append(replace(row, own=statement.is_own(case), beyond=statement.is_beyond(case)))
+        rows.append(row._replace(own=statement.is_own(case), beyond=statement.is_beyond(case)))
     return rows
 
 
@@ -142,15 +141,6 @@ def _number(value: float, u: float) -> str:
     return f"{value:g}" if u == 0.0 else value_text(value, u)
 
 
-def _plan() -> Plan[Tables]:
-    statements = paper_statements()
-    results = yield [call for statement in statements for call in calls_of(find_test(statement)(statement))]
-    evidence = {statement.id: evidence_for(statement, results) for statement in statements}
-    rows = [judged(statement, evidence[statement.id]) for statement in statements]
-    frames = [evidence_frame(name, comparisons) for name, comparisons in evidence.items()]
-    return {"": pd.DataFrame(rows), "evidence": pd.concat(frames, ignore_index=True)}
-
-
 def readable(table: pd.DataFrame) -> pd.DataFrame:
     """Return the table for reading: empty columns of a row as nothing."""
     return table.fillna("").drop(columns=["id"]).rename(columns=_HEADS)
@@ -161,13 +151,18 @@ def _texts(tables: Tables) -> dict[str, str]:
     return texts_of(shown, shown[_ON_PAPER], _TITLE, _NOTES, "paper-statements")
 
 
-PAPER_STATEMENTS = PaperFigure(
+# The turning points are counted at the points that the solver places.
+@paper_figure(
     name="statements",
-    stem="paper_statements",
-    title="Statements of the paper in words of our own, a verdict on each, and its evidence",
-    plan=_plan,
     texts=_texts,
     shown=lambda tables: records(readable(tables[""])[_SHORT], _TITLE),
-    # The turning points are counted at the points that the solver places.
     follows_path=True,
 )
+def paper_statements() -> Plan[Tables]:
+    """Statements of the paper in words of our own, a verdict on each, and its evidence."""
+    statements = stated()
+    comparisons = yield from together({statement.id: comparisons_of(statement) for statement in statements})
+    evidence = {statement.id: decisive(statement, comparisons[statement.id]) for statement in statements}
+    rows = [judged(statement, evidence[statement.id]) for statement in statements]
+    frames = [evidence_frame(name, of_statement) for name, of_statement in evidence.items()]
+    return {"": pd.DataFrame(rows), "evidence": pd.concat(frames, ignore_index=True)}

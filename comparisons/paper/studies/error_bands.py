@@ -3,48 +3,53 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from itertools import pairwise
+from collections.abc import Iterable, Iterator
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.models.semi_rigid import jump_in_coefficient
-from comparisons.output.style import COLOURS, LINES, MARKERS, lettered
-from comparisons.paper.drawing import LABELS, level
-from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
-from comparisons.paper.studies.error_grid import CANDIDATES, all_cases, errors, tasks
+from comparisons.output.style import COLOURS, LINES, MARKERS
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.drawing import LABELS, held, level, panels
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure
+from comparisons.paper.studies.errors import CANDIDATES, compared, errors_at, with_kappa
 
-__all__ = ["ERROR_BANDS", "bands", "coefficients", "rates"]
+__all__ = ["bands", "coefficients", "error_table", "rates"]
 
 #: Limits of the relative error.
 LIMITS = (0.01, 0.02, 0.05)
-
 _KEY = ["quantity", "model", "n", "k"]
-
-#: Beyond the maps, for the rates: (n, k, mu).
+#: Tabor numbers, from nearly rigid to nearly JKR; jumps begin between 0.64 and 1.32, by shape and gradient.
+_TABOR = (0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.6, 0.8, 1.0, 1.4, 2.0, 3.2, 5.0)
+#: Shape indices (the attraction of the 9-3 law has no finite sum for n <= 2/3) at two gradient exponents, and gradient
+#: exponents (beyond 0.8 the cohesive edge is too narrow at large mu) at two shapes.
+_CASES = [(n, k, mu) for k in (0.0, 0.4) for n in (0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.5, 5.0, 8.0) for mu in _TABOR]
+_CASES += [(n, k, mu) for n in (1.5, 2.0) for k in (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8) for mu in _TABOR]
+_CASES = list(dict.fromkeys(_CASES))
+#: Beyond, for the rates.
 _SOFT = [(2.0, k, mu) for k in (0.0, 0.4) for mu in (10.0, 20.0)]
 
-#: The scale of kappa in per cent is linear up to here, so that it passes zero, and logarithmic beyond.
-_LINEAR = 0.1
 
-#: Shapes of the picture, at k = 0 and 0.4.
-_SHOWN = (1.0, 1.5, 2.0, 5.0)
-
-
-def _round(value: float) -> float:
-    """Two digits: linear interpolation between the computed Tabor numbers is not more accurate."""
-    return float(f"{value:.2g}")
+def error_table(results: Any, cases: Iterable[tuple[float, float, float]], quantities: Iterable[str]) -> pd.DataFrame:
+    """Return one row a case, quantity and model, from results of `errors_at` by case."""
+    return with_kappa(
+        {"n": n, "k": k, "mu": mu, "quantity": name} | row
+        for n, k, mu in cases
+        for name in quantities
+        for row in compared(results[n, k, mu][name])
+    )
 
 
 def _crossing(a: list[float], b: list[float], limit: float) -> float:
     """Tabor number where |kappa| passes the limit between two points (mu, kappa), linear in log mu and kappa."""
     (mu_a, low), (mu_b, high) = a, b
     target = math.copysign(limit, high if abs(high) > limit else low)
-    return float(mu_a * (mu_b / mu_a) ** ((target - low) / (high - low)))
+    # Linear interpolation between the computed Tabor numbers has two digits.
+    return float(f"{mu_a * (mu_b / mu_a) ** ((target - low) / (high - low)):.2g}")
 
 
 def bands(table: pd.DataFrame) -> pd.DataFrame:
@@ -53,7 +58,7 @@ def bands(table: pd.DataFrame) -> pd.DataFrame:
     Parameters
     ----------
     table : DataFrame
-        As of `comparisons.paper.studies.error_grid.errors`.
+        As of `error_table`.
 
     Returns
     -------
@@ -66,8 +71,8 @@ def bands(table: pd.DataFrame) -> pd.DataFrame:
     Examples
     --------
     >>> table = pd.DataFrame({"quantity": "q", "model": "m", "n": 2.0, "k": 0.0, "mu": [0.1, 1.0, 10.0]})
-    >>> found = bands(table.assign(kappa=[0.0, 0.02, 0.001]))
-    >>> found[found["limit"] == 0.01][["mu_from", "mu_to"]].values.tolist()
+    >>> ranges = bands(table.assign(kappa=[0.0, 0.02, 0.001]))
+    >>> ranges[ranges["limit"] == 0.01][["mu_from", "mu_to"]].values.tolist()
     [[0.1, 0.32], [3.4, 10.0]]
     """
     rows = []
@@ -83,9 +88,9 @@ def bands(table: pd.DataFrame) -> pd.DataFrame:
 def _series(table: pd.DataFrame, *columns: str) -> Iterator[tuple[dict[str, Any], list[list[float]]]]:
     """Points with an error of one quantity of one model at one n and k, by rising Tabor numbers."""
     for key, part in table.groupby(_KEY, sort=False):
-        known = part[part["kappa"].notna()].sort_values("mu")
-        if len(known):
-            yield dict(zip(_KEY, key, strict=True)), known[list(columns)].to_numpy(float).tolist()
+        points = part[part["kappa"].notna()].sort_values("mu")[list(columns)].to_numpy(float).tolist()
+        if points:
+            yield dict(zip(_KEY, key, strict=True)), points
 
 
 def _spans(points: list[list[float]], limit: float) -> list[dict[str, float]]:
@@ -95,9 +100,9 @@ def _spans(points: list[list[float]], limit: float) -> list[dict[str, float]]:
     start = {"mu_from": first, "from_below": first, "from_above": first}
     for a, b in pairwise(points):
         if abs(a[1]) > limit >= abs(b[1]):
-            start = {"mu_from": _round(_crossing(a, b, limit)), "from_below": a[0], "from_above": b[0]}
+            start = {"mu_from": _crossing(a, b, limit), "from_below": a[0], "from_above": b[0]}
         elif abs(a[1]) <= limit < abs(b[1]):
-            spans.append(start | {"mu_to": _round(_crossing(a, b, limit)), "to_below": a[0], "to_above": b[0]})
+            spans.append(start | {"mu_to": _crossing(a, b, limit), "to_below": a[0], "to_above": b[0]})
     if abs(points[-1][1]) <= limit:
         spans.append(start | {"mu_to": last, "to_below": last, "to_above": last})
     return spans
@@ -109,7 +114,7 @@ def rates(table: pd.DataFrame) -> pd.DataFrame:
     Parameters
     ----------
     table : DataFrame
-        As of `comparisons.paper.studies.error_grid.errors`, with jumps.
+        As of `error_table`, with jumps.
 
     Returns
     -------
@@ -140,7 +145,7 @@ def coefficients(table: pd.DataFrame) -> pd.DataFrame:
     Parameters
     ----------
     table : DataFrame
-        As of `comparisons.paper.studies.error_grid.errors`, with the jump-in.
+        As of `error_table`, with the jump-in.
 
     Returns
     -------
@@ -154,70 +159,56 @@ def coefficients(table: pd.DataFrame) -> pd.DataFrame:
     equation for all mu.  The power of Eq. 47 is therefore exact, and the excess of its coefficient does not vanish as
     mu grows: at the fold the deformation is a fixed share of the gap.
     """
-    known = table[(table["model"] == "semi-rigid") & table["fscm"].notna()]
-    last = known.sort_values("mu", kind="stable").groupby(["n", "k"], sort=False).tail(2)
-    order = known[["n", "k"]].drop_duplicates()
-    rows = order.merge(last[["n", "k", "mu", "fscm", "u_fscm"]], on=["n", "k"])
-    unit = rows["mu"] ** ((2.0 * rows["n"] + rows["k"] - 1.0) / (4.0 * rows["n"] + rows["k"] - 1.0))
-    semi_rigid = [jump_in_coefficient(n, k) for n, k in rows[["n", "k"]].to_numpy()]
-    exact, u_exact = (1.0 - rows["fscm"]) / unit, rows["u_fscm"] / unit
-    found = rows[["n", "k", "mu"]].assign(semi_rigid=semi_rigid, fscm=exact, u_fscm=u_exact)
-    return found.assign(excess=semi_rigid / exact - 1.0)
+    rows: list[dict[str, float]] = []
+    for key, points in _series(table[table["model"] == "semi-rigid"], "mu", "fscm", "u_fscm"):
+        n, k = key["n"], key["k"]
+        for mu, value, u in points[-2:]:
+            unit, closed = mu ** ((2.0 * n + k - 1.0) / (4.0 * n + k - 1.0)), jump_in_coefficient(n, k)
+            exact = (1.0 - value) / unit
+            row = {"n": n, "k": k, "mu": mu, "semi_rigid": closed, "fscm": exact, "u_fscm": u / unit}
+            rows.append(row | {"excess": closed / exact - 1.0})
+    return pd.DataFrame(rows)
 
 
-def _plan() -> Plan[Tables]:
-    beyond = all_cases() + _SOFT
-    results = yield tasks(beyond)
-    jumps = errors(results, beyond, [name for name in CANDIDATES if name != "pull_off_force"])
+def _picture(figure: Figure, tables: Tables) -> None:
+    jumps = tables["jumps"].dropna(subset="kappa").set_index(["quantity", "model"]).sort_index()
+    lattice = panels(figure, 1, 2, ("jump-in, semi-rigid", "jump-out, JKR"), LABELS["mu"])
+    pairs = (("jump_in_displacement", "semi-rigid"), ("jump_out_displacement", "jkr"))
+    for axes, pair in zip(lattice, pairs, strict=True):
+        table = jumps.loc[pair]
+        for (i, n), (j, k) in product(enumerate((1.0, 1.5, 2.0, 5.0)), enumerate((0.0, 0.4))):
+            part = table[(table["n"] == n) & (table["k"] == k)].sort_values("mu")
+            style: Any = {"color": COLOURS[i], "ls": LINES[j], "marker": MARKERS[i], "ms": 3.5, "lw": 1.0}
+            axes.plot(part["mu"], 100.0 * part["kappa"], label=held(n=n, k=k), **style)
+        # The scale of kappa passes zero linearly and is logarithmic beyond.
+        axes.set_yscale("symlog", linthresh=0.1, linscale=0.5)
+        level(axes)
+        for limit in LIMITS:
+            level(axes, 100.0 * limit, lw=0.6, ls=":")
+            level(axes, -100.0 * limit, lw=0.6, ls=":")
+        axes.set(xscale="log", ylabel=r"relative error of the displacement $\kappa$ (%)")
+        axes.set_xticks([1, 2, 5, 10, 20], labels=["1", "2", "5", "10", "20"])
+        # A third beyond the smallest and the largest error, whatever their signs.
+        low, high = 100.0 * table["kappa"].min(), 100.0 * table["kappa"].max()
+        low, high = low * (1.3 if low < 0.0 else 0.7), high * (1.3 if high > 0.0 else 0.7)
+        ticks = [sign * tick for tick in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20) for sign in (-1, 1)]
+        ticks = [tick for tick in (0, *ticks) if low <= tick <= high]
+        axes.set_yticks(ticks, labels=[f"{tick:+g}" if tick else "0" for tick in ticks])
+        axes.set_ylim(low, high)
+        axes.minorticks_off()
+    guide = np.array([5.0, 20.0])
+    lattice[1].plot(guide, 0.05 * (guide / 20.0) ** -2.0, color="0.4", lw=2.5, alpha=0.5, label=r"$\mu^{-2}$")
+    figure.legend(*lattice[1].get_legend_handles_labels(), loc="outside lower center", ncol=5)
+
+
+@paper_figure(_picture, size=(7.2, 3.8))
+def error_bands() -> Plan[Tables]:
+    """Where each closed form is good to 1, 2 and 5 %, and how fast the jumps approach their asymptotes."""
+    results = yield {case: CachedCall.of(errors_at, *case) for case in _CASES + _SOFT}
+    jumps = error_table(results, _CASES + _SOFT, [name for name in CANDIDATES if name != "pull_off_force"])
     return {
-        "": bands(errors(results, all_cases(), CANDIDATES)),
+        "": bands(error_table(results, _CASES, CANDIDATES)),
         "rates": rates(jumps),
         "jump_in_coefficients": coefficients(jumps),
         "jumps": jumps,
     }
-
-
-def _picture(figure: Figure, tables: Tables) -> None:
-    table = tables["jumps"]
-    left, right = figure.subplots(1, 2)
-    _curves(left, table[table["model"] == "semi-rigid"], "a", "jump-in, semi-rigid")
-    jkr = table[(table["model"] == "jkr") & (table["quantity"] == "jump_out_displacement")]
-    _curves(right, jkr, "b", "jump-out, JKR")
-    guide = np.array([5.0, 20.0])
-    right.plot(guide, 0.05 * (guide / 20.0) ** -2.0, color="0.4", lw=2.5, alpha=0.5, label=r"$\mu^{-2}$")
-    figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncol=5)
-
-
-def _curves(axes: Axes, table: pd.DataFrame, letter: str, title: str) -> None:
-    for index, n in enumerate(_SHOWN):
-        for k, line in ((0.0, LINES[0]), (0.4, LINES[1])):
-            part = table[(table["n"] == n) & (table["k"] == k) & table["kappa"].notna()]
-            style = {"color": COLOURS[index], "ls": line, "marker": MARKERS[index], "ms": 3.5, "lw": 1.0}
-            axes.plot(part["mu"], 100.0 * part["kappa"], label=f"$n$ = {n:g}, $k$ = {k:g}", **style)
-    lettered(axes, letter, title)
-    axes.set(xscale="log", xlabel=LABELS["mu"])
-    axes.set_yscale("symlog", linthresh=_LINEAR, linscale=0.5)
-    axes.set_ylabel(r"relative error of the displacement $\kappa$ (%)")
-    level(axes)
-    axes.set_xticks([1, 2, 5, 10, 20], labels=["1", "2", "5", "10", "20"])
-    # A third beyond the smallest and the largest error, whatever their signs.
-    low, high = (100.0 * values for values in (table["kappa"].min(), table["kappa"].max()))
-    low, high = low * (1.3 if low < 0.0 else 0.7), high * (1.3 if high > 0.0 else 0.7)
-    for limit in LIMITS:
-        for sign in (-1.0, 1.0):
-            axes.axhline(sign * 100.0 * limit, color="0.5", lw=0.6, ls=":")
-    ticks = [sign * tick for tick in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20) for sign in (-1, 1)]
-    ticks = sorted({*(tick for tick in (0.0, *ticks) if low <= tick <= high)})
-    axes.set_yticks(ticks, labels=[f"{tick:+g}" if tick else "0" for tick in ticks])
-    axes.set_ylim(low, high)
-    axes.minorticks_off()
-
-
-ERROR_BANDS = PaperFigure(
-    name="error-bands",
-    stem="error_bands",
-    title="Where each closed form is good to 1, 2 and 5 %, and how fast the jumps approach their asymptotes",
-    plan=_plan,
-    picture=_picture,
-    size=(7.2, 3.8),
-)

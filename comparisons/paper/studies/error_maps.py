@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import partial
+from itertools import product
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -11,18 +12,19 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from comparisons.output.figures.contour_labels import label_lines
-from comparisons.output.style import lettered
-from comparisons.paper.drawing import LABELS
-from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
-from comparisons.paper.studies.error_grid import GRADIENT_SLICES, SHAPE_SLICES
-from comparisons.paper.studies.error_lines import TABOR_RANGE, Line, along_gradients, along_shapes, errors_along
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.drawing import LABELS, held, panels
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure
+from comparisons.paper.studies.errors import TABOR_RANGE, compared, line_errors, with_kappa
 
-__all__ = ["ERROR_MAPS_GRADIENT", "ERROR_MAPS_JUMPS", "ERROR_MAPS_SHAPE"]
+__all__ = ["errors_along"]
 
-Array = NDArray[np.float64]
+#: Lines of constant n and k: shape indices at two gradient exponents and gradient exponents at two shape indices, over
+#: the range of the atlas.
+_SHAPES = [(float(f"{n:.4g}"), k) for k in (0.0, 0.4) for n in np.geomspace(1.0, 6.0, 21)]
+_GRADIENTS = [(n, float(f"{k:.4g}")) for n in (1.5, 2.0) for k in np.linspace(0.0, 0.8, 17)]
 
 #: Bands of |kappa| in per cent, white to dark; the last is open.
 _BANDS = (0.0, 1.0, 2.0, 5.0, 10.0, 20.0, 1e9)
@@ -33,67 +35,64 @@ _SIGNED_GREYS = (*_GREYS[:0:-1], *_GREYS)
 #: Lines of kappa in per cent: overestimates full, underestimates dashed.
 _LINES = (-20.0, -10.0, -5.0, -2.0, -1.0, 1.0, 2.0, 5.0, 10.0, 20.0)
 
-_NAMES = {
-    "md-improved": "improved M-D",
-    "md-original": "original M-D",
-    "jkr": "JKR",
-    "bradley": "Bradley = DMT",
-    "semi-rigid": "semi-rigid",
-}
-_PULL_OFF = ("md-improved", "md-original", "jkr", "bradley")
-_JUMPS = (("jump_in_displacement", "semi-rigid", "jump-in"), ("jump_out_displacement", "jkr", "jump-out"))
+_PULL_OFF = {"md-improved": "improved M-D", "md-original": "original M-D", "jkr": "JKR", "bradley": "Bradley = DMT"}
+_JUMPS = {"semi-rigid": "semi-rigid jump-in", "jkr": "JKR jump-out"}
 
 
-def _plan(lines: Iterable[Line], names: Sequence[str]) -> Plan[Tables]:
-    table = yield from errors_along(lines, names)
-    return {"": table}
+def errors_along(lines: Iterable[tuple[float, float]], names: Sequence[str]) -> Plan[pd.DataFrame]:
+    """Plan a table of one row a point, quantity and closed form.
 
-
-def lattice(table: pd.DataFrame, across: str) -> tuple[Array, Array, Array]:
-    """Return the values of `across`, mu, and kappa in per cent, each of shape (points, lines).
-
-    Examples
-    --------
-    >>> table = pd.DataFrame({"n": [1.0, 2.0], "point": 0, "mu": [0.1, 0.2], "kappa": [0.01, -0.5]})
-    >>> [values.tolist() for values in lattice(table, "n")]
-    [[[1.0, 2.0]], [[0.1, 0.2]], [[1.0, -50.0]]]
+    Returns
+    -------
+    DataFrame
+        ``n``, ``k``, ``point`` (its number on the line), ``mu``, ``quantity``, ``model``, ``fscm``, ``u_fscm`` (from
+        the atlas), ``kappa`` and ``u_kappa``; for jumps also ``critical`` and ``u_critical``.
     """
-    mu, kappa = (table.pivot(index="point", columns=across, values=name) for name in ("mu", "kappa"))
-    x = np.broadcast_to(kappa.columns.to_numpy(float), kappa.shape)
-    return x, mu.to_numpy(float), 100.0 * kappa.to_numpy(float)
+    results = yield {line: CachedCall.of(line_errors, *line) for line in lines}
+    critical = ["critical", "u_critical"] if "pull_off_force" not in names else []
+    table = with_kappa(
+        {"n": n, "k": k, "point": number, "mu": point["mu"], "quantity": name}
+        | row
+        | {of: of_line[of] for of in critical}
+        for (n, k), of_line in results.items()
+        for name in names
+        for number, point in enumerate(of_line["points"][name])
+        for row in compared(point)
+    )
+    columns = ["n", "k", "point", "mu", "quantity", "model", "fscm", "u_fscm", "kappa", "u_kappa"]
+    return table[[*columns, *critical]]
 
 
 def _map(axes: Axes, table: pd.DataFrame, across: str) -> None:
     # What is not computed stays grey.
     axes.set_facecolor("0.95")
-    x, mu, kappa = lattice(table, across)
+    mu, kappa = (table.pivot(index="point", columns=across, values=name) for name in ("mu", "kappa"))
+    x = np.broadcast_to(kappa.columns.to_numpy(float), kappa.shape)
+    percent = 100.0 * kappa.to_numpy(float)
     if "critical" in table:
         critical = table.drop_duplicates(across).set_index(across)["critical"].loc[x[0]]
         axes.fill_between(x[0], TABOR_RANGE[0], critical, fc="0.95", hatch="////", ec="0.75", lw=0.0)
         axes.plot(x[0], critical, color="black", lw=1.4, ls=":")
-    axes.contourf(x, mu, kappa, levels=_SIGNED_BANDS, colors=_SIGNED_GREYS)
-    axes.set_yscale("log")
+    axes.contourf(x, mu, percent, levels=_SIGNED_BANDS, colors=_SIGNED_GREYS)
+    levels = [level for level in _LINES if np.nanmin(percent) < level < np.nanmax(percent)]
+    if levels:
+        styles = ["--" if level < 0 else "-" for level in levels]
+        axes.contour(x, mu, percent, levels=levels, colors="black", linewidths=0.8, linestyles=styles)
+    axes.set(yscale="log", xlabel=LABELS[across])
     axes.grid(visible=False)
     if across == "n":
         axes.set_xscale("log")
         axes.set_xticks([1, 1.5, 2, 3, 4, 6], labels=["1", "1.5", "2", "3", "4", "6"])
         axes.minorticks_off()
-    known = kappa[np.isfinite(kappa)]
-    levels = [level for level in _LINES if known.min() < level < known.max()]
-    if levels:
-        styles = ["--" if level < 0 else "-" for level in levels]
-        axes.contour(x, mu, kappa, levels=levels, colors="black", linewidths=0.8, linestyles=styles)
 
 
 def _finish(figure: Figure, name: str, more: str = "") -> None:
     """Add the scale, and the labels of the lines once the layout is known."""
     maps = list(figure.axes)
-    colours = ScalarMappable(
-        BoundaryNorm(_BANDS[:-1], len(_GREYS) - 1), ListedColormap(_GREYS[:-1]).with_extremes(over=_GREYS[-1])
-    )
-    bar = figure.colorbar(
-        colours, ax=maps, location="bottom", fraction=0.03, pad=0.02, aspect=50, spacing="uniform", extend="max"
-    )
+    colours = ListedColormap(_GREYS[:-1]).with_extremes(over=_GREYS[-1])
+    scale = ScalarMappable(BoundaryNorm(_BANDS[:-1], len(_GREYS) - 1), colours)
+    shape: Any = {"location": "bottom", "fraction": 0.03, "pad": 0.02, "aspect": 50}
+    bar = figure.colorbar(scale, ax=maps, spacing="uniform", extend="max", **shape)
     bar.set_ticks(list(_BANDS[:-1]), labels=[f"{band:g}" for band in _BANDS[:-1]])
     bar.set_label(
         rf"$|\kappa|$ of the {name} (%); lines: $\kappa$, full where the model is above the FSCM, dashed below{more}"
@@ -103,60 +102,59 @@ def _finish(figure: Figure, name: str, more: str = "") -> None:
         label_lines(axes)
 
 
-def _draw_pull_off(figure: Figure, tables: Tables, across: str, held: str, slices: Sequence[float]) -> None:
-    table = tables[""]
-    grid = figure.subplots(len(_PULL_OFF), 2, sharex=True, sharey=True)
-    letters = iter("abcdefgh")
-    for row, model in zip(grid, _PULL_OFF, strict=True):
-        for axes, value in zip(row, slices, strict=True):
-            _map(axes, table[(table["model"] == model) & (table[held] == value)], across)
-            lettered(axes, next(letters), rf"{_NAMES[model]}, ${held}$ = {value:g}")
-        row[0].set_ylabel(LABELS["mu"])
-    for axes in grid[-1]:
-        axes.set_xlabel(LABELS[across])
+def _draw_pull_off(figure: Figure, table: pd.DataFrame, across: str, fixed: str, values: Sequence[float]) -> None:
+    places = list(product(_PULL_OFF, values))
+    words = [f"{_PULL_OFF[model]}, {held(**{fixed: value})}" for model, value in places]
+    lattice = panels(figure, len(_PULL_OFF), 2, words, y=LABELS["mu"], sharex=True, sharey=True)
+    for axes, (model, value) in zip(lattice, places, strict=True):
+        _map(axes, table[(table["model"] == model) & (table[fixed] == value)], across)
+        axes.label_outer()
     _finish(figure, "pull-off force")
+
+
+def _draw_shapes(figure: Figure, tables: Tables) -> None:
+    _draw_pull_off(figure, tables[""], "n", "k", (0.0, 0.4))
+
+
+@paper_figure(_draw_shapes, size=(7.2, 10.4))
+def error_maps_shape() -> Plan[Tables]:
+    """Error of the pull-off force of the closed forms over shape index and Tabor number."""
+    table = yield from errors_along(_SHAPES, ["pull_off_force"])
+    return {"": table}
+
+
+def _draw_gradients(figure: Figure, tables: Tables) -> None:
+    _draw_pull_off(figure, tables[""], "k", "n", (1.5, 2.0))
+
+
+@paper_figure(_draw_gradients, size=(7.2, 10.4))
+def error_maps_gradient() -> Plan[Tables]:
+    """Error of the pull-off force of the closed forms over gradient exponent and Tabor number."""
+    table = yield from errors_along(_GRADIENTS, ["pull_off_force"])
+    return {"": table}
 
 
 def _draw_jumps(figure: Figure, tables: Tables) -> None:
     table = tables[""]
-    columns = [("n", "k", value) for value in SHAPE_SLICES] + [("k", "n", value) for value in GRADIENT_SLICES]
-    grid = figure.subplots(len(columns), 2, sharey=True)
-    letters = iter("abcdefgh")
-    for row, (across, held, value) in zip(grid, columns, strict=True):
-        lines = along_shapes() if across == "n" else along_gradients()
-        of_row = table[(table[held] == value) & pd.MultiIndex.from_frame(table[["n", "k"]]).isin(lines)]
-        for axes, (_, model, event) in zip(row, _JUMPS, strict=True):
-            _map(axes, of_row[of_row["model"] == model], across)
-            lettered(axes, next(letters), rf"{_NAMES[model]} {event}, ${held}$ = {value:g}")
-            axes.set_xlabel(LABELS[across])
-            axes.set_ylim(0.5, 5.0)
-            axes.set_yticks([0.5, 1, 2, 5], labels=["0.5", "1", "2", "5"])
-            axes.minorticks_off()
-        row[0].set_ylabel(LABELS["mu"])
+    rows = [
+        ("n", "k", 0.0, _SHAPES),
+        ("n", "k", 0.4, _SHAPES),
+        ("k", "n", 1.5, _GRADIENTS),
+        ("k", "n", 2.0, _GRADIENTS),
+    ]
+    words = [f"{name}, {held(**{fixed: value})}" for _, fixed, value, _ in rows for name in _JUMPS.values()]
+    lattice = panels(figure, len(rows), 2, words, y=LABELS["mu"], sharey=True)
+    for axes, ((across, fixed, value, lines), model) in zip(lattice, product(rows, _JUMPS), strict=True):
+        on_lines = pd.MultiIndex.from_frame(table[["n", "k"]]).isin(lines)
+        _map(axes, table[on_lines & (table[fixed] == value) & (table["model"] == model)], across)
+        axes.set_ylim(0.5, 5.0)
+        axes.set_yticks([0.5, 1, 2, 5], labels=["0.5", "1", "2", "5"])
+        axes.minorticks_off()
     _finish(figure, "displacement", "\nhatched: no jump, below the critical Tabor number $\\mu_c$ (dotted)")
 
 
-ERROR_MAPS_SHAPE = PaperFigure(
-    name="error-maps-shape",
-    stem="error_maps_shape",
-    title="Error of the pull-off force of the closed forms over shape index and Tabor number",
-    plan=lambda: _plan(along_shapes(), ["pull_off_force"]),
-    picture=partial(_draw_pull_off, across="n", held="k", slices=SHAPE_SLICES),
-    size=(7.2, 10.4),
-)
-ERROR_MAPS_GRADIENT = PaperFigure(
-    name="error-maps-gradient",
-    stem="error_maps_gradient",
-    title="Error of the pull-off force of the closed forms over gradient exponent and Tabor number",
-    plan=lambda: _plan(along_gradients(), ["pull_off_force"]),
-    picture=partial(_draw_pull_off, across="k", held="n", slices=GRADIENT_SLICES),
-    size=(7.2, 10.4),
-)
-ERROR_MAPS_JUMPS = PaperFigure(
-    name="error-maps-jumps",
-    stem="error_maps_jumps",
-    title="Errors of the semi-rigid jump-in and of JKR's jump-out; none where there is no jump",
-    plan=lambda: _plan(along_shapes() + along_gradients(), [name for name, _, _ in _JUMPS]),
-    picture=_draw_jumps,
-    size=(7.2, 10.4),
-)
+@paper_figure(_draw_jumps, size=(7.2, 10.4))
+def error_maps_jumps() -> Plan[Tables]:
+    """Errors of the semi-rigid jump-in and of JKR's jump-out; none where there is no jump."""
+    table = yield from errors_along(_SHAPES + _GRADIENTS, ["jump_in_displacement", "jump_out_displacement"])
+    return {"": table}

@@ -2,25 +2,37 @@
 
 Loads, displacements and energies are in the units of Eqs. 25 and 31, which do not contain the solid.  Depths are in the
 transverse length L = (Q z0)^(1/n).  Each solid stands beside three that are simpler: the homogeneous solid of its
-surface, the solid that it is at great depth, and its equivalent power law at the pull-off force, see
-`comparisons.paper.studies.graded_equivalent`.
+surface, the solid that it is at great depth, and its equivalent power law at the pull-off force.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import fem_reference
 import fscm
 from comparisons.models.solver import translated
-from comparisons.problem import Section
-from comparisons.problem.kinds import kind_of
+from comparisons.problem_file.description import ProblemFile, Section
+from comparisons.problem_file.dimensionless import dimensionless_problem
+from comparisons.problem_file.elastic_energy import energy_spectrum
+from comparisons.problem_file.equivalent_power_law import least_wrong, power_law_of
+from comparisons.problem_file.kinds import kind_of
 from fscm import LennardJones, NoSuchEvent, NotConverged, PowerLaw, PowerPunch, Problem, solve_together
 
-__all__ = ["EVENTS", "QUANTITIES", "GradedCase", "by_elements", "by_fscm", "case_of", "number_of", "of_power_law"]
+__all__ = [
+    "EVENTS",
+    "QUANTITIES",
+    "GradedCase",
+    "by_elements",
+    "by_fscm",
+    "case_of",
+    "equivalent_of",
+    "number_of",
+    "of_equivalent",
+    "of_power_law",
+]
 
 Json = dict[str, Any]
 
@@ -52,10 +64,11 @@ EVENTS = {
     "landing": ("jump_in_energy",),
 }
 _UNITS = {"pull_off_force": "load", "jump_in_energy": "energy", "jump_out_energy": "energy"}
+# Digits of k and mu of an equivalent power law, as a reader can repeat them.
+_DIGITS = 6
 
 
-@dataclass(frozen=True)
-class GradedCase:
+class GradedCase(NamedTuple):
     """A solid for both references, and the simpler solids beside it.
 
     Attributes
@@ -73,7 +86,7 @@ class GradedCase:
     section: Section
 
 
-def _scaled(k: float, mu: float) -> tuple[PowerLaw, Mapping[str, float]]:
+def _scaled(k: float, mu: float) -> tuple[PowerLaw, Any]:
     """The power law of a Tabor number in the scales of all, and the units."""
     physical = Problem(_N, k, mu).in_units(nu=NU, **SCALES)
     return physical.solid, physical.units  # type: ignore[return-value]
@@ -100,18 +113,16 @@ def case_of(kind: str, parameter: float, k: float = OFFSET[0], mu: float = OFFSE
         z_s = parameter * units["radius"]
         E = graded.E0 * (z_s / graded.c0) ** k
         mu_surface = Problem(PowerLaw(E, SCALES["c0"], 0.0, NU), _PUNCH, _LAW).mu
-        offset = (graded.E0, graded.c0, k, z_s)
-        section = Section("offset-power-law", dict(zip(("E0", "c0", "k", "z_s", "nu"), (*offset, NU), strict=True)))
-        return GradedCase(mu_surface, (k, mu), section)
+        offset = {"E0": graded.E0, "c0": graded.c0, "k": k, "z_s": z_s, "nu": NU}
+        return GradedCase(mu_surface, (k, mu), Section("offset-power-law", offset))
     mu, ratio = EXPONENTIAL if kind == "exponential" else COATING
     surface, units = _scaled(0.0, mu)
     E, length = surface.E0, parameter * units["radius"]
-    depth = (0.0, mu / ratio ** (2.0 / 3.0))
     if kind == "exponential":
-        section = Section("exponential", {"E_surface": E, "E_depth": ratio * E, "length": length, "nu": NU})
-        return GradedCase(mu, depth, section)
-    coating = {"E_coating": E, "E_substrate": ratio * E, "thickness": length, "transition": 0.0, "nu": NU}
-    return GradedCase(mu, depth, Section("coating", coating))
+        solid = {"E_surface": E, "E_depth": ratio * E, "length": length, "nu": NU}
+    else:
+        solid = {"E_coating": E, "E_substrate": ratio * E, "thickness": length, "transition": 0.0, "nu": NU}
+    return GradedCase(mu, (0.0, mu / ratio ** (2.0 / 3.0)), Section(kind, solid))
 
 
 def by_fscm(kind: str, parameter: float, k: float = OFFSET[0], mu: float = OFFSET[1]) -> Json:
@@ -156,10 +167,10 @@ def of_power_law(k: float, mu: float) -> Json:
 
 def _solved(problem: Problem) -> Json:
     with translated(NoSuchEvent, NotConverged):
-        found = solve_together(problem, QUANTITIES)
+        events = solve_together(problem, QUANTITIES)
     return {
         name: str(event) if isinstance(event, NoSuchEvent) else [event.value, event.u_num]
-        for name, event in found.items()
+        for name, event in events.items()
     }
 
 
@@ -190,16 +201,55 @@ def by_elements(event: str, kind: str, parameter: float, k: float = OFFSET[0], m
         fem_reference.LennardJones(work_of_adhesion=SCALES["work_of_adhesion"], z0=SCALES["z0"]),
     )
     with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-        found = fem_reference.solve_together(problem, EVENTS[event], "quick")
+        events = fem_reference.solve_together(problem, EVENTS[event], "quick")
     return {
         name: str(solution)
         if isinstance(solution, fem_reference.NoSuchEvent)
         else [part / scales[_UNITS.get(name, "displacement")] for part in (solution.value, solution.u_num)]
-        for name, solution in found.items()
+        for name, solution in events.items()
     }
 
 
-def number_of(found: Json, name: str) -> tuple[float, float]:
+def equivalent_of(kind: str, parameter: float) -> tuple[float, float]:
+    """Return k and mu of the equivalent power law of a solid at its pull-off force, rounded.
+
+    The rule of `fscm-bench describe` weighs the compliance of the solid by the elastic energy at the pull-off force.
+
+    Parameters
+    ----------
+    kind, parameter
+        As for `case_of`.
+
+    Examples
+    --------
+    A thin offset hardly changes the power law.
+
+    >>> k, mu = equivalent_of("offset power law", 1e-4)
+    >>> round(k, 3), round(mu, 3)
+    (0.398, 1.997)
+    """
+    punch = Section("sphere", {"R": SCALES["Q"]})
+    law = Section("lennard-jones-9-3", {name: SCALES[name] for name in ("work_of_adhesion", "z0")})
+    problem = ProblemFile(Path(kind), case_of(kind, parameter).section, punch, law)
+    spectrum = energy_spectrum(problem)
+    k, _, _, surface = least_wrong(spectrum)
+    posed, _ = dimensionless_problem(power_law_of(problem, k, surface, spectrum))
+    return round(posed.k, _DIGITS), round(posed.mu, _DIGITS)
+
+
+def of_equivalent(kind: str, parameter: float) -> Json:
+    """Return all quantities of the equivalent power law of a solid as `by_fscm`, and its ``k`` and ``mu``.
+
+    Raises
+    ------
+    ComputationFailed
+        If an iteration misses its tolerance.
+    """
+    k, mu = equivalent_of(kind, parameter)
+    return {"k": k, "mu": mu, **of_power_law(k, mu)}
+
+
+def number_of(results: Json, name: str) -> tuple[float, float]:
     """Return value and bound of a quantity, NaN without the event; the elements have the energy in two parts.
 
     Examples
@@ -209,8 +259,8 @@ def number_of(found: Json, name: str) -> tuple[float, float]:
     >>> number_of({"jump_in_displacement": "no jump"}, "jump_in_displacement")
     (nan, nan)
     """
-    pieces = ("jump_in_energy", "jump_out_energy") if name == "hysteresis_energy" and name not in found else (name,)
-    known = [found.get(piece, "") for piece in pieces]
-    if any(isinstance(piece, str) for piece in known):
+    is_sum = name == "hysteresis_energy" and name not in results
+    pieces = [results.get(piece, "") for piece in (("jump_in_energy", "jump_out_energy") if is_sum else (name,))]
+    if any(isinstance(piece, str) for piece in pieces):
         return math.nan, math.nan
-    return sum(float(piece[0]) for piece in known), sum(float(piece[1]) for piece in known)
+    return sum(float(value) for value, _ in pieces), sum(float(u) for _, u in pieces)

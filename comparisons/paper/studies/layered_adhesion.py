@@ -31,12 +31,12 @@ from numpy.typing import NDArray
 from comparisons.models.solver import translated
 from comparisons.numerics.bounds import combined
 from comparisons.paper.cache import CachedCall
-from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure
 from comparisons.paper.studies.coated_jkr import coated_compliance, coated_pull_off
 from fscm import Coating, NoSuchEvent, NotConverged, Problem, solve
 from fscm.graded.compliance import compliance
 
-__all__ = ["LAYERED_ADHESION", "coated_force", "extrapolated", "layer_compliance"]
+__all__ = ["coated_force", "extrapolated", "layer_compliance", "layered_adhesion"]
 
 NU = 0.3
 
@@ -131,56 +131,41 @@ def _terms(mu: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([np.ones_like(mu), log / mu**2, 1.0 / mu**2, log / mu**3, 1.0 / mu**3], axis=1)
 
 
-def _row(check: str, origin: str, by: str, case: tuple[float, ...], expected: Number, found: Number) -> dict[str, Any]:
-    difference, bound = found[0] - expected[0], combined(expected[1], found[1])
-    return {
-        "check": check,
-        "origin": origin,
-        "by": by,
-        "modulus_ratio": case[0],
-        "thickness": case[1],
-        "expected": expected[0],
-        "u_expected": expected[1],
-        "found": found[0],
-        "u_found": found[1],
-        "agreement": "agrees" if abs(difference) <= bound else "disagrees",
-    }
-
-
-def _thin_limit(thicknesses: Sequence[float], found: Sequence[dict[str, float]]) -> Number:
+def _thin_limit(thicknesses: Sequence[float], pull_offs: Sequence[dict[str, float]]) -> Number:
     """The force as the thickness falls: a parabola in thickness over contact radius; its bound is the linear term's."""
-    x = np.array([thickness / one["radius"] for thickness, one in zip(thicknesses, found, strict=True)])
-    y = np.array([one["force"] for one in found])
+    x = np.array([thickness / pull_off["radius"] for thickness, pull_off in zip(thicknesses, pull_offs, strict=True)])
+    y = np.array([pull_off["force"] for pull_off in pull_offs])
     parabola, line = float(np.polyfit(x, y, 2)[-1]), float(np.polyfit(x[1:], y[1:], 1)[-1])
     return parabola, abs(parabola - line)
 
 
-def _plan() -> Plan[Tables]:
+@paper_figure()
+def layered_adhesion() -> Plan[Tables]:
+    """Coated solids against results of the literature, in the limit of large Tabor numbers."""
     thin = [(_RIGID, thickness) for thickness in _THIN]
-    derived = {case: CachedCall.of(coated_pull_off, *case, NU, NU) for case in (*reversed(thin), *_COATED)}
-    forces = {
-        case: [CachedCall.of(coated_force, *case, mu) for mu in TABOR_NUMBERS] for case in (*_COATED, _HOMOGENEOUS)
+    calls: dict[Any, CachedCall] = {case: CachedCall.of(coated_pull_off, *case, NU, NU) for case in (*thin, *_COATED)}
+    for case in (*_COATED, _HOMOGENEOUS):
+        calls |= {(case, mu): CachedCall.of(coated_force, *case, mu) for mu in TABOR_NUMBERS}
+    results = yield calls | {layer: CachedCall.of(layer_compliance, *layer) for layer in _LAYERS}
+    # Check, origin, by whom, modulus ratio and thickness, expected and found.
+    rows: list[tuple[str, str, str, tuple[float, float], Number, Number]] = []
+    for q, ratio, *nu in _LAYERS:
+        expected = float(coated_compliance(np.array([q]), ratio, *nu)[0]), _U_COMPLIANCE
+        row = "compliance", "published", "fscm", (ratio, q), expected, (results[q, ratio, *nu], _U_COMPLIANCE)
+        rows.append(row)
+    soft = {
+        case: extrapolated(TABOR_NUMBERS, [results[case, mu] for mu in TABOR_NUMBERS])
+        for case in (*_COATED, _HOMOGENEOUS)
     }
-    layers = {layer: CachedCall.of(layer_compliance, *layer) for layer in _LAYERS}
-    results = yield [*derived.values(), *(call for calls in forces.values() for call in calls), *layers.values()]
-    soft = {case: extrapolated(TABOR_NUMBERS, [results[call] for call in calls]) for case, calls in forces.items()}
-    rows = []
-    for (q, ratio, *nu), call in layers.items():
-        expected, found = float(coated_compliance(np.array([q]), ratio, *nu)[0]), results[call]
-        pair = (expected, _U_COMPLIANCE), (found, _U_COMPLIANCE)
-        rows.append(_row("compliance", "published", "fscm", (ratio, q), *pair))
-    rows.append(_row("JKR", "published", "fscm", (1.0, np.nan), (1.5, 0.0), soft[_HOMOGENEOUS]))
+    rows.append(("JKR", "published", "fscm", (1.0, np.nan), (1.5, 0.0), soft[_HOMOGENEOUS]))
     for case in _COATED:
-        exact = results[derived[case]]
-        rows.append(_row("coated JKR", "derived", "fscm", case, (exact["force"], exact["u_num"]), soft[case]))
-    limit = _thin_limit(_THIN, [results[derived[case]] for case in thin])
-    rows.append(_row("thin coating", "published", "coated JKR", (_RIGID, 0.0), (2.0, 0.0), limit))
-    return {"": pd.DataFrame(rows)}
-
-
-LAYERED_ADHESION = PaperFigure(
-    name="layered-adhesion",
-    stem="layered_adhesion",
-    title="Coated solids against results of the literature, in the limit of large Tabor numbers",
-    plan=_plan,
-)
+        derived = results[case]["force"], results[case]["u_num"]
+        rows.append(("coated JKR", "derived", "fscm", case, derived, soft[case]))
+    limit = _thin_limit(_THIN, [results[case] for case in thin])
+    rows.append(("thin coating", "published", "coated JKR", (_RIGID, 0.0), (2.0, 0.0), limit))
+    columns = ("check", "origin", "by", "modulus_ratio", "thickness", "expected", "u_expected", "found", "u_found")
+    table = pd.DataFrame(
+        [(*words, *case, *expected, *found) for *words, case, expected, found in rows], columns=columns
+    )
+    apart, bound = table["found"] - table["expected"], combined(table["u_expected"], table["u_found"])
+    return {"": table.assign(agreement=np.where(apart.abs() <= bound, "agrees", "disagrees"))}

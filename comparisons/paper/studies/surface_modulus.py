@@ -22,18 +22,18 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from comparisons.numerics.bounds import combined
-from comparisons.output.style import COLOURS, MARKERS, lettered
+from comparisons.output.style import COLOURS, MARKERS
 from comparisons.paper.cache import CachedCall
-from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
+from comparisons.paper.drawing import held, panels
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure
 from comparisons.paper.studies.graded_routes import EVENTS, QUANTITIES, by_elements, by_fscm, case_of, number_of
 from comparisons.paper.tasks import quantity
 
-__all__ = ["SURFACE_MODULUS", "THRESHOLDS", "limits", "thresholds"]
+__all__ = ["THRESHOLDS", "limits", "surface_modulus", "thresholds"]
 
 _KIND = "offset power law"
 #: (k, mu) of the graded limit and the depths z_s / L.  A skin of 1e-4 under a sharp edge (mu = 2) costs a minute.
@@ -49,51 +49,18 @@ THRESHOLDS = (0.01, 0.05)
 #: Greatest factor in the change over which the law of thin skins is extrapolated.
 STRETCH = 5.0
 
-_PANELS = (
-    ("pull-off force", r"$-P_c\,/\,\pi Q\Delta\gamma$", ("pull_off_force",)),
-    ("displacement at pull-off", r"$\delta_c\,/\,z_0$", ("pull_off_displacement",)),
-    ("jump-in (open) and jump-out (filled)", r"$\delta\,/\,z_0$", ("jump_in_displacement", "jump_out_displacement")),
-    ("energy lost in a cycle", r"$W\,/\,\pi Q\Delta\gamma z_0$", ("hysteresis_energy",)),
-)
-
-
-def _plan() -> Plan[Tables]:
-    cases = [(depth, k, mu) for (k, mu), depths in _SERIES.items() for depth in depths]
-    # The sharper the edge and the thinner the skin, the longer it takes.
-    longest_first = sorted(cases, key=lambda case: (-case[2], case[0], -case[1]))
-    elements = {case: [CachedCall.of(by_elements, event, _KIND, *case) for event in EVENTS] for case in longest_first}
-    fscm = {case: CachedCall.of(by_fscm, _KIND, *case) for case in longest_first}
-    mu_homogeneous = {case: case_of(_KIND, *case).mu for case in cases}
-    places = [*_SERIES, *((0.0, mu_homogeneous[case]) for case in cases if case[0] >= _THICK)]
-    power_laws = {
-        (name, *place): CachedCall.of(quantity, "fscm", name, 2.0, *place) for place in places for name in QUANTITIES
-    }
-    results = yield [*(call for calls in elements.values() for call in calls), *fscm.values(), *power_laws.values()]
-
-    def limit(name: str, k: float, mu: float) -> tuple[float, float]:
-        found = results[power_laws[name, k, mu]]
-        return (found["value"], found["u_num"]) if found["status"] == "ok" else (math.nan, math.nan)
-
-    rows = []
-    for k, mu in _SERIES:
-        for name in QUANTITIES:
-            for depth in _SERIES[k, mu]:
-                case = depth, k, mu
-                uniform = mu_homogeneous[case]
-                found: dict[str, Any] = {event: v for call in elements[case] for event, v in results[call].items()}
-                row = {"k": k, "mu": mu, "depth": depth, "mu_homogeneous": uniform, "quantity": name}
-                row["value"], row["u_num"] = number_of(found, name)
-                row["graded_value"], row["graded_u_num"] = limit(name, k, mu)
-                thick = depth >= _THICK
-                row["homogeneous_value"], row["homogeneous_u_num"] = (
-                    limit(name, 0.0, uniform) if thick else (math.nan, math.nan)
-                )
-                row["fscm_value"], row["u_fscm"] = number_of(results[fscm[case]], name)
-                pieces = ("jump_out_energy", "jump_in_energy") if name == "hysteresis_energy" else (name,)
-                row["reason"] = next((found[piece] for piece in pieces if isinstance(found[piece], str)), "")
-                rows.append(row)
-    table = pd.DataFrame(rows)
-    return {"": table, "limits": limits(table), "thresholds": thresholds(table)}
+#: Label, quantities, and limits of the axis, of each panel.
+_PANELS: dict[str, tuple[str, tuple[str, ...], Any]] = {
+    "pull-off force": (r"$-P_c\,/\,\pi Q\Delta\gamma$", ("pull_off_force",), {}),
+    # The displacements of the softest solids are far below those of interest.
+    "displacement at pull-off": (r"$\delta_c\,/\,z_0$", ("pull_off_displacement",), {"ylim": (-1.15, 0.05)}),
+    "jump-in (open) and jump-out (filled)": (
+        r"$\delta\,/\,z_0$",
+        ("jump_in_displacement", "jump_out_displacement"),
+        {"ylim": (-3.4, -1.2)},
+    ),
+    "energy lost in a cycle": (r"$W\,/\,\pi Q\Delta\gamma z_0$", ("hysteresis_energy",), {"yscale": "log"}),
+}
 
 
 def limits(table: pd.DataFrame) -> pd.DataFrame:
@@ -105,32 +72,22 @@ def limits(table: pd.DataFrame) -> pd.DataFrame:
     thick one stiffens its solid by a share of a / z_s, a the contact radius, and as the solid becomes rigid what is
     left to change dies out too: the rate is one or more.
     """
-    rows: list[dict[str, Any]] = []
+    parts = []
     for _, series in table.groupby(["k", "mu", "quantity"], sort=False):
         for name in ("graded", "homogeneous"):
-            known = series.dropna(subset=["value", f"{name}_value"])
+            complete = series.dropna(subset=["value", f"{name}_value"])
             # A jump that ends before its solid is uniform has no such limit.
             ended = math.isnan(series["value"].iloc[-1])
-            ends = known.iloc[1::-1] if name == "graded" else known.iloc[-2:] if not ended else known.iloc[:0]
+            ends = complete.iloc[1::-1] if name == "graded" else complete.iloc[len(complete) if ended else -2 :]
             difference = ends["value"] - ends[f"{name}_value"]
             u_num = combined(ends["u_num"], ends[f"{name}_u_num"])
             factor, of_depth = (column / column.shift() for column in (difference, ends["depth"]))
             rate = (np.log(factor.abs()) / np.log(of_depth)).abs()
-            rows += (
-                ends[["k", "mu", "quantity"]]
-                .assign(
-                    limit=name,
-                    depth=ends["depth"],
-                    value=ends["value"],
-                    limit_value=ends[f"{name}_value"],
-                    difference=difference,
-                    u_num=u_num,
-                    rate=rate.where(difference.abs() > 4.0 * u_num),
-                    expected=1.0 - ends["k"] if name == "graded" else 1.0,
-                )
-                .to_dict("records")
-            )
-    return pd.DataFrame(rows)
+            columns = {"depth": ends["depth"], "value": ends["value"], "limit_value": ends[f"{name}_value"]}
+            part = ends[["k", "mu", "quantity"]].assign(limit=name, **columns, difference=difference, u_num=u_num)
+            expected = 1.0 - ends["k"] if name == "graded" else 1.0
+            parts.append(part.assign(rate=rate.where(difference.abs() > 4.0 * u_num), expected=expected))
+    return pd.concat(parts, ignore_index=True)
 
 
 def thresholds(table: pd.DataFrame) -> pd.DataFrame:
@@ -143,8 +100,8 @@ def thresholds(table: pd.DataFrame) -> pd.DataFrame:
     """
     rows = []
     for (k, mu, name), series in table.groupby(["k", "mu", "quantity"], sort=False):
-        known = series.assign(change=series["value"] / series["graded_value"] - 1.0).dropna(subset="change")
-        changes = known[["depth", "change"]].to_numpy().tolist()
+        complete = series.assign(change=series["value"] / series["graded_value"] - 1.0).dropna(subset="change")
+        changes = complete[["depth", "change"]].to_numpy().tolist()
         for share in THRESHOLDS:
             if crossed := _crossed(changes, share, 1.0 - k):
                 rows.append({"k": k, "mu": mu, "quantity": name} | crossed)
@@ -157,55 +114,69 @@ def _crossed(changes: Sequence[list[float]], share: float, exponent: float) -> d
     if index is None:
         return None
     above, large = changes[index]
-    below, slope, known = 0.0, exponent, abs(large) < STRETCH * share
+    below, slope, within_law = 0.0, exponent, abs(large) < STRETCH * share
     if index:
         below, small = changes[index - 1]
-        slope, known = math.log(abs(large / small)) / math.log(above / below), True
-    depth = above * (share / abs(large)) ** (1.0 / slope) if known else math.nan
+        slope, within_law = math.log(abs(large / small)) / math.log(above / below), True
+    depth = above * (share / abs(large)) ** (1.0 / slope) if within_law else math.nan
     return {"change": math.copysign(share, large), "below": below, "above": above, "depth": float(f"{depth:.2g}")}
 
 
 def _picture(figure: Figure, tables: Tables) -> None:
     table = tables[""]
-    panels = figure.subplots(2, 2, sharex=True).flat
-    for letter, axes, (title, label, names) in zip("abcd", panels, _PANELS, strict=True):
-        lettered(axes, letter, title)
+    lattice = panels(figure, 2, 2, _PANELS, r"offset $z_s\,/\,(Qz_0)^{1/n}$", sharex=True)
+    for axes, (label, names, axis) in zip(lattice, _PANELS.values(), strict=True):
+        axes.set(ylabel=label, xscale="log", **axis)
         for name in names:
-            _curves(axes, table[table["quantity"] == name], hollow=name == "jump_in_displacement")
-        axes.set(ylabel=label, xscale="log")
-    for axes in figure.axes[2:]:
-        axes.set_xlabel(r"offset $z_s\,/\,(Qz_0)^{1/n}$")
-    # The displacements of the softest solids are far below those of interest.
-    figure.axes[1].set(ylim=(-1.15, 0.05))
-    figure.axes[2].set(ylim=(-3.4, -1.2))
-    figure.axes[3].set(yscale="log")
+            for index, (_, part) in enumerate(table[table["quantity"] == name].groupby(["k", "mu"], sort=False)):
+                colour, depth = COLOURS[index], part["depth"]
+                face = "white" if name == "jump_in_displacement" else colour
+                axes.plot(depth, part["value"], color=colour, marker=MARKERS[index], ms=4, lw=1.1, mfc=face)
+                # The limit of thin skins, as far as it is one.
+                axes.plot(depth, part["graded_value"].where(depth <= 1.0), color=colour, ls=":", lw=0.9)
+                axes.plot(depth, part["homogeneous_value"], color=colour, ls="--", lw=0.9)
     figure.suptitle(r"$E=E_0((z+z_s)/c_0)^k$, $n=2$, $\nu=0.3$; $\mu$ of the limit $z_s=0$", fontsize=9)
     handles = [
-        Line2D([], [], color=COLOURS[i], marker=MARKERS[i], ms=4, label=rf"$k$ = {k:g}, $\mu$ = {mu:g}")
-        for i, (k, mu) in enumerate(table[["k", "mu"]].drop_duplicates().to_numpy(float))
+        Line2D([], [], color=COLOURS[i], marker=MARKERS[i], ms=4, label=held(k=k, mu=mu))
+        for i, (k, mu) in enumerate(_SERIES)
     ]
     handles.append(Line2D([], [], color="0.3", ls=":", label=r"graded limit, $z_s=0$"))
     handles.append(Line2D([], [], color="0.3", ls="--", lw=0.9, label=r"uniform solid of modulus $E(0)$"))
     figure.legend(handles=handles, loc="outside lower center", ncol=3)
 
 
-def _curves(axes: Axes, table: pd.DataFrame, hollow: bool) -> None:
-    for index, (_, part) in enumerate(table.groupby(["k", "mu"], sort=False)):
-        colour = COLOURS[index]
-        depth = part["depth"].to_numpy()
-        face = "white" if hollow else colour
-        axes.plot(depth, part["value"], color=colour, marker=MARKERS[index], ms=4, lw=1.1, mfc=face)
-        # The limit of thin skins, as far as it is one.
-        thin = depth[depth <= max(1.0, depth[0])]
-        axes.plot(thin, np.full(thin.size, part["graded_value"].iloc[0]), color=colour, ls=":", lw=0.9)
-        axes.plot(depth, part["homogeneous_value"], color=colour, ls="--", lw=0.9)
+@paper_figure(_picture, size=(7.2, 6.0))
+def surface_modulus() -> Plan[Tables]:
+    """A non-zero surface modulus, from graded to uniform: pull-off, jumps and hysteresis."""
+    cases = [(depth, k, mu) for (k, mu), depths in _SERIES.items() for depth in depths]
+    mu_homogeneous = {case: case_of(_KIND, *case).mu for case in cases}
+    calls: dict[Any, CachedCall] = {}
+    for case in cases:
+        calls |= {(case, event): CachedCall.of(by_elements, event, _KIND, *case) for event in EVENTS}
+        calls[case, "fscm"] = CachedCall.of(by_fscm, _KIND, *case)
+    uniform = [(0.0, mu_homogeneous[case]) for case in cases if case[0] >= _THICK]
+    for place in (*_SERIES, *uniform):
+        calls |= {(name, *place): CachedCall.of(quantity, "fscm", name, 2.0, *place) for name in QUANTITIES}
+    results = yield calls
 
+    def limit(name: str, k: float, mu: float) -> tuple[float, float]:
+        result = results.get((name, k, mu), {"status": "thin"})
+        return (result["value"], result["u_num"]) if result["status"] == "ok" else (math.nan, math.nan)
 
-SURFACE_MODULUS = PaperFigure(
-    name="surface-modulus",
-    stem="surface_modulus",
-    title="A non-zero surface modulus, from graded to uniform: pull-off, jumps and hysteresis",
-    plan=_plan,
-    picture=_picture,
-    size=(7.2, 6.0),
-)
+    rows = []
+    for (k, mu), depths in _SERIES.items():
+        for name in QUANTITIES:
+            for depth in depths:
+                case = depth, k, mu
+                elements = {of: value for event in EVENTS for of, value in results[case, event].items()}
+                row: dict[str, Any] = {"k": k, "mu": mu, "depth": depth}
+                row |= {"mu_homogeneous": mu_homogeneous[case], "quantity": name}
+                row["value"], row["u_num"] = number_of(elements, name)
+                row["graded_value"], row["graded_u_num"] = limit(name, k, mu)
+                row["homogeneous_value"], row["homogeneous_u_num"] = limit(name, 0.0, mu_homogeneous[case])
+                row["fscm_value"], row["u_fscm"] = number_of(results[case, "fscm"], name)
+                pieces = ("jump_out_energy", "jump_in_energy") if name == "hysteresis_energy" else (name,)
+                row["reason"] = next((elements[piece] for piece in pieces if isinstance(elements[piece], str)), "")
+                rows.append(row)
+    table = pd.DataFrame(rows)
+    return {"": table, "limits": limits(table), "thresholds": thresholds(table)}

@@ -9,7 +9,7 @@ STATEMENT = """
 id = "a"
 section = "Sec. 1"
 statement = "It is so."
-test = "trend"
+tests = [{ kind = "trend" }]
 how = "It is compared."
 range = "n = 2"
 command = "fscm-bench list models"
@@ -25,10 +25,8 @@ def test_every_statement_has_a_shipped_verdict():
     assert [row["id"] for row in verdicts()] == [statement.id for statement in paper_statements()]
 
 
-def test_numbers_and_own_cases_are_read():
+def test_own_cases_are_read():
     (statement,) = read_statements(STATEMENT + "own = { n = [2], mu = [1, 3] }\narguments = { n = [1, 2] }")
-    assert statement.numbers("n") == (1.0, 2.0)
-    assert statement.numbers("k") == ()
     cases = [{"n": 1.0, "mu": 1.0}, {"n": 2.0, "k": 0.6, "mu": 3.0}, {"n": 2.0, "mu": 2.0}, {"n": 2.0, "k": 0.4}]
     assert [statement.is_own(case) for case in cases] == [False, True, False, True]
     assert [statement.is_beyond(case) for case in cases] == [True, False, True, False]
@@ -47,9 +45,9 @@ def test_what_is_stated_in_general_has_no_case_beyond_it():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (STATEMENT.replace('test = "trend"\n', ""), r"statement a: test missing; a statement has id, "),
+        (STATEMENT.replace('tests = [{ kind = "trend" }]\n', ""), r"statement a: tests missing; a statement has id, "),
         (STATEMENT + "own = { nu = [0.3] }", r"unknown key 'nu'"),
-        (STATEMENT + 'tests = "trend"', r"statement a: unknown key 'tests': did you mean test"),
+        (STATEMENT + 'test = "trend"', r"statement a: unknown key 'test': did you mean tests"),
         (STATEMENT.replace('"a"', '"A b"'), r"statement 1 \(id = 'A b'\): id = 'A b' must be lower-case words"),
         (STATEMENT.replace("fscm-bench list", "rm -r"), r"command = .* must be one or more commands fscm-bench"),
         (STATEMENT + STATEMENT, "two statements have the id 'a'; an id must be unique"),

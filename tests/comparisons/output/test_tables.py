@@ -14,10 +14,8 @@ from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
 from comparisons.output.run_summary import every_error
 from comparisons.output.tables import largest, relative_error
-from comparisons.paper.cache import CachedCall
-from comparisons.paper.studies.error_grid import errors, errors_at
-from comparisons.problem import Problem
-from comparisons.runs.cases import Grid
+from comparisons.paper.studies.error_bands import error_table
+from comparisons.runs.cases import Case, Grid
 
 GATE = """
 [[gate]]
@@ -123,10 +121,7 @@ def test_one_sign_of_kappa_in_tables_gates_and_error_maps(value, reference):
     grid = Grid("g", "", "quick", "fscm", ("jkr",), ("jump_out_displacement",), (Problem.dimensionless(1.0, 0.4, 1),))
     (gate,) = load_gates(GATE)
     (judged,) = judge([gate], [grid], rows.assign(reason=""))["error"]
-    call = CachedCall.of(errors_at, 1.0, 0.4, 1)
-    found = {row["model"]: {"value": row["value"], "u_num": 1e-9, "reason": ""} for row in rows.to_dict("records")}
-    others = dict.fromkeys(("md-improved", "md-original"), found["jkr"])
-    (mapped, *_) = errors(
-        {call: {"jump_out_displacement": found | others}}, [(1.0, 0.4, 1)], ["jump_out_displacement"]
-    )["kappa"]
+    case = (1.0, 0.4, 1)
+    results = {row["model"]: {"value": row["value"], "u_num": 1e-9, "reason": ""} for row in rows.to_dict("records")}
+    (mapped,) = error_table({case: {"jump_out_displacement": results}}, [case], ["jump_out_displacement"])["kappa"]
     assert kappa == judged == mapped == expected

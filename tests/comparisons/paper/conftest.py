@@ -1,4 +1,4 @@
-"""Tables of a figure, from tasks that are made here."""
+"""Tables of a figure, from calls that are made here."""
 
 import pytest
 
@@ -11,14 +11,8 @@ def made_of(tmp_path_factory):
     """Make the calls of a plan and return what it makes of their results."""
 
     def made(plan):
-        cache = CallCache(tmp_path_factory.mktemp("paper") / "tasks.jsonl", "test")
+        cache = CallCache(tmp_path_factory.mktemp("paper") / "calls", "test")
         list(cache.work(calls_of(plan()), 1))
         return given(plan(), cache.results)
 
     return made
-
-
-@pytest.fixture(scope="module")
-def tables_of(made_of):
-    """Make the tasks and return the tables of a figure."""
-    return lambda figure: made_of(figure.plan)

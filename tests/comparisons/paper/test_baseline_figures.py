@@ -13,6 +13,7 @@ import pytest
 
 from comparisons.baseline import main
 from comparisons.paper.baseline import PAPER_BASELINE, SHIPPED_STATEMENTS, changes, check, renew
+from comparisons.paper.paper_figure import calls_of
 from comparisons.paper.registry import NAMES, paper_figures
 from comparisons.runs.csv_format import csv_text
 
@@ -35,8 +36,8 @@ def committed(figure, name):
 @pytest.mark.parametrize(
     "name", marked([name for name in NAMES if not FIGURES[name].follows_path], lambda at, name: name in CHEAP)
 )
-def test_the_numbers_are_those_committed(name, tables_of, tmp_path):
-    for table, computed in tables_of(FIGURES[name]).items():
+def test_the_numbers_are_those_committed(name, made_of, tmp_path):
+    for table, computed in made_of(FIGURES[name].plan).items():
         path = tmp_path / "computed.csv"
         path.write_text(csv_text(computed))
         assert changes(committed(FIGURES[name], table), pd.read_csv(path)) == []
@@ -65,7 +66,7 @@ def test_every_figure_is_there_and_nothing_else():
         found = set(figure.files_in(FOLDER))
         for suffix in (".png", ".pdf"):
             assert (FOLDER / f"{figure.stem}{suffix}" in found) == (figure.picture is not None)
-        assert any(path.suffix == ".csv" for path in found) or not figure.tasks()
+        assert any(path.suffix == ".csv" for path in found) or not calls_of(figure.plan())
         assert found <= files, "two figures share a file"
         files -= found
     assert files == set()

@@ -1,8 +1,8 @@
-"""Forces as functions of the Tabor number, from their values at Chebyshev points, and maxima over ranges of mu."""
+"""Forces as functions of the Tabor number, from their values at Chebyshev points, and the largest error of one."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -34,23 +34,15 @@ def tabor_numbers(degree: int) -> tuple[float, ...]:
     return tuple(float(mu) for mu in np.exp(points))
 
 
-@dataclass(frozen=True)
-class TaborCurve:
-    """A positive force over mu, as a series for its logarithm.
-
-    Attributes
-    ----------
-    coefficients : ndarray
-    error : float
-        Bound on the relative error of the force between the points.
-    """
+class TaborCurve(NamedTuple):
+    """A positive force over mu, as a series for its logarithm, and the bound on its relative error."""
 
     coefficients: Array
     error: float
 
     @classmethod
-    def through(cls, forces: Array) -> TaborCurve:
-        """Return the curve through forces at `tabor_numbers` of the degree that fits their number.
+    def through(cls, forces: Array, relative_error: float = 0.0) -> TaborCurve:
+        """Return the curve through forces, of this error, at `tabor_numbers` of the degree that fits their number.
 
         Examples
         --------
@@ -60,7 +52,7 @@ class TaborCurve:
         """
         degree = len(forces) - 1
         coefficients = np.asarray(chebyshev.chebfit(chebyshev.chebpts2(degree + 1), np.log(forces), degree), float)
-        return cls(coefficients, _SAFETY * float(np.max(np.abs(coefficients[-_LAST:]))))
+        return cls(coefficients, _SAFETY * float(np.max(np.abs(coefficients[-_LAST:]))) + relative_error)
 
     def __call__(self, mu: Array) -> Array:
         """The force, shape of `mu`."""
@@ -68,8 +60,7 @@ class TaborCurve:
         return np.asarray(np.exp(chebyshev.chebval(2.0 * (np.log(mu) - low) / (high - low) - 1.0, self.coefficients)))
 
 
-@dataclass(frozen=True)
-class Extreme:
+class Extreme(NamedTuple):
     """The largest relative error, signed, its bound, and the Tabor number it is at."""
 
     kappa: float
@@ -77,30 +68,24 @@ class Extreme:
     mu: float
 
 
-def largest_error(
-    model: TaborCurve, exact: TaborCurve, low: float = RANGE[0], high: float = RANGE[1], sampled: Array | None = None
-) -> Extreme:
-    """Return the largest abs(kappa) of a model for mu from `low` to `high`, or at sampled Tabor numbers.
+def largest_error(model: TaborCurve, exact: TaborCurve) -> Extreme:
+    """Return the largest abs(kappa) of a model over `RANGE`.
 
     Examples
     --------
     >>> mu = np.array(tabor_numbers(20))
     >>> hump = TaborCurve.through(1.0 + 0.1 / (1.0 + np.log(mu) ** 2 / 10.0))
-    >>> found = largest_error(hump, TaborCurve.through(np.ones(21)))
-    >>> round(found.kappa, 6), round(found.mu, 4)
+    >>> extreme = largest_error(hump, TaborCurve.through(np.ones(21)))
+    >>> round(extreme.kappa, 6), round(extreme.mu, 4)
     (0.1, 1.0)
     """
-
-    def kappa(mu: Array) -> Array:
-        return model(mu) / exact(mu) - 1.0
-
-    mu = np.geomspace(low, high, _SEARCH) if sampled is None else sampled
-    values = kappa(mu)
-    at = int(np.argmax(np.abs(values)))
-    value, place = float(values[at]), float(mu[at])
-    if sampled is None and 0 < at < _SEARCH - 1:
-        value, place = _parabola(np.log(mu[at - 1 : at + 2]), values[at - 1 : at + 2])
-        place = float(np.exp(place))
+    mu = np.geomspace(*RANGE, _SEARCH)
+    kappa = model(mu) / exact(mu) - 1.0
+    at = int(np.argmax(np.abs(kappa)))
+    value, place = float(kappa[at]), float(mu[at])
+    if 0 < at < _SEARCH - 1:
+        value, log_mu = _parabola(np.log(mu[at - 1 : at + 2]), kappa[at - 1 : at + 2])
+        place = float(np.exp(log_mu))
     return Extreme(value, (1.0 + abs(value)) * (model.error + exact.error), place)
 
 

@@ -1,7 +1,6 @@
-"""Outcomes of comparisons, clauses, verdicts, and the factors that change them."""
+"""Outcomes of comparisons, clauses, verdicts, the factors that change them, and the measures of paths."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -25,8 +24,8 @@ from comparisons.paper.statements.evidence import (
     verdict,
     verdict_at,
 )
-from comparisons.paper.statements.paths import jumps, turning_points
-from comparisons.paper.statements.trends import extrapolated, vanishes
+from comparisons.paper.statements.kinds import extrapolated, vanishes
+from comparisons.paper.statements.path_measures import count_jumps, turning_points
 
 
 def comparison(value, limit=0.0, u=0.0, u_limit=0.0, relation="<", model="fscm", clause="n = 2", what="other"):
@@ -52,8 +51,8 @@ def test_a_comparison_is_decided_beyond_the_sum_of_the_bounds(value, u, u_limit,
 
 def test_each_clause_model_and_kind_of_limit_keeps_the_largest_failure_before_what_is_not_decided():
     rows = [comparison(value, u=u) for value, u in ((-1.0, 0.0), (1e-9, 1.0), (0.5, 0.0), (2.0, 0.0))]
-    (found,) = by_clause(rows)
-    assert (found.value.value, found.outcome, found.comparisons) == (2.0, FAILS, 4)
+    (decisive,) = by_clause(rows)
+    assert (decisive.value.value, decisive.outcome, decisive.comparisons) == (2.0, FAILS, 4)
     assert [row.outcome for row in by_clause(rows[:2])] == [UNDECIDED]
     others = [comparison(-2.0, clause="n = 1"), comparison(-3.0, model="fem"), comparison(-4.0, what=READING)]
     assert [row.value.value for row in by_clause([*rows, *others])] == [2.0, -2.0, -3.0, -4.0]
@@ -82,9 +81,7 @@ def test_a_failure_needs_both_references(values, outcome):
     [
         ((), ""),
         ((-1.0, -1.0), TRUE),
-        ((1.0, 1.0), FALSE),
         ((1.0, 0.0), FALSE),
-        ((-1.0, 1.0), IN_PART),
         ((-1.0, 0.0, 1.0), IN_PART),
         ((-1.0, 0.0), UNDECIDED),
     ],
@@ -111,8 +108,6 @@ def read(*values, limit=2.0, relation="<", u=0.0, what=READING):
         (read(3.0, u=0.5), {TRUE: 1.75}),
         (read(1e-9, u=1.0), {}),
         (read(1.0, what="another computed number"), {}),
-        # One number below and above which clauses hold.
-        ([*read(1.0), *(replace(row, clause="other") for row in read(3.0, relation=">"))], {IN_PART: 1.5}),
     ],
 )
 def test_the_nearest_factor_of_every_other_verdict(evidence, expected):
@@ -171,34 +166,20 @@ def test_only_what_falls_to_zero_vanishes(function, u, outcomes):
     assert {row.outcome for row in rows} == outcomes
 
 
-T = np.linspace(0.0, 1.0, 401)
-
-
 @pytest.mark.parametrize(
-    ("displacement", "u", "count"),
+    ("corners", "turns", "jumps"),
     [
-        (T, 1e-9, 0),
-        (np.sin(6.5 * np.pi * T), 1e-9, 6),
-        # Ripples within twice the bound are no turns.
-        (np.sin(2.5 * np.pi * T) + 1e-3 * np.sin(60 * np.pi * T), 2e-3, 2),
-    ],
-)
-def test_turns_are_counted_beyond_the_bound(displacement, u, count):
-    assert len(turning_points(displacement, u)) == count
-
-
-@pytest.mark.parametrize(
-    ("corners", "count"),
-    [
-        ([0, 1], 0),
+        ([0, 1], 0, 0),
         # An inner pair within the outer one is passed over both ways.
-        ([0, 4, 2, 3, 1, 5], 2),
+        ([0, 4, 2, 3, 1, 5], 4, 2),
         # A second maximum above the first stops the machine before it, on the way there or on the way back.
-        ([0, 3, 2, 4, 1, 5], 3),
-        ([0, 4, 1, 3, 2, 5], 3),
-        ([0, 2, 1, 4, 3, 5], 4),
+        ([0, 3, 2, 4, 1, 5], 4, 3),
+        ([0, 4, 1, 3, 2, 5], 4, 3),
+        ([0, 2, 1, 4, 3, 5], 4, 4),
     ],
 )
-def test_jumps_are_those_that_a_machine_sees(corners, count):
-    displacement = np.interp(np.linspace(0, len(corners) - 1, 20 * len(corners)), range(len(corners)), corners)
-    assert jumps(np.array(displacement), 1e-3) == count
+def test_turns_and_jumps_are_those_that_a_machine_sees(corners, turns, jumps):
+    path = np.interp(np.linspace(0, len(corners) - 1, 20 * len(corners)), range(len(corners)), corners)
+    # Ripples within twice the bound are no turns.
+    ripples = 1e-3 * np.sin(60.0 * np.arange(len(path)))
+    assert (len(turning_points(path + ripples, 2e-3)), count_jumps(path + ripples, 2e-3)) == (turns, jumps)

@@ -1,0 +1,195 @@
+"""Figs. 10 and 14 to 16: the pull-off force over the Tabor number, of the FSCM and of closed forms."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from scipy.interpolate import CubicSpline
+
+from comparisons.output.figures import kappa as kappa_figure
+from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered
+from comparisons.output.tables import relative_error
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.drawing import LABELS, by_model, dashed, gradient, held, legend_below, of_model, panels
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure, rows_of
+from comparisons.paper.tasks import quantity
+
+__all__ = ["TABOR_NUMBERS", "by_limit"]
+
+#: Range of the pull-off force of each panel of Fig. 10, by shape index: a panel spans less than two decades.
+_SHAPES = {1.0: (2.0, 80.0), 1.5: (1.5, 7.0), 2.0: (1.45, 2.05), 5.0: (0.25, 2.2)}
+#: k = 1 is the Gibson limit.
+_GRADIENTS = (0.0, 0.2, 0.4, 0.6, 1.0)
+_TRANSITION = (0.01, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)
+#: The closed forms are power laws of mu: two points are the line.  JKR is drawn where it is near the curves.
+_ENDS, _JKR_FROM = (_TRANSITION[0], _TRANSITION[-1]), 0.3
+#: A line of the FSCM is drawn through this many points of a spline: chords between the computed ones would show
+#: corners.  At k = 0.4 it passes the denser values of Fig. 14 within 6e-4 for every n, less than its own width.
+_SMOOTH = 121
+_K = 0.4
+#: Ten a decade, the preferred numbers of the series R10 but for rounding.
+TABOR_NUMBERS = tuple(float(f"{mu:.3g}") for mu in np.geomspace(0.01, 10.0, 31))
+#: Ticks of a logarithmic axis of forces, by the greatest ratio of its ends.
+_TICKS = {
+    1.3: np.arange(0.0, 3.0, 0.05),
+    1.8: np.arange(0.0, 3.0, 0.1),
+    12.0: np.outer([0.1, 1.0, 10.0], [1, 1.5, 2, 3, 5, 7]).ravel(),
+    np.inf: np.outer([0.01, 0.1, 1.0, 10.0], [1, 2, 5]).ravel(),
+}
+
+
+def _forces(places: Iterable[tuple[str, float, float, float]]) -> Plan[pd.DataFrame]:
+    table = yield from rows_of(
+        ({"model": model, "n": n, "k": k, "mu": mu}, CachedCall.of(quantity, model, "pull_off_force", n, k, mu))
+        for model, n, k, mu in places
+    )
+    return table
+
+
+def _log_forces(axes: Axes, low: float, high: float) -> None:
+    """A logarithmic axis with plain numbers: 2, not 2 x 10^0."""
+    axes.set(yscale="log", ylim=(low, high))
+    steps = next(ticks for ratio, ticks in _TICKS.items() if high / low < ratio)
+    ticks = [tick for tick in steps if low <= tick <= high]
+    axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.set_yticks([], minor=True)
+
+
+def _transition(figure: Figure, tables: Tables) -> None:
+    forces = tables[""][tables[""]["status"] == "ok"]
+    lattice = panels(figure, 2, 2, [held(n=n) for n in _SHAPES], LABELS["mu"], LABELS["force"], sharex=True)
+    thin: Any = {"ls": (0, (2, 1.5)), "lw": 0.7}
+    for axes, (n, limits) in zip(lattice, _SHAPES.items(), strict=True):
+        fscm, jkr, bradley = of_model(forces[forces["n"] == n], "fscm", "jkr", "bradley")
+        for index, (k, part) in enumerate(fscm.groupby("k")):
+            axes.plot(*_smooth(part), label=f"FSCM, {gradient(k)}", **dashed(index))
+            axes.plot("mu", "value", data=jkr[jkr["k"] == k], color=COLOURS[index], label="_", **thin)
+        axes.plot(bradley["mu"], bradley["value"], color="0.5", ls="--", lw=0.9, label=MODEL_NAMES["bradley"])
+        axes.plot([], [], color=COLOURS[0], **thin, label=f"{MODEL_NAMES['jkr']}, colours as FSCM")
+        axes.set(xscale="log", xlim=_ENDS)
+        _log_forces(axes, *limits)
+    legend_below(figure, 4)
+
+
+def _smooth(forces: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
+    """Tabor numbers and forces on the spline of log force over log mu."""
+    log_mu, log_force = np.log(forces[["mu", "value"]].to_numpy(float)).T
+    at = np.linspace(log_mu[0], log_mu[-1], _SMOOTH)
+    return np.exp(at), np.exp(CubicSpline(log_mu, log_force)(at))
+
+
+@paper_figure(_transition, size=(7.2, 6.0))
+def fig10_transition() -> Plan[Tables]:
+    """Pull-off force from the Bradley to the JKR limit."""
+    table = yield from _forces(
+        [
+            *product(("fscm",), _SHAPES, _GRADIENTS, _TRANSITION),
+            *product(("jkr",), _SHAPES, _GRADIENTS, (_JKR_FROM, _ENDS[1])),
+            *product(("bradley",), _SHAPES, (0.0,), _ENDS),
+        ]
+    )
+    return {"": table.sort_values(["model", "n", "k", "mu"], ignore_index=True)}
+
+
+def _of_models(*limits: str) -> Plan[pd.DataFrame]:
+    """Forces of the three models, then those of limiting ones."""
+    models = [*product(_SHAPES, ("fscm", "md-original", "md-improved")), *product(_SHAPES, limits)]
+    table = yield from _forces((model, n, _K, mu) for (n, model), mu in product(models, TABOR_NUMBERS))
+    columns = ["n", "k", "mu", "model", "value", "u_num", "status", "reason"]
+    return table[columns].astype({"value": float, "u_num": float})
+
+
+def by_limit(limit: str) -> Plan[Tables]:
+    """Plan the forces over that of a limiting model in the same case, with the uncertainty of the ratio, and kappa."""
+    table = yield from _of_models(limit)
+    forces = table[table["model"] != limit]
+    scale = table[table["model"] == limit].set_index(["n", "mu"])
+    by = scale.loc[pd.MultiIndex.from_frame(forces[["n", "mu"]])]
+    size, u = by["value"].to_numpy(), by["u_num"].to_numpy()
+    ratio = forces["value"] / size
+    scaled = forces[["n", "k", "mu", "model"]].assign(
+        ratio=ratio, u_ratio=(forces["u_num"] + ratio * u) / size, status=forces["status"], reason=forces["reason"]
+    )
+    kappa = relative_error(forces.assign(quantity="pull_off_force", nu=np.nan), "fscm")
+    return {"": scaled, "kappa": kappa[["quantity", "n", "k", "mu", "model", "kappa", "u_kappa"]]}
+
+
+def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str, draw: Callable[..., None]) -> None:
+    words = [held(n=n, k=_K) for n in _SHAPES]
+    lattice = panels(figure, 2, 2, words, LABELS["mu"], label, sharex=True)
+    for axes, (_, of_shape) in zip(lattice, table.groupby("n"), strict=True):
+        draw(axes, of_shape)
+        by_model(axes, of_shape, "mu", y)
+        own = of_shape.loc[of_shape["model"].isin(MODEL_LINES), y]
+        axes.set(xscale="log", xlim=(0.008, 12.0))
+        # A tenth of the range and at least 2 % beyond it.
+        beyond = max((own.max() / own.min()) ** 0.1, 1.02)
+        _log_forces(axes, own.min() / beyond, own.max() * beyond)
+    legend_below(figure, 5)
+
+
+def _with_limits(figure: Figure, tables: Tables) -> None:
+    def limits(axes: Axes, of_shape: pd.DataFrame) -> None:
+        for part, name, line in zip(of_model(of_shape, "bradley", "jkr"), ("bradley", "jkr"), ("-.", ":"), strict=True):
+            axes.plot(part["mu"], part["value"], color="0.55", lw=0.9, ls=line, label=MODEL_NAMES[name])
+
+    _panels_of_models(figure, tables[""], "value", LABELS["force"], limits)
+
+
+@paper_figure(_with_limits, size=(7.2, 5.6))
+def fig14_pull_off_models() -> Plan[Tables]:
+    """Pull-off force of the original and improved Maugis-Dugdale models and of the FSCM, k = 0.4."""
+    table = yield from _of_models("bradley", "jkr")
+    return {"": table}
+
+
+def _by_rigid(figure: Figure, tables: Tables) -> None:
+    def limit(axes: Axes, of_shape: pd.DataFrame) -> None:
+        axes.axhline(1.0, color="0.55", lw=0.9, ls="-.")
+
+    _panels_of_models(figure, tables[""], "ratio", r"$P_c/P_c^{\mathrm{Bradley}}$", limit)
+
+
+@paper_figure(_by_rigid, size=(7.2, 5.6))
+def fig15_pull_off_by_rigid_limit() -> Plan[Tables]:
+    """Pull-off force scaled by the rigid (Bradley) limit, k = 0.4."""
+    tables = yield from by_limit("bradley")
+    return {"": tables[""]}
+
+
+def _by_soft(figure: Figure, tables: Tables) -> None:
+    above, below = np.ravel(figure.subfigures(2, 1, height_ratios=[1.0, 1.15], squeeze=False))
+    axes = above.subplots()
+    handles = [Line2D([], [], label=MODEL_NAMES[name], **MODEL_LINES[name] | {"color": "0.45"}) for name in MODEL_LINES]
+    for index, (n, of_shape) in enumerate(tables[""].groupby("n")):
+        marked: Any = {"color": COLOURS[index], "marker": MARKERS[index], "ms": 3.5, "mfc": "white"}
+        handles.append(Line2D([], [], label=held(n=n), **marked))
+        for model, part in zip(MODEL_LINES, of_model(of_shape, *MODEL_LINES), strict=True):
+            places = {"markevery": (2 * index, 8)} if model == "md-improved" else {"marker": ""}
+            axes.plot(part["mu"], part["ratio"], **MODEL_LINES[model] | marked | places)
+    axes.axhline(1.0, color="0.55", lw=0.9, ls=":")
+    axes.set(xscale="log", xlim=(0.008, 12.0), xlabel=LABELS["mu"], ylabel=r"$P_c/P_c^{\mathrm{JKR}}$")
+    _log_forces(axes, tables[""]["ratio"].min() / 1.2, tables[""]["ratio"].max() * 1.2)
+    above.legend(handles=handles, loc="outside right center")
+    whole, enlarged = below.subplots(1, 2)
+    kappa_figure.panels(whole, enlarged, tables["kappa"])
+    for panel, letter, words in (
+        (axes, "a", f"scaled by the soft limit, {held(k=_K)}"),
+        (whole, "b", f"relative error, {held(k=_K)}"),
+        (enlarged, "c", "enlarged"),
+    ):
+        lettered(panel, letter, words)
+    below.legend(handles=kappa_figure.handles(_SHAPES), loc="outside lower center", ncols=6, columnspacing=1.2)
+
+
+@paper_figure(_by_soft, size=(7.2, 6.6))
+def fig16_pull_off_by_soft_limit() -> Plan[Tables]:
+    """Pull-off force scaled by the soft (JKR) limit, and the relative error kappa of both models, k = 0.4."""
+    return (yield from by_limit("jkr"))

@@ -1,0 +1,239 @@
+"""Functions that the figures of the paper call for what only `fscm` has: points of a path, surfaces, kernel functions.
+
+Each returns values with their bounds, named ``u_...``, as JSON.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from operator import attrgetter
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq
+
+from comparisons.models.gibson_limit import gibson_profile
+from comparisons.models.solver import translated
+from fscm import Analysis, NoSuchEvent, NotConverged, Problem, solve
+from fscm.laws import LennardJones
+from fscm.solution import FLOOR, SAFETY, EventPair, State
+
+__all__ = ["JUMPS", "TRACTION", "band_width", "jumps", "named_points", "near_critical", "surface"]
+
+Json = dict[str, Any]
+
+#: The 9-3 law, dimensionless.
+TRACTION = LennardJones().traction
+_PEAK = float(LennardJones().peak_gap)
+#: Quantities at both jumps.
+JUMPS = ("jump_in_displacement", "jump_in_gap", "jump_out_displacement", "jump_out_gap")
+#: Excesses over the critical Tabor number: the gaps of the two jumps part like their square root.
+EXCESSES = (1e-4, 1e-3, 4e-3, 1e-2, 2e-2, 4e-2, 7e-2, 0.12)
+#: Radii of a surface: everywhere, and around the cohesive edge, whose width is a small part of its radius.
+_FARTHEST, _STEPS = 6.0, 240
+_AROUND_EDGE = np.concatenate([-np.geomspace(0.3, 1e-3, 40), [0.0], np.geomspace(1e-3, 0.3, 40)])
+
+
+@contextmanager
+def analysed(n: float, k: float, mu: float) -> Iterator[Analysis]:
+    """Analyse a problem; the solver's exceptions become `NotApplicable` and `ComputationFailed`."""
+    with translated(NoSuchEvent, NotConverged):
+        yield Analysis(Problem(n, k, mu))
+
+
+def bound(difference: Any, value: Any) -> Any:
+    """Bound on the error of a value from its difference between two meshes."""
+    return SAFETY * np.abs(difference) + FLOOR * (1.0 + np.abs(value))
+
+
+def named_points(n: float, k: float, mu: float) -> dict[str, dict[str, float]]:
+    """Return central gap, displacement and load of B', A, B, A', C and D (Fig. 3b), each with its uncertainty.
+
+    A and B are the jump-in and the jump-out, A' and B' where these land under displacement control, C is the
+    pull-off and D the zero of the load.
+
+    Raises
+    ------
+    comparisons.model.NotApplicable
+        Below the critical Tabor number, where nothing jumps.
+    comparisons.model.ComputationFailed
+        If a point was not reached.
+
+    Examples
+    --------
+    >>> points = named_points(2, 0.4, 1)
+    >>> fall = points["A"]["displacement"] - points["A'"]["displacement"]
+    >>> abs(fall) < 1e-9, round(points["C"]["load"], 8)
+    (True, -1.78848171)
+    """
+    with analysed(n, k, mu) as analysis:
+        pairs = {
+            "B'": analysis.landing("jump_out"),
+            "A": analysis.event("jump_in"),
+            "B": analysis.event("jump_out"),
+            "A'": analysis.landing("jump_in"),
+            "C": analysis.event("pull_off"),
+            "D": analysis.event("zero_load"),
+        }
+    return {name: _coordinates(pair) for name, pair in pairs.items()}
+
+
+def _coordinates(pair: EventPair) -> dict[str, float]:
+    point: dict[str, float] = {}
+    for name in ("central_gap", "displacement", "load"):
+        of = attrgetter(name)
+        value = float(of(pair.value))
+        point |= {name: value, f"u_{name}": float(bound(pair.difference(of), value))}
+    return point
+
+
+def jumps(n: float, k: float, mu: float) -> dict[str, float]:
+    """Return the displacement and the central gap at both jumps, by quantity, each with its ``u_``.
+
+    Raises
+    ------
+    comparisons.model.NotApplicable
+        Below the critical Tabor number.
+    comparisons.model.ComputationFailed
+        If a fold was not reached.
+
+    Examples
+    --------
+    >>> at_jumps = jumps(2, 0.4, 1)
+    >>> at_jumps["jump_out_displacement"] < at_jumps["jump_in_displacement"] < 0
+    True
+    """
+    with analysed(n, k, mu) as analysis:
+        solutions = {name: analysis.solution(name) for name in JUMPS}
+    return {
+        f"{u}{name}": float(getattr(solution, of))
+        for name, solution in solutions.items()
+        for u, of in (("", "value"), ("u_", "u_num"))
+    }
+
+
+def near_critical(n: float, k: float) -> Json:
+    """Return the critical Tabor number, ``mu`` and ``u_mu``, and ``jumps`` just above it, each with its ``mu``.
+
+    Raises
+    ------
+    comparisons.model.NotApplicable, comparisons.model.ComputationFailed
+        As `jumps`.
+    """
+    with translated(NoSuchEvent, NotConverged):
+        critical = solve(Problem(n, k, 1.0), "critical_tabor_number")
+    above = [float(critical.value) * (1.0 + excess) for excess in EXCESSES]
+    at_jumps = [{"mu": mu} | jumps(n, k, mu) for mu in above]
+    return {"mu": float(critical.value), "u_mu": float(critical.u_num), "jumps": at_jumps}
+
+
+def surface(n: float, k: float, mu: float) -> Json:
+    """Return the surface where P is smallest, for radii up to 6.
+
+    Returns
+    -------
+    dict
+        ``displacement``; lists over the ``radius``: ``gap``, ``pressure`` (tension negative), ``deformation`` w (Eq. 4;
+        positive where the surface is pressed down), each with ``u_``, the bound on its numerical error.
+
+    Raises
+    ------
+    comparisons.model.ComputationFailed
+        If the pull-off was not found.
+
+    Examples
+    --------
+    >>> round(min(surface(2, 0.4, 1)["pressure"]), 3)          # the strength of the surface law
+    -1.026
+    """
+    if k == 1.0:
+        return _gibson_surface(Problem(n, k, mu))
+    with analysed(n, k, mu) as analysis:
+        event = analysis.event("pull_off")
+    edge = event.value.scale if event.value.follows_edge else 1.0
+    radius = np.unique(np.concatenate([np.linspace(0.0, _FARTHEST, _STEPS + 1), edge * (1.0 + _AROUND_EDGE)]))
+    check, value = _sampled(event.check, radius), _sampled(event.value, radius)
+    bounds = {name: bound(values - check[name], values) for name, values in value.items()}
+    return _listed(event.value.displacement, radius, value, bounds)
+
+
+def _sampled(state: State, radius: np.ndarray) -> dict[str, np.ndarray]:
+    gap, deformation = (
+        state.disc.mesh.evaluate(values, radius / state.scale) for values in (state.gap, state.deformation)
+    )
+    return {"gap": gap, "pressure": state.disc.problem.law.traction(gap), "deformation": deformation}
+
+
+def _gibson_surface(problem: Problem) -> Json:
+    """The surface at k = 1, algebra at every point: its error is that of the displacement."""
+    profile, pull_off = gibson_profile(problem), solve(problem, "pull_off_displacement")
+    inside = profile.radius <= _FARTHEST
+    pressure = profile.pressure[inside]
+    value = {"gap": profile.gap[inside], "pressure": pressure, "deformation": problem.compliance * pressure}
+    # Along the surface gap and pressure are exact functions of each other; only the radius carries an error.
+    u = (1.0 + problem.compliance) * pull_off.u_num
+    bounds = {name: u + bound(0.0, values) for name, values in value.items()}
+    return _listed(pull_off.value, profile.radius[inside], value, bounds)
+
+
+def _listed(
+    displacement: float, radius: np.ndarray, values: dict[str, np.ndarray], bounds: dict[str, np.ndarray]
+) -> Json:
+    columns: Json = {"displacement": float(displacement), "radius": radius.tolist()}
+    for name, array in values.items():
+        columns |= {name: array.tolist(), f"u_{name}": bounds[name].tolist()}
+    return columns
+
+
+def half_strength_gaps() -> tuple[float, float]:
+    """Return the two gaps where the tension of the 9-3 law is half of its strength.
+
+    Examples
+    --------
+    >>> [round(gap, 4) for gap in half_strength_gaps()]
+    [0.0417, 0.7085]
+    """
+
+    def excess(gap: float) -> float:
+        return float(TRACTION(np.array(gap)) - 0.5 * TRACTION(np.array(_PEAK)))
+
+    return float(brentq(excess, 0.0, _PEAK, xtol=1e-15)), float(brentq(excess, _PEAK, 5.0, xtol=1e-15))
+
+
+def band_width(n: float, k: float, mu: float) -> dict[str, float]:
+    """Return the width of the band at pull-off where the tension is above half of the strength, over its radius.
+
+    Returns
+    -------
+    dict
+        ``width`` and its bound ``u``, a fraction of the radius where the tension is largest.
+
+    Raises
+    ------
+    comparisons.model.ComputationFailed
+        If the pull-off was not found.
+
+    Examples
+    --------
+    >>> band = band_width(2, 0.4, 1)
+    >>> 0.2 < band["width"] < 0.3, band["u"] < 1e-6
+    (True, True)
+    """
+    with analysed(n, k, mu) as analysis:
+        event = analysis.event("pull_off")
+    check, value = _width(event.check), _width(event.value)
+    return {"width": value, "u": SAFETY * abs(value - check) + FLOOR}
+
+
+def _width(state: State) -> float:
+    """Width in the plane of radius and gap, between roots of the interpolated gap."""
+
+    def radius_of(gap: float) -> float:
+        def excess(radius: float) -> float:
+            return float(state.disc.mesh.evaluate(state.gap, np.array([radius / state.scale]))[0]) - gap
+
+        return float(brentq(excess, 0.0, float(state.radius[-1]), xtol=1e-14))
+
+    near, far = (radius_of(gap) for gap in half_strength_gaps())
+    return (far - near) / radius_of(_PEAK)

@@ -1,0 +1,245 @@
+"""Verdicts on the numbers that the paper prints: on the converged numbers, and on those of one scheme a figure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from comparisons.data.paper_values import PaperValue
+from comparisons.data.paper_values import paper_values as printed_values
+from comparisons.models.closed_form import EPS
+from comparisons.models.cohesive_contact import CohesiveContact
+from comparisons.models.cohesive_events import CohesiveEvents
+from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
+from comparisons.models.graded_punch import GradedPunch
+from comparisons.models.jkr import JKR
+from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
+from comparisons.numerics.number_text import LEAST_SHOWN, value_text
+from comparisons.output.terminal import records
+from comparisons.paper.figures.fig11_gradient_effect import insensitive_regions, largest_chi
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, texts_of, together
+from comparisons.paper.solver_tasks import TRACTION
+from comparisons.paper.tasks import quantity
+from comparisons.paper.values.scheme_forces import HEIGHT, exact_force
+from comparisons.paper.values.tabor_curve import TaborCurve, largest_error, tabor_numbers
+from comparisons.runs.cases import Case
+from fscm.laws import LennardJones
+
+__all__ = ["COMPUTED", "LAST_K", "Computed", "cohesive_forces", "first_or_last_step", "judged", "paper_values"]
+
+_SHAPES = (1.0, 1.5, 2.0, 5.0)
+_K = 0.4
+#: Relative rounding of a closed form: a few Gamma functions at 2e-15 each.
+_ROUNDING = 64.0 * EPS
+#: Rounding of chi in percent, and of the ends of its regions, which are roots to 1e-10.
+_CHI_ROUNDING, _REGION_ROUNDING = 1e-11, 1e-9
+#: Degrees of the series in log(mu); the closed forms cost little.
+_EXACT_DEGREE, _COHESIVE_DEGREE = 40, 96
+#: Last gradient exponent and step of the shape index with which all eight numbers of Fig. 11 have the printed digits;
+#: the paper states neither.  A largest value depends on the points at which it was searched: here the ends of the
+#: regions of Fig. 11(b) are the first and the last multiple of 0.001.
+LAST_K, N_STEP = 0.999, 0.001
+_GRID = f"k up to {LAST_K:g}, n in steps of {N_STEP:g}"
+
+
+class Computed(NamedTuple):
+    """A paper value computed again: signed, with its bound and place, and by the scheme of its figure if it has one."""
+
+    value: float
+    u: float
+    mu: float = math.nan
+    scheme: str = ""
+    by_scheme: float = math.nan
+    u_scheme: float = math.nan
+
+
+def _closed(formula: Callable[[PaperValue], float]) -> Callable[[PaperValue], Plan[Computed]]:
+    def plan(paper_value: PaperValue) -> Plan[Computed]:
+        yield {}
+        value = formula(paper_value)
+        return Computed(value, _ROUNDING * abs(value))
+
+    return plan
+
+
+def _of_model(model: str, name: str) -> Callable[[PaperValue], Plan[Computed]]:
+    """Whose Tabor number is not used."""
+
+    def plan(paper_value: PaperValue) -> Plan[Computed]:
+        k = 0.0 if math.isnan(paper_value.k) else paper_value.k
+        result = yield from result_of(quantity, model, name, paper_value.n, k, 1.0)
+        return Computed(result["value"], result["u_num"])
+
+    return plan
+
+
+def _farthest(values: Sequence[float], paper_value: PaperValue) -> float:
+    """Return the value that is farthest from the printed one: the limit is the same for all shape indices."""
+    return max(values, key=lambda value: abs(value - paper_value.value))
+
+
+def _jump_out_limits() -> list[float]:
+    return [-JKR().evaluate(Case(n, 1.0, 1.0).problem(), "jump_out_displacement").value for n in _SHAPES]
+
+
+def _exponent(paper_value: PaperValue) -> float:
+    """Slope of log(1 - displacement) over log(mu); the difference of two logarithms loses a digit."""
+    low, high = (
+        math.log(1.0 - SemiRigid().evaluate(case.problem(), "jump_in_displacement").value)
+        for case in (Case(paper_value.n, paper_value.k, mu) for mu in (1.0, math.e**7))
+    )
+    return (high - low) / 7.0
+
+
+def cohesive_forces(n: float, k: float, stress: float) -> list[float]:
+    """Return the Maugis-Dugdale pull-off force for a cohesive stress, at `tabor_numbers` of the closed forms.
+
+    Examples
+    --------
+    >>> forces = cohesive_forces(2, 0.4, 1.0)
+    >>> bool(forces[0] > forces[-1] > 1.7)
+    True
+    """
+    punch = GradedPunch(n, k)
+    return [
+        -CohesiveEvents.scan(CohesiveContact(punch, stress * mu)).pull_off().load * punch.scales(mu).load
+        for mu in tabor_numbers(_COHESIVE_DEGREE)
+    ]
+
+
+def _stresses(paper_value: PaperValue) -> tuple[float, float]:
+    """Return the cohesive stress of a model, and as it is printed."""
+    if paper_value.model == "md-original":
+        return THEORETICAL_STRENGTH, printed_values("theoretical_strength")[0].value
+    return eta(paper_value.n), next(number.value for number in printed_values("eta") if number.n == paper_value.n)
+
+
+def _largest_relative_error(paper_value: PaperValue) -> Plan[Computed]:
+    """The scheme is the paper's own: nothing beyond f(r_max), and sigma_0 as printed."""
+    n, (exact_stress, printed_stress) = paper_value.n, _stresses(paper_value)
+    plans: dict[Any, Plan[Any]] = {mu: result_of(exact_force, n, _K, mu) for mu in tabor_numbers(_EXACT_DEGREE)}
+    plans |= {"model": result_of(cohesive_forces, n, _K, exact_stress)}
+    plans |= {"printed": result_of(cohesive_forces, n, _K, printed_stress)}
+    results = yield from together(plans)
+    points = [results[mu] for mu in tabor_numbers(_EXACT_DEGREE)]
+    force, beyond = (np.array([point[name] for point in points]) for name in ("force", "beyond"))
+    u = max(point["u_num"] / point["force"] for point in points)
+    model, printed = (TaborCurve.through(np.array(results[name])) for name in ("model", "printed"))
+    converged = largest_error(model, TaborCurve.through(force, u))
+    by_scheme = largest_error(printed, TaborCurve.through(force - beyond, u))
+    scheme = f"f(r_max) = {HEIGHT:g}, nothing beyond; sigma_0 = {printed_stress:g} as printed"
+    of_converged = 100.0 * converged.kappa, 100.0 * converged.u, converged.mu
+    return Computed(*of_converged, scheme, 100.0 * by_scheme.kappa, 100.0 * by_scheme.u)
+
+
+def _largest_chi(paper_value: PaperValue) -> Plan[Computed]:
+    yield {}
+    converged, by_scheme = (100.0 * largest_chi(paper_value.n, last_k)[0] for last_k in (1.0, LAST_K))
+    return Computed(converged, _CHI_ROUNDING, math.nan, _GRID, by_scheme, _CHI_ROUNDING)
+
+
+def first_or_last_step(end: float, *, first: bool) -> float:
+    """Return the first multiple of `N_STEP` from a least n on, or the last up to a largest n.
+
+    Examples
+    --------
+    >>> first_or_last_step(0.97395, first=True), first_or_last_step(6.21961, first=False)
+    (0.974, 6.219)
+    """
+    steps = math.ceil(end / N_STEP) if first else math.floor(end / N_STEP)
+    return round(steps * N_STEP, 3)
+
+
+def _insensitive_region(paper_value: PaperValue) -> Plan[Computed]:
+    ends = yield from together({last_k: result_of(insensitive_regions, last_k) for last_k in (1.0, LAST_K)})
+    index = paper_value.index
+    # Ends of even index are where a region begins.
+    step = first_or_last_step(ends[LAST_K][index], first=index % 2 == 0)
+    return Computed(ends[1.0][index], _REGION_ROUNDING, math.nan, _GRID, step, 0.0)
+
+
+#: How each number is computed, by its name.
+COMPUTED: dict[str, Callable[[PaperValue], Plan[Computed]]] = {
+    "theoretical_strength": _closed(lambda _: -float(TRACTION(np.array(LennardJones().peak_gap)))),
+    "bradley_pull_off": _of_model("bradley", "pull_off_force"),
+    "critical_tabor_number": _of_model("fscm", "critical_tabor_number"),
+    "eta": _closed(lambda paper_value: eta(paper_value.n)),
+    "jump_in_limit": _closed(lambda printed: _farthest([jump_in_coefficient(n, 1.0) for n in _SHAPES], printed)),
+    "jump_out_limit": _closed(lambda printed: _farthest(_jump_out_limits(), printed)),
+    "jump_in_prefactor": _closed(lambda paper_value: jump_in_coefficient(paper_value.n, paper_value.k)),
+    "jump_in_exponent": _closed(_exponent),
+    "largest_relative_error": _largest_relative_error,
+    "largest_chi": _largest_chi,
+    "insensitive_region": _insensitive_region,
+}
+
+
+def judged(paper_value: PaperValue, computed: Computed) -> dict[str, str | float]:
+    """Return the row of a paper value, which is printed without its sign."""
+    size = abs(computed.value)
+    by_scheme = paper_value.verdict(abs(computed.by_scheme), computed.u_scheme) if computed.scheme else ""
+    return {
+        "where": paper_value.source,
+        **{name: getattr(paper_value, name) for name in ("quantity", "model", "n", "k", "unit")},
+        "printed": paper_value.text,
+        "computed": computed.value,
+        "u": computed.u,
+        "at_mu": computed.mu,
+        "verdict": paper_value.verdict(size, computed.u),
+        "difference": size - paper_value.value,
+        "scheme": computed.scheme,
+        "by_scheme": computed.by_scheme,
+        "u_scheme": computed.u_scheme,
+        "scheme_verdict": by_scheme,
+    }
+
+
+def readable(table: pd.DataFrame) -> pd.DataFrame:
+    """Return the table as texts, the computed number with the digits that its uncertainty leaves."""
+
+    def texts(row: pd.Series) -> dict[str, str]:
+        unit = f" {row['unit']}" if row["unit"] else ""
+        parts = [f"{name} = {row[name]:g}" for name in ("n", "k") if not math.isnan(row[name])]
+        small = abs(row["difference"]) <= LEAST_SHOWN
+        return {
+            "where": row["where"],
+            "quantity": row["quantity"],
+            "case": ", ".join([*parts, *([row["model"]] if row["model"] else [])]),
+            "printed": row["printed"] + unit,
+            "computed": value_text(row["computed"], row["u"]) + unit,
+            "verdict": row["verdict"],
+            "difference": "0" if small else f"{row['difference']:+.2g}{unit}",
+            "scheme": row["scheme"],
+            "by scheme": value_text(row["by_scheme"], row["u_scheme"]) + unit if row["scheme"] else "",
+            "verdict by scheme": row["scheme_verdict"],
+        }
+
+    return pd.DataFrame([texts(row) for _, row in table.iterrows()])
+
+
+_TITLE = "Numbers printed in the paper, computed again"
+_NOTES = (
+    "In brackets: a bound on the error in units of the last digit, at least 5e-10. Difference: of the sizes. The "
+    "verdict is on the converged number, as in a run. Agrees if truncated: the digits agree if further ones are "
+    "dropped. "
+    "Scheme: one for all numbers of a figure, with the number and the verdict that it gives. Of Fig. 16(b) it is the "
+    "paper's own: f(r_max) is the height of the punch, in z0, where its integration ends, and sigma_0 the cohesive "
+    "stress. Of Fig. 11 it is a grid that the paper does not state."
+)
+
+
+def _texts(tables: Tables) -> dict[str, str]:
+    table = readable(tables[""])
+    return texts_of(table, table, _TITLE, _NOTES, "paper-values")
+
+
+@paper_figure(name="numbers", texts=_texts, shown=lambda tables: records(readable(tables[""]), _TITLE))
+def paper_values() -> Plan[Tables]:
+    """Numbers that the paper prints, a verdict on each, and what one scheme for each figure gives."""
+    printed = printed_values()
+    computed = yield from together({index: COMPUTED[value.name](value) for index, value in enumerate(printed)})
+    return {"": pd.DataFrame([judged(value, computed[index]) for index, value in enumerate(printed)])}

@@ -1,0 +1,223 @@
+"""Verdicts on the statements of the paper: the committed ones, their tests on made-up results, and the findings."""
+
+import math
+import re
+import shlex
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from comparisons.cli import main as cli
+from comparisons.data.paper_statements import paper_statements, verdicts
+from comparisons.numerics.number_text import value_text
+from comparisons.paper.baseline import PAPER_BASELINE, SHIPPED_STATEMENTS
+from comparisons.paper.cache import Results
+from comparisons.paper.paper_figure import FIGURES, given
+from comparisons.paper.registry import paper_figures
+from comparisons.paper.solver_tasks import JUMPS
+from comparisons.paper.statements.evidence import FAILS, FALSE, IN_PART, REFERENCES, TRUE, Evidence, Number
+from comparisons.paper.statements.judgement import decisive, judged
+from comparisons.paper.statements.kinds import comparisons_of
+
+ROOT = Path(__file__).parents[3]
+FOLDER = ROOT / PAPER_BASELINE
+STATEMENTS = {statement.id: statement for statement in paper_statements()}
+FINDINGS = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")
+by_id = pytest.mark.parametrize("statement", STATEMENTS.values(), ids=STATEMENTS)
+
+
+@pytest.fixture(scope="module")
+def committed():
+    return pd.read_csv(FOLDER / "paper_statements.csv", keep_default_na=False)
+
+
+@pytest.fixture(scope="module")
+def evidence_table():
+    return pd.read_csv(FOLDER / "paper_statements_evidence.csv", keep_default_na=False)
+
+
+def stored(row):
+    value, limit = Number(row.value, row.u_value, row.what), Number(row.limit, row.u_limit, row.limit_what)
+    return Evidence(row.clause, row.model, value, row.relation, limit, row.own_case, row.beyond_paper, row.comparisons)
+
+
+@pytest.fixture(scope="module")
+def evidence(evidence_table):
+    return {id: [stored(row) for row in part.itertuples()] for id, part in evidence_table.groupby("statement")}
+
+
+@by_id
+def test_a_committed_verdict_follows_from_its_evidence_and_not_from_other_evidence(statement, committed, evidence):
+    rows = evidence[statement.id]
+    expected = committed[committed["id"] == statement.id].iloc[0].to_dict()
+    assert judged(statement, rows) == expected
+    wide = [row._replace(limit=row.limit._replace(u=1e9)) for row in rows]
+    assert judged(statement, wide)["verdict"] == "not decided"
+    # The value of every row that decides on the other side of its limit, by all references.
+    other = [
+        row._replace(value=row.value._replace(value=2.0 * row.limit.value - row.value.value), model="formula")
+        for row in rows
+        if expected["verdict"] != FALSE or row.outcome == FAILS
+    ]
+    assert judged(statement, other)["verdict"] != expected["verdict"] or expected["verdict"] == IN_PART
+
+
+def test_what_fails_by_one_reference_fails_by_the_other(evidence):
+    for id, rows in evidence.items():
+        failed = {(row.clause, row.model) for row in rows if row.outcome == FAILS and not row.beyond}
+        for clause, model in failed:
+            if model in REFERENCES:
+                assert {(clause, name) for name in REFERENCES} <= failed, (id, clause)
+
+
+def test_the_number_of_a_statement_is_in_its_text(committed):
+    read = committed[committed["number"] != ""]
+    assert set(read["id"]) == {id for id, statement in STATEMENTS.items() if "within" in statement.arguments}
+    for row in read.itertuples():
+        # As a plain number, or in percent.
+        texts = re.findall(r"(?<!\.)\b(\d+(?:\.\d+)?(?:e-\d+)?)( %)?(?!\d)", row.test)
+        numbers = [float(text) * (0.01 if percent else 1.0) for text, percent in texts]
+        assert any(value == pytest.approx(float(row.number), rel=1e-12) for value in numbers), row.test
+        assert float(row.number) == STATEMENTS[row.id].arguments["within"]
+
+
+def test_the_committed_texts_and_the_shipped_verdicts_are_those_of_the_committed_table(committed):
+    for suffix, text in FIGURES["statements"].texts({"": committed}).items():
+        assert (FOLDER / f"paper_statements{suffix}").read_text(encoding="utf-8") == text
+    assert (ROOT / SHIPPED_STATEMENTS).read_bytes() == (FOLDER / "paper_statements.csv").read_bytes()
+    assert verdicts() == committed.astype(str).to_dict("records")
+
+
+def test_the_commands_parse():
+    for statement in STATEMENTS.values():
+        for command in statement.command.split(" && "):
+            _, *arguments = shlex.split(command)
+            cli._parser(arguments).parse_args(arguments)
+        if "paper" in statement.command:
+            assert paper_figures(shlex.split(statement.command)[3:])
+
+
+class MadeUp(Results):
+    """Results of `quantity` by a formula, and of the jumps by that of `fscm`."""
+
+    def __init__(self, formula):
+        super().__init__()
+        self.formula = formula
+
+    def __getitem__(self, call):
+        if call.function.endswith(":jumps"):
+            values = {name: self.formula("fscm", name, *call.arguments) for name in JUMPS}
+            return values | {f"u_{name}": 1e-9 for name in JUMPS}
+        value = self.formula(*call.arguments)
+        return {"value": value, "u_num": 1e-9, "status": "ok" if value is not None else "not-applicable", "reason": ""}
+
+
+def made_up(id, formula=None):
+    statement = STATEMENTS[id]
+    return judged(statement, decisive(statement, given(comparisons_of(statement), MadeUp(formula))))
+
+
+@pytest.mark.parametrize(
+    ("formula", "expected"),
+    [
+        (lambda model, name, n, k, mu: 2.0 + mu, "true"),
+        (lambda model, name, n, k, mu: 2.0 - mu / 100.0, "false"),
+        (lambda model, name, n, k, mu: 2.0 + mu * (1.0 if n == 1.0 else -0.1), "true in part"),
+        # A rise within the sum of the bounds decides nothing.
+        (lambda model, name, n, k, mu: 2.0 + 1e-12 * mu, "not decided"),
+        # A fall that the finite elements do not confirm decides nothing.
+        (lambda model, name, n, k, mu: 2.0 + mu * (-0.1 if model == "fscm" else 1.0), "not decided"),
+    ],
+)
+def test_a_trend_is_judged(formula, expected):
+    assert made_up("pull-off-rises-with-mu", formula)["verdict"] == expected
+
+
+@pytest.mark.parametrize(
+    ("id", "error", "expected"),
+    [
+        ("ends-agree", lambda mu: 0.019, "true"),
+        # No finite elements there.
+        ("ends-agree", lambda mu: 0.021, "not decided"),
+        ("jump-in-asymptote", lambda mu: 0.051, "false"),
+        ("errors-vanish", lambda mu: 1.0 / mu, "true"),
+        # Small, but not zero.
+        ("errors-vanish", lambda mu: 0.003 + 1.0 / mu, "not decided"),
+    ],
+)
+def test_an_error_is_judged(id, error, expected):
+    row = made_up(id, lambda model, name, n, k, mu: 1.0 if model in REFERENCES else 1.0 + error(mu))
+    assert row["verdict"] == expected
+
+
+def test_a_case_that_fails_leaves_the_others():
+    row = made_up(
+        "jump-in-asymptote", lambda model, name, n, k, mu: 1.0 + 0.1 * (model not in REFERENCES and mu == 3.0)
+    )
+    assert (row["verdict"], row["holds_in"], row["own_cases"]) == (IN_PART, "4 of 5", "4 of 5")
+    assert row["fails_for"] == "n = 2, k = 0.4, mu = 3"
+    assert (row["number"], row["flips"]) == ("0.05", "true above x 2.01; false below x 4e-08")
+
+
+def test_gradient_exponents_of_which_some_jump_are_not_alike():
+    assert made_up("mu-decides-hysteresis", lambda *_: 1.0)["verdict"] == TRUE
+    assert made_up("mu-decides-hysteresis", lambda *_: None)["verdict"] == TRUE
+    row = made_up("mu-decides-hysteresis", lambda model, name, n, k, mu: None if k else 1.0)
+    assert row["verdict"] == FALSE
+    assert "no jump at k = 0." in row["evidence"]
+
+
+@pytest.mark.parametrize("id", ["kernel-continuous", "psi-bounded", "eta", "insensitive-ranges"])
+def test_formulas_give_the_committed_verdict(id, committed):
+    assert made_up(id)["verdict"] == committed.set_index("id")["verdict"][id]
+
+
+@pytest.mark.heavy
+def test_the_verdicts_are_those_committed(made_of, committed):
+    table = made_of(FIGURES["statements"].plan)[""]
+    columns = ["id", "verdict", "holds_in", "own_cases", "fails_for", "beyond_paper"]
+    assert table[columns].to_dict("records") == committed[columns].to_dict("records")
+
+
+def test_every_statement_that_does_not_hold_is_a_finding_with_a_figure_and_a_command(committed):
+    lines = re.findall(r"^Statements: (.*)\.$", FINDINGS, re.MULTILINE)
+    listed = [id for line in lines for id in re.findall("`(.+?)`", line)]
+    assert sorted(listed) == sorted(committed["id"][committed["verdict"] != "true"])
+    counts = committed["verdict"].value_counts()
+    sentence = (
+        f"{counts['true']} statements are true, {counts['true in part']} true in part and {counts['false']} false"
+    )
+    assert sentence in FINDINGS
+    sections = [part for part in re.split(r"^## ", FINDINGS, flags=re.MULTILINE)[1:] if "Statements: " in part]
+    for section in (section for section in sections if not section.startswith("Where a number decides")):
+        (stem,) = re.findall(r"baseline/paper/(\w+)\.png", section)
+        (name,) = re.findall(r"fscm-bench paper --only (\S+)", section)
+        assert FIGURES[name].stem == stem
+
+
+def test_every_number_with_a_bound_and_every_rise_is_in_the_evidence(evidence_table):
+    pairs = [(value, f"u_{value}", evidence_table) for value in ("value", "limit")]
+    # The studies beyond the paper.
+    for stem, columns in (("graded_solids", ("fscm", "fem")), ("layered_adhesion", ("found",))):
+        pairs += [(column, f"u_{column}", pd.read_csv(FOLDER / f"{stem}.csv")) for column in columns]
+    texts = {value_text(*row) for value, u, table in pairs for row in table[[value, u]].dropna().to_numpy()}
+    quoted = re.findall(r"\d+\.\d+\(\d+\)", FINDINGS)
+    assert len(quoted) > 25
+    assert [text for text in quoted if text not in texts] == []
+    folds = " ".join(evidence_table["what"][evidence_table["statement"] == "one-fold-pair"])
+    for rise in re.findall(r"\| (?:4|6) \| (\S+, bound \S+) \|", FINDINGS):
+        assert f"rises again by at least {rise.replace(', bound', ' (bound')})" in folds
+
+
+def test_the_verdicts_that_hang_on_a_number_are_those_of_the_table(committed):
+    def nearest(flips):
+        factors = [float(text) for text in re.findall(r"x ([\d.e-]+)", flips)]
+        return min((max(factor, 1.0 / factor) for factor in factors), default=math.inf)
+
+    expected = [
+        f"| `{row.id}` | {row.number} | {row.holds_in} | {row.verdict} | {row.flips} |"
+        for row in committed.astype(str).itertuples()
+        if nearest(row.flips) < 2.5
+    ]
+    assert re.findall(r"^\| `[\w-]+` \|.*\|$", FINDINGS, re.MULTILINE) == expected

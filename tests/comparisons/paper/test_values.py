@@ -1,0 +1,134 @@
+"""Verdicts on paper values, what one scheme for each figure gives, and the truncated domain of the Stieltjes scheme."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from comparisons.data.paper_values import paper_values
+from comparisons.models.cohesive_stress import eta
+from comparisons.models.maugis_dugdale import MaugisDugdaleImproved
+from comparisons.paper.baseline import PAPER_BASELINE
+from comparisons.paper.figures.fig11_gradient_effect import insensitive_regions, largest_chi
+from comparisons.paper.paper_figure import FIGURES
+from comparisons.paper.values.printed_values import (
+    COMPUTED,
+    LAST_K,
+    Computed,
+    cohesive_forces,
+    first_or_last_step,
+    judged,
+)
+from comparisons.paper.values.scheme_forces import exact_force, scheme_force
+from comparisons.paper.values.tabor_curve import RANGE, TaborCurve, largest_error, tabor_numbers
+from comparisons.registry import create
+from comparisons.runs.cases import Case
+
+ROOT = Path(__file__).parents[3]
+FOLDER = ROOT / PAPER_BASELINE
+SCHEMES = {"largest_relative_error", "largest_chi", "insensitive_region"}
+
+
+@pytest.mark.parametrize("name", sorted(COMPUTED.keys() - SCHEMES))
+def test_closed_forms_and_critical_tabor_numbers_agree_to_every_printed_digit(name, made_of):
+    for printed in paper_values(name):
+        row = judged(printed, made_of(lambda printed=printed: COMPUTED[name](printed)))
+        assert (row["verdict"], row["scheme"], row["scheme_verdict"]) == ("agrees", "", ""), printed
+        assert row["u"] < 1e-7 * abs(row["computed"])
+
+
+@pytest.mark.parametrize(
+    ("model", "mu", "verdict"), [("md-original", 0.246, "agrees if truncated"), ("md-improved", 0.836, "agrees")]
+)
+def test_largest_errors_of_the_flattest_punch_have_every_printed_digit(model, mu, verdict):
+    (printed,) = [c for c in paper_values("largest_relative_error") if (c.model, c.n) == (model, 5.0)]
+    kappa = []
+    for place in (0.9 * mu, mu, 1.1 * mu):
+        own, exact = (
+            create(name).evaluate(Case(5.0, 0.4, place).problem(), "pull_off_force").value for name in (model, "fscm")
+        )
+        kappa.append(100 * (own / exact - 1))
+    assert kappa[1] == max(kappa)
+    assert judged(printed, Computed(kappa[1], 1e-4))["verdict"] == verdict
+
+
+def test_a_gradient_exponent_that_stops_short_of_the_gibson_limit_gives_the_last_end_its_digits():
+    printed = paper_values("insensitive_region")
+    verdicts = {
+        last_k: [number.verdict(end, 1e-9) for number, end in zip(printed, insensitive_regions(last_k), strict=True)]
+        for last_k in (1.0, 0.9995)
+    }
+    assert verdicts[1.0] == ["agrees", "agrees if truncated", "agrees", "differs"]
+    assert verdicts[0.9995] == ["agrees", "agrees if truncated", "agrees", "agrees"]
+    steps = [first_or_last_step(end, first=i % 2 == 0) for i, end in enumerate(insensitive_regions(LAST_K))]
+    assert steps == [0.974, 1.056, 3.335, 6.219]
+    inside, outside = ([largest_chi(n, LAST_K)[0] for n in of] for of in (steps, (0.973, 1.057, 3.334, 6.220)))
+    assert max(inside) <= 0.1 < min(outside)
+
+
+def test_the_committed_verdicts_are_those_of_the_committed_numbers_and_of_the_results_page():
+    table = pd.read_csv(FOLDER / "paper_values.csv", dtype={"printed": str})
+    table = table.fillna({"model": "", "unit": "", "scheme": "", "scheme_verdict": ""})
+    for printed, row in zip(paper_values(), table.itertuples(), strict=True):
+        again = judged(printed, Computed(row.computed, row.u, row.at_mu, row.scheme, row.by_scheme, row.u_scheme))
+        assert (again["verdict"], again["scheme_verdict"]) == (row.verdict, row.scheme_verdict)
+    text = " ".join((ROOT / "docs" / "results.md").read_text(encoding="utf-8").split())
+    assert table["verdict"].value_counts().to_dict() == {"agrees": 24, "agrees if truncated": 4, "differs": 6}
+    assert "of 34 numbers 24 agree, 4 agree if truncated (40.8 %, 1.056, 3.5 %, 15.9 %) and 6 differ" in text
+    # One scheme gives all numbers but those of the cone.
+    of_scheme = table[table["scheme"] != ""]
+    others = of_scheme[of_scheme["scheme_verdict"] != "agrees"]
+    assert (len(of_scheme), others["printed"].tolist()) == (16, ["65.0", "5.8"])
+    for row in others.itertuples():
+        assert f"{abs(row.by_scheme):.2f} % for {row.printed} %" in text
+    for suffix, page in FIGURES["numbers"].texts({"": table}).items():
+        assert (FOLDER / f"paper_values{suffix}").read_text(encoding="utf-8") == page
+
+
+@pytest.mark.parametrize("n", [1.5, pytest.param(5.0, marks=pytest.mark.heavy)])
+def test_between_the_points_a_curve_over_the_tabor_number_is_the_model(n):
+    curve = TaborCurve.through(np.array(cohesive_forces(n, 0.4, eta(n))))
+    mu = np.exp(np.random.default_rng(7).uniform(*np.log(RANGE), 12))
+    direct = [MaugisDugdaleImproved().evaluate(Case(n, 0.4, x).problem(), "pull_off_force").value for x in mu]
+    np.testing.assert_allclose(curve(mu), direct, rtol=curve.error + 1e-13)
+    assert curve.error < 1e-8
+    # A series that is too short has a large error.
+    kink, at = TaborCurve.through(np.maximum(np.array(tabor_numbers(40)), 0.7)), np.geomspace(*RANGE, 999)
+    assert 1e-3 < np.max(np.abs(kink(at) / np.maximum(at, 0.7) - 1)) < 10 * kink.error
+
+
+def test_the_largest_error_is_found_between_samples():
+    """kappa = 0.1 / (1 + log(mu / 0.3)^2 / 2), largest at mu = 0.3."""
+    mu = np.array(tabor_numbers(80))
+    model = TaborCurve.through(1.0 + 0.1 / (1.0 + 0.5 * np.log(mu / 0.3) ** 2))
+    extreme = largest_error(model, TaborCurve.through(np.ones(81), 1e-3))
+    assert (extreme.kappa, extreme.mu) == (pytest.approx(0.1, abs=1e-8), pytest.approx(0.3, rel=1e-5))
+    assert extreme.u >= 1.1e-3
+
+
+def test_what_a_stiff_punch_loses_beyond_the_domain():
+    # p = -(8/3) (H0 + 1 + f)^-3 beyond f = 50, the repulsion being 1e-10 of it.
+    cone, sphere = exact_force(1.0, 0.4, 1e-4), exact_force(2.0, 0.2, 1e-4)
+    H = cone["central_gap"] + 1.0
+    assert cone["beyond"] == pytest.approx(16 / 3 * (1 / (50 + H) - 0.5 * H / (50 + H) ** 2), rel=2e-4)
+    assert sphere["beyond"] == pytest.approx(8 / 3 / (51 + sphere["central_gap"]) ** 2, rel=2e-4)
+
+
+@pytest.mark.parametrize(("n", "mu"), [(1.0, 0.236), (2.0, 0.668)])
+def test_the_scheme_tends_to_the_converged_force_without_what_is_beyond(n, mu):
+    """Two routes to the truncated force: the exact one without a part, and the sums of the scheme."""
+    exact = exact_force(n, 0.4, mu)
+    truncated = exact["force"] - exact["beyond"]
+    coarse, fine = (scheme_force(n, 0.4, mu, segments)["force"] - truncated for segments in (300, 600))
+    # Second order: what is left after extrapolation is a small part of the error of the finer mesh.
+    assert abs(fine + (fine - coarse) / 3) < 0.15 * abs(fine) + 1e-5
+    assert 3.0 < coarse / fine < 5.0
+
+
+@pytest.mark.heavy
+def test_the_scheme_is_its_own_model():
+    """The stationary load found from the accurate surface is that of the path followed from afar."""
+    followed = create("fscm-stieltjes-400").evaluate(Case(2.0, 0.4, 0.5).problem(), "pull_off_force").value
+    direct = scheme_force(2.0, 0.4, 0.5, segments=400)
+    assert direct["force"] == pytest.approx(followed, abs=direct["u_num"] + 1e-7)
