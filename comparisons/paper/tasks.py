@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from comparisons.model import ComputationFailed, HasCurve, HasProfile, NotApplicable
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
+from comparisons.problem import Problem
 from comparisons.quantities.points import FARTHEST_GAP
 from comparisons.registry import create
 from comparisons.runs.tasks import evaluate
@@ -50,7 +51,7 @@ def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
     """
 
     def evaluated() -> Json:
-        row = evaluate(create(model), name, Case(n, k, mu))
+        row = evaluate(create(model), name, Problem.dimensionless(n, k, mu))
         return {name: getattr(row, name) for name in ("value", "u_num", "status", "reason")}
 
     return {"value": None, "u_num": None} | _with_status(evaluated)
@@ -77,7 +78,7 @@ def curve(model: str, n: float, k: float, mu: float) -> Json:
         tracing = create(model)
         if not isinstance(tracing, HasCurve):
             raise NotApplicable(f"{model} has no force-displacement curve")
-        path = tracing.curve(Case(n, k, mu).problem())
+        path = tracing.curve(Problem.dimensionless(n, k, mu))
         return {
             "displacement": _numbers(path.displacement),
             "load": _numbers(path.load),
@@ -109,7 +110,7 @@ def profile(model: str, n: float, k: float, mu: float) -> Json:
         tracing = create(model)
         if not isinstance(tracing, HasProfile):
             raise NotApplicable(f"{model} has no profile at pull-off")
-        whole = tracing.pull_off_profile(Case(n, k, mu).problem())
+        whole = tracing.pull_off_profile(Problem.dimensionless(n, k, mu))
         inside = whole.gap <= FARTHEST_GAP
         columns = {name: _numbers(getattr(whole, name)[inside]) for name in ("radius", "pressure", "gap")}
         return columns | {"u_distance": float(whole.u_distance)}
@@ -137,7 +138,7 @@ def cohesive_surface(model: str, n: float, k: float, mu: float) -> Json:
     >>> round(zone["contact_radius"], 3), round(zone["cohesive_radius"], 3)
     (1.264, 2.054)
     """
-    zone = COHESIVE[model].profiles(Case(n, k, mu).problem())
+    zone = COHESIVE[model].profiles(Problem.dimensionless(n, k, mu))
     numbers = {name: getattr(zone, name) for name in ("contact_radius", "cohesive_radius", "displacement")}
     return numbers | {name: getattr(zone, name).tolist() for name in ("radius", "pressure", "gap")}
 

@@ -12,7 +12,7 @@ from comparisons.output.style import COLOURS
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, level, line_a_value, panels
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure
-from comparisons.runs.cases import Case
+from comparisons.problem import Problem
 
 __all__ = ["chi", "insensitive_regions", "largest_chi"]
 

@@ -14,8 +14,9 @@ from comparisons.paper.figures.fig11_gradient_effect import largest_chi
 from comparisons.paper.paper_figure import result_of, together
 from comparisons.paper.statements.measures import ROUNDING, Made, label, measure, of_case, two
 from comparisons.paper.values.scheme_forces import SEGMENTS, exact_force, scheme_force
-from comparisons.runs.cases import Case
-from fscm import LennardJones, PowerLaw, PowerPunch, Problem
+from comparisons.problem import Problem
+from fscm import LennardJones, PowerLaw, PowerPunch
+from fscm import Problem as PhysicalProblem
 
 __all__ = ["force_at"]
 
@@ -65,7 +66,7 @@ def tabor_difference(reference: str, case: dict[str, float], nu: str) -> Made:
     """Tabor number (Eq. 29) over that of Jin et al. (2021), less 1."""
     yield {}
     solid, law = PowerLaw(E0=2.0, c0=3.0, k=case["k"], nu=float(nu)), LennardJones(work_of_adhesion=0.7, z0=0.25)
-    problem = Problem(solid, PowerPunch(case["n"], Q=1.5), law)
+    problem = PhysicalProblem(solid, PowerPunch(case["n"], Q=1.5), law)
     what = f"|mu / mu_Jin - 1|, {label(tuple(case.items()))}, nu = {float(nu):g}"
     return abs(problem.mu / problem.tabor_number_jin - 1.0), ROUNDING, what
 
@@ -82,7 +83,7 @@ def coefficient_in(reference: str, case: dict[str, float]) -> Made:
 
 @measure("C_out", "formula")
 def coefficient_out(reference: str, case: dict[str, float]) -> Made:
-    problem = Case(case["n"], case["k"], 1.0).problem()
+    problem = Problem.dimensionless(case["n"], case["k"], 1.0)
     return (yield from _closed(-JKR().evaluate(problem, "jump_out_displacement").value))
 
 
@@ -116,7 +117,7 @@ def force_at(n: float, k: float, mu: float, nu: float) -> dict[str, float]:
         If the finite elements refuse or fail.
     """
     try:
-        force = FiniteElements(nu).evaluate(Case(n, k, mu).problem(), "pull_off_force")
+        force = FiniteElements(nu).evaluate(Problem.dimensionless(n, k, mu), "pull_off_force")
     except NotApplicable as refusal:
         raise ComputationFailed(str(refusal)) from refusal
     return {"value": force.value, "u_num": force.u_num}

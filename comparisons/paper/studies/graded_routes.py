@@ -8,17 +8,16 @@ surface, the solid that it is at great depth, and its equivalent power law at th
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import fem_reference
 import fscm
 from comparisons.models.solver import translated
-from comparisons.problem_file.description import ProblemFile, Section
-from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.elastic_energy import energy_spectrum
-from comparisons.problem_file.equivalent_power_law import least_wrong, power_law_of
-from comparisons.problem_file.kinds import kind_of
+from comparisons.problem import Problem as AnyProblem
+from comparisons.problem import Section
+from comparisons.problem.elastic_energy import energy_spectrum
+from comparisons.problem.equivalent_solid import least_wrong, power_law_of
+from comparisons.problem.kinds import kind_of
 from fscm import LennardJones, NoSuchEvent, NotConverged, PowerLaw, PowerPunch, Problem, solve_together
 
 __all__ = [
@@ -230,10 +229,10 @@ def equivalent_of(kind: str, parameter: float) -> tuple[float, float]:
     """
     punch = Section("sphere", {"R": SCALES["Q"]})
     law = Section("lennard-jones-9-3", {name: SCALES[name] for name in ("work_of_adhesion", "z0")})
-    problem = ProblemFile(Path(kind), case_of(kind, parameter).section, punch, law)
+    problem = AnyProblem(case_of(kind, parameter).section, punch, law)
     spectrum = energy_spectrum(problem)
     k, _, _, surface = least_wrong(spectrum)
-    posed, _ = dimensionless_problem(power_law_of(problem, k, surface, spectrum))
+    posed = power_law_of(problem, k, surface, spectrum)
     return round(posed.k, _DIGITS), round(posed.mu, _DIGITS)
 
 

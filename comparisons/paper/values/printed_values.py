@@ -26,7 +26,7 @@ from comparisons.paper.solver_tasks import TRACTION
 from comparisons.paper.tasks import quantity
 from comparisons.paper.values.scheme_forces import HEIGHT, exact_force
 from comparisons.paper.values.tabor_curve import TaborCurve, largest_error, tabor_numbers
-from comparisons.runs.cases import Case
+from comparisons.problem import Problem
 from fscm.laws import LennardJones
 
 __all__ = ["COMPUTED", "LAST_K", "Computed", "cohesive_forces", "first_or_last_step", "judged", "paper_values"]
@@ -83,14 +83,14 @@ def _farthest(values: Sequence[float], paper_value: PaperValue) -> float:
 
 
 def _jump_out_limits() -> list[float]:
-    return [-JKR().evaluate(Case(n, 1.0, 1.0).problem(), "jump_out_displacement").value for n in _SHAPES]
+    return [-JKR().evaluate(Problem.dimensionless(n, 1.0, 1.0), "jump_out_displacement").value for n in _SHAPES]
 
 
 def _exponent(paper_value: PaperValue) -> float:
     """Slope of log(1 - displacement) over log(mu); the difference of two logarithms loses a digit."""
     low, high = (
-        math.log(1.0 - SemiRigid().evaluate(case.problem(), "jump_in_displacement").value)
-        for case in (Case(paper_value.n, paper_value.k, mu) for mu in (1.0, math.e**7))
+        math.log(1.0 - SemiRigid().evaluate(case, "jump_in_displacement").value)
+        for case in (Problem.dimensionless(paper_value.n, paper_value.k, mu) for mu in (1.0, math.e**7))
     )
     return (high - low) / 7.0
 

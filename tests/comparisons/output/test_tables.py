@@ -15,7 +15,8 @@ from comparisons.judging.judge import judge
 from comparisons.output.run_summary import every_error
 from comparisons.output.tables import largest, relative_error
 from comparisons.paper.studies.error_bands import error_table
-from comparisons.runs.cases import Case, Grid
+from comparisons.problem import Problem
+from comparisons.runs.cases import Grid
 
 GATE = """
 [[gate]]

@@ -18,21 +18,21 @@ from comparisons.paper.figures.jumps import asymptotes, coefficients
 from comparisons.paper.figures.surfaces import fig17_surface_models
 from comparisons.paper.solver_tasks import jumps, near_critical, surface
 from comparisons.paper.tasks import curve, profile, quantity
+from comparisons.problem import Problem
 from comparisons.registry import create
-from comparisons.runs.cases import Case
 
 STRENGTH = 16 * math.sqrt(3) / 27
 STRESSES = {"md-original": THEORETICAL_STRENGTH, "md-improved": eta(2.0)}
 
 
 def of_model(model, name, *case):
-    return create(model).evaluate(Case(*case).problem(), name)
+    return create(model).evaluate(Problem.dimensionless(*case), name)
 
 
 @pytest.mark.parametrize(
     ("function", "arguments", "status", "reason"),
     [
-        (quantity, ("bradley", "jump_in_gap", 2, 0.4, 1), "not-applicable", "rigid pair"),
+        (quantity, ("bradley", "jump_in_gap", 2, 0.4, 1), "not-applicable", "jump_in_gap"),
         (quantity, ("fscm", "pull_off_force", 0.5, 0.4, 1), "failed", "diverges"),
         (curve, ("dmt", 0.4, 0.1, 1), "failed", "shape index"),
         (profile, ("bradley", 2, 0.4, 1), "not-applicable", "no profile"),

@@ -22,8 +22,8 @@ from comparisons.paper.values.printed_values import (
 )
 from comparisons.paper.values.scheme_forces import exact_force, scheme_force
 from comparisons.paper.values.tabor_curve import RANGE, TaborCurve, largest_error, tabor_numbers
+from comparisons.problem import Problem
 from comparisons.registry import create
-from comparisons.runs.cases import Case
 
 ROOT = Path(__file__).parents[3]
 FOLDER = ROOT / PAPER_BASELINE
@@ -46,7 +46,8 @@ def test_largest_errors_of_the_flattest_punch_have_every_printed_digit(model, mu
     kappa = []
     for place in (0.9 * mu, mu, 1.1 * mu):
         own, exact = (
-            create(name).evaluate(Case(5.0, 0.4, place).problem(), "pull_off_force").value for name in (model, "fscm")
+            create(name).evaluate(Problem.dimensionless(5.0, 0.4, place), "pull_off_force").value
+            for name in (model, "fscm")
         )
         kappa.append(100 * (own / exact - 1))
     assert kappa[1] == max(kappa)
@@ -90,7 +91,7 @@ def test_the_committed_verdicts_are_those_of_the_committed_numbers_and_of_the_re
 def test_between_the_points_a_curve_over_the_tabor_number_is_the_model(n):
     curve = TaborCurve.through(np.array(cohesive_forces(n, 0.4, eta(n))))
     mu = np.exp(np.random.default_rng(7).uniform(*np.log(RANGE), 12))
-    direct = [MaugisDugdaleImproved().evaluate(Case(n, 0.4, x).problem(), "pull_off_force").value for x in mu]
+    direct = [MaugisDugdaleImproved().evaluate(Problem.dimensionless(n, 0.4, x), "pull_off_force").value for x in mu]
     np.testing.assert_allclose(curve(mu), direct, rtol=curve.error + 1e-13)
     assert curve.error < 1e-8
     # A series that is too short has a large error.
@@ -129,6 +130,6 @@ def test_the_scheme_tends_to_the_converged_force_without_what_is_beyond(n, mu):
 @pytest.mark.heavy
 def test_the_scheme_is_its_own_model():
     """The stationary load found from the accurate surface is that of the path followed from afar."""
-    followed = create("fscm-stieltjes-400").evaluate(Case(2.0, 0.4, 0.5).problem(), "pull_off_force").value
+    followed = create("fscm-stieltjes-400").evaluate(Problem.dimensionless(2.0, 0.4, 0.5), "pull_off_force").value
     direct = scheme_force(2.0, 0.4, 0.5, segments=400)
     assert direct["force"] == pytest.approx(followed, abs=direct["u_num"] + 1e-7)
