@@ -1,7 +1,7 @@
 """Check of the tables of a TOML file by a JSON Schema, with one sentence for an error.
 
 A schema here states for each key what is admissible in its `description`, as the end of a sentence that begins with
-"must be", and for each table what it is in its `title` ("a gate").  Numbers may be infinite or NaN, as in TOML.
+"must be", and for each table what it is in its `title` ("a gate").  Numbers may be infinite, as in TOML, but not NaN.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ def _validator(schema: str) -> Validator:
     Draft202012Validator.check_schema(content)
     types = Draft202012Validator.TYPE_CHECKER.redefine_many(
         {
-            "number": lambda _, value: is_real(value),
+            "number": lambda _, value: is_real(value) and value == value,
             "integer": lambda _, value: isinstance(value, int) and is_real(value),
         }
     )

@@ -66,26 +66,12 @@ def card_gates(judged: pd.DataFrame) -> list[Gate]:
     >>> [gate.id for gate in card_gates(pd.DataFrame({"gate": ["MINE", "CARD-DIFFERS"]}))]
     ['CARD-DIFFERS']
     """
-    present = set(judged["gate"])
+    entries = {"quantity": "pull_off_force", "candidate": GIVEN, "reference": GIVEN, "cases": {}, "metric": "abs"}
+    limits = {"lower": 0.0, "upper": 0.0, "max_reference_uncertainty": math.inf, "min_cases": 1}
     return [
-        Gate(
-            id=id,
-            requirement=requirement,
-            quantity="pull_off_force",
-            candidate=GIVEN,
-            reference=GIVEN,
-            cases={},
-            metric="abs",
-            lower=0.0,
-            upper=0.0,
-            max_reference_uncertainty=math.inf,
-            basis="derived",
-            grounds=grounds,
-            min_cases=1,
-            tier="quick",
-        )
+        Gate(id=id, requirement=requirement, grounds=grounds, basis="derived", tier="quick", **entries, **limits)
         for id, (requirement, grounds) in _REQUIREMENTS.items()
-        if id in present
+        if id in set(judged["gate"])
     ]
 
 
@@ -186,10 +172,9 @@ def _same_digits(id: object, rows: pd.DataFrame) -> str:
 
 def verdict_on_model(id: str, name: str, verdict: Verdict, reason: str, **facts: Any) -> Judged:
     """Return a verdict on a model as a whole, or with the facts of a case."""
-    blank: dict[str, Any] = dict.fromkeys(Judged.__slots__)
-    limits = {"lower": math.nan, "upper": math.nan, "status": "", "quantity": "", "problem": ""}
-    known = {"gate": id, "candidate": name, "reference": name, "verdict": verdict, "reason": reason}
-    return Judged(**blank | limits | known | facts)
+    return Judged(
+        **{"gate": id, "quantity": "", "candidate": name, "reference": name} | facts, verdict=verdict, reason=reason
+    )
 
 
 def every_verdict(tables: Iterable[pd.DataFrame]) -> pd.DataFrame:

@@ -13,7 +13,7 @@ from enum import StrEnum
 
 from comparisons.numerics.number_text import exact
 
-__all__ = ["Verdict", "crossing", "decide", "expecting_failure", "requiring_certainty", "roll_up"]
+__all__ = ["Verdict", "crossing", "decide", "expecting_failure", "roll_up"]
 
 
 class Verdict(StrEnum):
@@ -59,26 +59,6 @@ def decide(error: float, uncertainty: float, lower: float, upper: float) -> Verd
     if high < lower or low > upper:
         return Verdict.FAIL
     return Verdict.INCONCLUSIVE
-
-
-def requiring_certainty(verdict: Verdict, uncertainties: Iterable[tuple[float, float | None]]) -> Verdict:
-    """Return INCONCLUSIVE for a pass with an uncertainty above its limit; any other verdict is unchanged.
-
-    Parameters
-    ----------
-    verdict : Verdict
-        As of `decide`.
-    uncertainties : iterable of (float, float or None)
-        Each with its largest admissible value; None for no limit.
-
-    Examples
-    --------
-    >>> [str(requiring_certainty(Verdict.PASS, [(1e-3, limit)])) for limit in (1e-2, 1e-4, None)]
-    ['PASS', 'INCONCLUSIVE', 'PASS']
-    """
-    if verdict is Verdict.PASS and any(limit is not None and u > limit for u, limit in uncertainties):
-        return Verdict.INCONCLUSIVE
-    return verdict
 
 
 def crossing(error: float, uncertainty: float, lower: float, upper: float, shares: Mapping[str, float]) -> str:

@@ -16,8 +16,7 @@ from zlib import crc32
 
 from comparisons.console.progress import log
 from comparisons.domain import Domain, declared_domain
-from comparisons.judging.fresh_points import REACH, Sample, sample
-from comparisons.judging.fresh_problems import case_of_label, fresh_problems
+from comparisons.judging.fresh_points import REACH, Sample, problem_of_name, sample
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.selection import cases_of, relevant
 from comparisons.problem import Problem
@@ -37,10 +36,6 @@ _METRICS = ("rel", "abs", "en")
 _ATLAS, _FSCM = "atlas", "fscm"
 #: The largest bound of the atlas (docs/atlas.md), and how many times wider the limits of a gate are where it is used.
 _ATLAS_BOUND, _WIDER = 1e-4, 100.0
-
-
-#: Why a gate on problem files has no fresh cases.
-_NO_RANGE = "its problem files have no key that is varied over a range of numbers, in which fresh cases could be drawn"
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,42 +156,28 @@ def draw(
     undrawn: list[Undrawn] = []
     passed_over = 0
     # Tags select cases that were chosen for a gate of one model, as those near a limit: no others are like them.
-    for gate in relevant(
-        [gate for gate in gates if gate.candidate == GIVEN or "tags" not in gate.cases], grids, models
-    ):
+    judged = [gate for gate in gates if gate.candidate == GIVEN or "tags" not in gate.cases]
+    for gate in relevant(judged, grids, models):
         if gate.candidate not in models:
             continue
-        if gate.metric not in _METRICS or gate.rival or gate.reference_at:
-            passed_over += 1
-            continue
-        domain = domains.get(gate.candidate)
-        every = cases_of(gate, grids, models)
-        own_seed = [seed, crc32(f"{gate.id} {gate.candidate}".encode())]
-        if of_files := [case for case in every if not case.is_dimensionless]:
-            if problems := fresh_problems(of_files, count, own_seed):
-                parts.append(_part(gate, gate.candidate, gate.reference, problems))
-            else:
-                undrawn.append(Undrawn(gate.id, gate.candidate, gate.quantity, _NO_RANGE))
-        standing = [case for case in every if case.is_dimensionless]
-        if of_files and not standing:
-            continue
-        known = [
-            case for grid in grids if gate.quantity in grid.quantities for case in grid.cases if case.is_dimensionless
-        ]
-        drawn = sample(gate, domain, standing, known, count, own_seed)
+        drawn = None
+        if gate.metric in _METRICS and not gate.rival and not gate.reference_at:
+            standing = cases_of(gate, grids, models)
+            avoided = [case for grid in grids if gate.quantity in grid.quantities for case in grid.cases]
+            own_seed = [seed, crc32(f"{gate.id} {gate.candidate}".encode())]
+            drawn = sample(gate, domains.get(gate.candidate), standing, avoided, count, own_seed)
         if drawn is None:
             passed_over += 1
             continue
         if drawn.untested:
-            undrawn.append(
-                Undrawn(gate.id, gate.candidate, gate.quantity, _no_room(gate.candidate, drawn, len(standing)))
-            )
+            reason = _no_room(gate.candidate, drawn, len(standing))
+            undrawn.append(Undrawn(gate.id, gate.candidate, gate.quantity, reason))
         elif not drawn.cases:
             log(f"{gate.id} has no fresh cases: the domain of {gate.candidate} has none that it can be judged in")
         by_reference: dict[str, list[Problem]] = {}
         for case in drawn.cases:
             by_reference.setdefault(_reference(gate, case), []).append(case)
-        parts += [_part(gate, gate.candidate, name, tuple(sorted(own))) for name, own in sorted(by_reference.items())]
+        parts += [_part(gate, gate.candidate, name, tuple(own)) for name, own in sorted(by_reference.items())]
     if passed_over:
         log(f"{passed_over} gates have no fresh cases: of curves, with a rival or a reference_at, or of single cases")
     return FreshCases(count, seed, tuple(parts), tuple(undrawn))
@@ -208,7 +189,7 @@ def _as_json(case: Problem) -> list[float] | str:
 
 def _of_json(cases: Iterable[list[float] | str], folder: Path) -> tuple[Problem, ...]:
     return tuple(
-        case_of_label(case, folder) if isinstance(case, str) else Problem.dimensionless(*case[:3]) for case in cases
+        problem_of_name(case, folder) if isinstance(case, str) else Problem.dimensionless(*case[:3]) for case in cases
     )
 
 
@@ -216,7 +197,7 @@ def _no_room(name: str, drawn: Sample, standing: int) -> str:
     reach = ", ".join(f"{low:g} <= {parameter} <= {high:g}" for parameter, (low, high) in REACH.items())
     return (
         f"{len(drawn.untested)} of {standing} standing cases are in parts of the domain of {name} that have no room "
-        f"for fresh cases beside them: points, ranges hardly wider than a point, or outside {reach}"
+        f"for fresh cases beside them: points, ranges hardly wider than a point, no varied key, or outside {reach}"
     )
 
 

@@ -6,6 +6,7 @@ checked by the schema ``comparisons/data/gates.schema.json``, the rest by `compa
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from importlib.resources import files
@@ -15,8 +16,8 @@ from typing import Any
 from comparisons.data.input_files import read_text
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, label, validated
-from comparisons.judging.file_cases import in_si_units, matches
-from comparisons.judging.gate_checks import check_compared, check_numbers, plain_text
+from comparisons.judging.case_selection import has_parameters, in_si_units
+from comparisons.judging.gate_checks import defects, plain_text
 from comparisons.problem import Problem
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import MODELS
@@ -122,12 +123,9 @@ class Gate:
         >>> gate.selects(Grid("a", "A", "quick", "b", (), (), ()), Problem.dimensionless(2, 0, 1))
         False
         """
-        tags = self.cases.get("tags")
-        if tags is not None and not {grid.id, *grid.tags} & set(tags):
+        if not {grid.id, *grid.tags} & set(self.cases.get("tags", [grid.id])):
             return False
-        if not case.is_dimensionless and self.reference_at:
-            return False
-        return all(matches(wanted, case[name]) for name, wanted in self.cases.items() if name != "tags")
+        return (case.is_dimensionless or not self.reference_at) and has_parameters(case, self.cases)
 
     def reference_case(self, case: Problem) -> Problem:
         """Return the case in which the reference is taken."""
@@ -166,16 +164,14 @@ def load_gates(text: str, models: Iterable[str] = (), source: str = "the gates f
     shared = {
         name: plain_text(name, grounds, f"{source}: grounds") for name, grounds in tables.get("grounds", {}).items()
     }
-    known = {*MODELS, *models}
     gates = [
-        _gate(table, f"{source}: {label('gate', table, number)}", known, shared)
+        _gate(table, f"{source}: {label('gate', table, number)}", {*MODELS, *models}, shared)
         for number, table in enumerate(tables["gate"], start=1)
     ]
-    ids = [gate.id for gate in gates]
-    if twice := sorted({id for id in ids if ids.count(id) > 1}):
-        raise ValueError(f"{source}: the id of a gate must be unique; {', '.join(twice)} is there twice")
-    used = {table.get("shared_grounds") for table in tables["gate"]}
-    if unused := sorted(shared.keys() - used):
+    counts = Counter(gate.id for gate in gates)
+    if repeated := sorted(id for id, count in counts.items() if count > 1):
+        raise ValueError(f"{source}: the id of a gate must be unique; {', '.join(repeated)} is there twice")
+    if unused := sorted(shared.keys() - {table.get("shared_grounds") for table in tables["gate"]}):
         raise ValueError(
             f"{source}: no gate has the shared grounds {', '.join(unused)}: remove them, or name them in one"
         )
@@ -191,18 +187,17 @@ def _gate(table: dict[str, Any], where: str, models: set[str], shared: Mapping[s
         known_name("shared grounds", name, shared, where)
         table["grounds"] = shared[name]
     if "measured_range" in table:
-        low, high = table["measured_range"]
-        table["measured_range"] = (float(low), float(high))
+        table["measured_range"] = tuple(map(float, table["measured_range"]))
     table["cases"] = in_si_units(table["cases"], where)
     gate = Gate(**table | {key: plain_text(key, table[key], where) for key in _TEXTS if key in table})
-    check_compared(gate, where)
     for key in ("candidate", "reference", "rival"):
         model = getattr(gate, key)
         if model is not None and not (key == "candidate" and model == GIVEN):
             known_name(key, model, sorted(models), where)
     quantities = CURVES if gate.metric == "curve" else QUANTITIES
     known_name(f"quantity of the metric {gate.metric}", gate.quantity, quantities, where)
-    check_numbers(gate, where)
+    for defect in defects(gate):
+        raise ValueError(f"{where}: {defect}")
     return gate
 
 

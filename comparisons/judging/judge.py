@@ -6,13 +6,14 @@ belongs to no declared case is an ERROR and not a smaller sample.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 
 import pandas as pd
 
 from comparisons.domain import Domain
-from comparisons.judging.decision import Verdict, crossing, decide, expecting_failure, requiring_certainty
+from comparisons.judging.decision import Verdict, crossing, decide, expecting_failure
 from comparisons.judging.gates import Gate
 from comparisons.judging.metrics import CaseError, case_error, reference_range
 from comparisons.judging.selection import cases_of, key_of, names_in, relevant
@@ -43,20 +44,20 @@ class Judged:
     quantity: str
     candidate: str
     reference: str
-    n: float | None
-    k: float | None
-    mu: float | None
-    nu: float | None
-    value: float | None
-    u_num: float | None
-    reference_value: float | None
-    u_reference: float | None
-    error: float | None
-    uncertainty: float | None
-    lower: float
-    upper: float
-    verdict: Verdict
-    reason: str
+    n: float | None = None
+    k: float | None = None
+    mu: float | None = None
+    nu: float | None = None
+    value: float | None = None
+    u_num: float | None = None
+    reference_value: float | None = None
+    u_reference: float | None = None
+    error: float | None = None
+    uncertainty: float | None = None
+    lower: float = math.nan
+    upper: float = math.nan
+    verdict: Verdict = Verdict.ERROR
+    reason: str = ""
     status: str = ""
     problem: str = ""
 
@@ -100,29 +101,20 @@ def judge(
     DataFrame
         The fields of `Judged`, one row a gate and case, in the order of the gates, then of the cases.
     """
-    named = None if models is None else set(models)
     chosen = relevant(gates, grids, models)
     expected = _planned(chosen, grids, models) | {*others}
     numbers = stored_numbers(rows, names_in(gate for gate in chosen if gate.metric != "curve"))
     points = stored_curves(curves, names_in(gate for gate in chosen if gate.metric == "curve"))
-    judged = [
-        one
-        for gate in chosen
-        for one in _judge_gate(
-            gate,
-            grids,
-            points if gate.metric == "curve" else numbers,
-            expected,
-            named,
-            (domains or {}).get(gate.candidate),
-        )
-    ]
+    judged: list[Judged] = []
+    for gate in chosen:
+        results, domain = points if gate.metric == "curve" else numbers, (domains or {}).get(gate.candidate)
+        judged += _judge_gate(gate, cases_of(gate, grids, models), results, expected, domain)
     return verdict_table(judged)
 
 
 def verdict_table(judged: Iterable[Judged]) -> pd.DataFrame:
     """Return verdicts as a table with the fields of `Judged`; `problem` where a case is of a file."""
-    return without_empty_problem(pd.DataFrame([asdict(one) for one in judged], columns=list(Judged.__slots__)))
+    return without_empty_problem(pd.DataFrame([asdict(each) for each in judged], columns=list(Judged.__slots__)))
 
 
 def _planned(gates: Collection[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> set[Key]:
@@ -139,23 +131,17 @@ def _planned(gates: Collection[Gate], grids: Sequence[Grid], models: Sequence[st
 
 
 def _judge_gate(
-    gate: Gate,
-    grids: Sequence[Grid],
-    results: StoredResults,
-    expected: set[Key],
-    models: set[str] | None,
-    domain: Domain | None,
+    gate: Gate, cases: Sequence[Problem], results: StoredResults, expected: set[Key], domain: Domain | None
 ) -> Iterator[Judged]:
     if results.missing_columns:
         yield _whole(gate, f"the results have no column {', '.join(results.missing_columns)}")
         return
-    cases = cases_of(gate, grids, models)
     scale = reference_range(gate, cases, results)
     judged = [_judge_case(gate, case, results, scale, domain) for case in cases]
     yield from judged
     if refusal := _refusal(gate, judged):
         yield replace(_whole(gate, refusal), verdict=Verdict.FAIL)
-    evaluated = sum(one.verdict is not Verdict.NOT_APPLICABLE for one in judged)
+    evaluated = sum(case.verdict is not Verdict.NOT_APPLICABLE for case in judged)
     if evaluated < gate.min_cases:
         yield _whole(gate, f"{evaluated} cases were evaluated, {gate.min_cases} are declared")
     stray = [key for key in results.rows if key[:2] == (gate.candidate, gate.quantity) and key not in expected]
@@ -165,7 +151,7 @@ def _judge_gate(
 
 def _refusal(gate: Gate, judged: Sequence[Judged]) -> str:
     """Return why the candidate has too few values; nothing if it has enough, or is evaluated nowhere."""
-    evaluated = [one.status for one in judged if one.status != OUTSIDE]
+    evaluated = [case.status for case in judged if case.status != OUTSIDE]
     answered = evaluated.count("ok") + evaluated.count(NO_EVENT)
     if gate.min_coverage is None or not evaluated or answered >= gate.min_coverage * len(evaluated):
         return ""
@@ -176,93 +162,77 @@ def _refusal(gate: Gate, judged: Sequence[Judged]) -> str:
 
 
 def _judge_case(gate: Gate, case: Problem, results: StoredResults, scale: float, domain: Domain | None) -> Judged:
-    own, key = problem_for(gate.candidate, case), key_of(gate.candidate, gate, case)
-    inside = domain is None or not own.is_dimensionless or domain.contains(gate.quantity, own.parameters)
-    status = results.status(key) if inside else OUTSIDE
-    if domain is not None and (domain.is_list or not own.is_dimensionless) and status == "not-applicable":
-        status = OUTSIDE
+    own, status = problem_for(gate.candidate, case), results.status(key_of(gate.candidate, gate, case))
+    outside = domain is not None and own.is_dimensionless and not domain.contains(gate.quantity, own.parameters)
+    # A list of cases has no others, and the domain has no problem of a file.
+    unlisted = domain is not None and (domain.is_list or not own.is_dimensionless) and status == "not-applicable"
     n, k, mu, nu, name = own.key
-    one = replace(_whole(gate, ""), n=n, k=k, mu=mu, nu=nu, problem=name, status=status)
+    judged = replace(_whole(gate, ""), n=n, k=k, mu=mu, nu=nu, problem=name)
+    judged = replace(judged, status=OUTSIDE if outside or unlisted else status)
     try:
-        if domain is not None and not inside:
+        if domain is not None and outside:
             raise UnusableResult(Verdict.NOT_APPLICABLE, domain.refusal(gate.quantity))
-        found = case_error(gate, case, results, scale)
+        error = case_error(gate, case, results, scale)
     except UnusableResult as unusable:
-        verdict, reason = unusable.verdict, unusable.reason
-        if domain is not None and status == "not-applicable":
-            if results.status(key_of(gate.reference, gate, gate.reference_case(case))) == "not-applicable":
-                return replace(
-                    one, verdict=Verdict.NOT_APPLICABLE, status=NO_EVENT, reason=f"{reason}; as the reference"
-                )
-            return replace(one, verdict=Verdict.FAIL, reason=f"{reason} (inside the domain that the model declares)")
-        if verdict is Verdict.NOT_APPLICABLE and gate.not_applicable == "error":
-            verdict, reason = Verdict.ERROR, f"{reason} ({_REMEDY})"
-        return replace(one, verdict=verdict, reason=reason)
-    verdict, reason = decide(found.error, found.uncertainty, gate.lower, gate.upper), ""
+        reference = results.status(key_of(gate.reference, gate, gate.reference_case(case)))
+        return _without_error(gate, judged, unusable, domain is not None, reference)
+    verdict, reason = _decided(gate, error)
+    facts = error.facts | {"error": error.error, "uncertainty": error.uncertainty}
+    return replace(judged, **facts, verdict=verdict, reason=reason)
+
+
+def _without_error(
+    gate: Gate, judged: Judged, unusable: UnusableResult, has_domain: bool, status_of_reference: str
+) -> Judged:
+    """Return the verdict on a case in which the candidate or a model that it is compared with has no usable result."""
+    verdict, reason, status = unusable.verdict, unusable.reason, judged.status
+    if has_domain and status == "not-applicable":
+        if status_of_reference == "not-applicable":
+            verdict, status, reason = Verdict.NOT_APPLICABLE, NO_EVENT, f"{reason}; as the reference"
+        else:
+            verdict, reason = Verdict.FAIL, f"{reason} (inside the domain that the model declares)"
+    elif verdict is Verdict.NOT_APPLICABLE and gate.not_applicable == "error":
+        verdict, reason = Verdict.ERROR, f"{reason} ({_REMEDY})"
+    return replace(judged, verdict=verdict, status=status, reason=reason)
+
+
+def _decided(gate: Gate, case: CaseError) -> tuple[Verdict, str]:
+    """Return the verdict on an error, and its reason."""
+    error, reason = case.error, ""
+    verdict = decide(error, case.uncertainty, gate.lower, gate.upper)
     if verdict is Verdict.ERROR:
-        reason = f"the error {found.error:g} +- {found.uncertainty:g} is not a finite number"
-    elif verdict is Verdict.INCONCLUSIVE:
-        shares = {f"the {role} {getattr(gate, role)}": u for role, u in found.shares.items()}
-        reason = crossing(found.error, found.uncertainty, gate.lower, gate.upper, shares)
-    else:
-        limited = _limited_uncertainties(gate, found)
-        certain = requiring_certainty(verdict, [(u, limit) for _, u, limit in limited])
-        if certain is not verdict:
-            verdict, reason = certain, _too_uncertain(gate, limited)
+        return verdict, f"the error {error:g} +- {case.uncertainty:g} is not a finite number"
+    if verdict is Verdict.INCONCLUSIVE:
+        shares = {f"the {role} {getattr(gate, role)}": u for role, u in case.shares.items()}
+        reason = crossing(error, case.uncertainty, gate.lower, gate.upper, shares)
+    elif verdict is Verdict.PASS and (reason := _too_uncertain(gate, case)):
+        verdict = Verdict.INCONCLUSIVE
     if gate.expected_failure:
-        verdict = expecting_failure(verdict)
-        reason = reason or gate.expected_failure
-    if verdict not in (Verdict.ERROR, Verdict.XPASS) and (changed := _change(gate, found.error)):
-        verdict, reason = Verdict.FAIL, changed
-    return replace(one, **found.facts, error=found.error, uncertainty=found.uncertainty, verdict=verdict, reason=reason)
+        verdict, reason = expecting_failure(verdict), reason or gate.expected_failure
+    if gate.measured_range and verdict is not Verdict.XPASS:
+        low, high = gate.measured_range
+        if not low <= error <= high:
+            between = f"{exact(low)} and {exact(high)}"
+            changed = f"E = {error:.6g} has changed: the errors measured when the gate was made are between {between}"
+            return Verdict.FAIL, changed
+    return verdict, reason
 
 
-def _change(gate: Gate, error: float) -> str:
-    """Return why an error is none of those that were measured when the gate was made; empty if it is one."""
-    if gate.measured_range is None or gate.measured_range[0] <= error <= gate.measured_range[1]:
-        return ""
-    low, high = map(exact, gate.measured_range)
-    return f"E = {error:.6g} has changed: the errors measured when the gate was made are between {low} and {high}"
-
-
-def _limited_uncertainties(gate: Gate, found: CaseError) -> list[tuple[str, float, float | None]]:
-    """Return the role of each model, its uncertainty, and the largest one that the gate tolerates."""
-    return [
-        ("candidate", found.u_candidate, gate.max_candidate_uncertainty),
-        ("reference", found.u_reference, gate.max_reference_uncertainty),
-    ]
-
-
-def _too_uncertain(gate: Gate, limited: Sequence[tuple[str, float, float | None]]) -> str:
-    """Return whose uncertainty is larger than the gate tolerates, with the numbers."""
+def _too_uncertain(gate: Gate, case: CaseError) -> str:
+    """Return whose uncertainty is larger than the gate tolerates, with the numbers; empty if none is."""
     unit = " of the reference's value" if gate.metric in ("rel", "en") else ""
-    too_large = [
+    uncertainties = {
+        "candidate": (case.u_candidate, gate.max_candidate_uncertainty),
+        "reference": (case.u_reference, gate.max_reference_uncertainty),
+    }
+    return "; ".join(
         f"u of the {role} {getattr(gate, role)} is {u:.6g}{unit}; the gate tolerates {exact(limit)}"
-        for role, u, limit in limited
+        for role, (u, limit) in uncertainties.items()
         if limit is not None and u > limit
-    ]
-    return "; ".join(too_large)
+    )
 
 
 def _whole(gate: Gate, reason: str) -> Judged:
     """Return an ERROR of the gate as a whole, which is also the blank form of a case."""
-    return Judged(
-        gate=gate.id,
-        quantity=gate.quantity,
-        candidate=gate.candidate,
-        reference=gate.reference,
-        n=None,
-        k=None,
-        mu=None,
-        nu=None,
-        value=None,
-        u_num=None,
-        reference_value=None,
-        u_reference=None,
-        error=None,
-        uncertainty=None,
-        lower=float(gate.lower),
-        upper=float(gate.upper),
-        verdict=Verdict.ERROR,
-        reason=reason,
-    )
+    limits = {"lower": float(gate.lower), "upper": float(gate.upper)}
+    return Judged(gate.id, gate.quantity, gate.candidate, gate.reference, **limits, reason=reason)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from comparisons.judging.decision import Verdict, decide, expecting_failure, requiring_certainty, roll_up
+from comparisons.judging.decision import Verdict, decide, expecting_failure, roll_up
 
 NUMBERS = st.floats(-1e3, 1e3)
 
@@ -70,18 +70,3 @@ def test_an_expected_failure_is_strict():
         "XFAIL",
         "XPASS",
     ]
-
-
-@pytest.mark.parametrize(
-    ("uncertainties", "verdict"),
-    [
-        ([(1e-3, 1e-2), (1e-3, 1e-2)], "PASS"),
-        ([(1e-3, 1e-2), (1e-1, 1e-2)], "INCONCLUSIVE"),
-        ([(1e-1, 1e-2), (1e-3, 1e-2)], "INCONCLUSIVE"),
-        ([(1e-1, None), (1.01e-2, 1e-2)], "INCONCLUSIVE"),
-        ([(1e-2, 1e-2), (1e-1, None)], "PASS"),
-    ],
-)
-def test_each_uncertainty_must_be_as_small_as_required(uncertainties, verdict):
-    assert requiring_certainty(Verdict.PASS, uncertainties) == verdict
-    assert requiring_certainty(Verdict.FAIL, uncertainties) == "FAIL"
