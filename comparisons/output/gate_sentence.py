@@ -56,32 +56,28 @@ def gates_sentence(gates: pd.DataFrame, bases: Mapping[str, str]) -> str:
     '1 of 1 gate passes, 0 fail as declared, 0 unexpected; report cards: 1 INCONCLUSIVE'
     """
     of_user = without_card_gates(gates)
-    checks = Counter(Verdict(verdict) for verdict in gates["verdict"].drop(of_user.index) if verdict != Verdict.PASS)
-    found = ", ".join(f"{checks[verdict]} {verdict}" for verdict in Verdict if checks[verdict])
-    return _of_user(of_user, bases) + (f"; report cards: {found}" if found else "")
-
-
-def _of_user(gates: pd.DataFrame, bases: Mapping[str, str]) -> str:
-    verdicts = [Verdict(verdict) for verdict in gates["verdict"]]
-    if not verdicts:
-        return "No gate was evaluated"
-    found = Counter(verdicts)
-    parts = [_passed(found[Verdict.PASS], len(verdicts))]
-    declared = [gate for gate, verdict in zip(gates["gate"], verdicts, strict=True) if verdict == Verdict.XFAIL]
-    paper = sum(bases.get(gate) == "published" for gate in declared)
+    others = Counter(verdict for verdict in gates["verdict"].drop(of_user.index) if verdict != Verdict.PASS)
+    cards = f"; report cards: {_counts(others)}" if others else ""
+    if of_user.empty:
+        return f"No gate was evaluated{cards}"
+    count, total = Counter(of_user["verdict"]), len(of_user)
+    declared = count[Verdict.XFAIL]
+    paper = sum(bases.get(gate) == "published" for gate in of_user.loc[of_user["verdict"] == Verdict.XFAIL, "gate"])
+    passed = count[Verdict.PASS]
+    parts = [f"{passed} of {counted(total, 'gates', 'gate')} {'passes' if 1 in (passed, total) else 'pass'}"]
     if paper:
         parts.append(counted(paper, "differ", "differs") + " from the paper as declared")
-    if len(declared) > paper or not paper:
-        parts.append(counted(len(declared) - paper, "fail", "fails") + " as declared")
-    if empty := found[Verdict.NOT_APPLICABLE]:
+    if declared > paper or not paper:
+        parts.append(counted(declared - paper, "fail", "fails") + " as declared")
+    if empty := count[Verdict.NOT_APPLICABLE]:
         parts.append(counted(empty, "apply", "applies") + " to no case")
-    others = [f"{found[verdict]} {verdict}" for verdict in Verdict if verdict not in _EXPECTED and found[verdict]]
-    unexpected = len(verdicts) - sum(found[verdict] for verdict in _EXPECTED)
-    return f"{', '.join(parts)}, {unexpected} unexpected" + (f": {', '.join(others)}" if others else "")
+    surprises = Counter(unexpected(of_user)["verdict"])
+    parts.append(f"{surprises.total()} unexpected" + (f": {_counts(surprises)}" if surprises else ""))
+    return ", ".join(parts) + cards
 
 
-def _passed(count: int, gates: int) -> str:
-    return f"{count} of {counted(gates, 'gates', 'gate')} {'passes' if 1 in (count, gates) else 'pass'}"
+def _counts(verdicts: Counter[str]) -> str:
+    return ", ".join(f"{verdicts[verdict]} {verdict}" for verdict in Verdict if verdicts[verdict])
 
 
 def gates_line(gates: pd.DataFrame, verdicts: pd.DataFrame, bases: Mapping[str, str]) -> str:
@@ -100,14 +96,13 @@ def gates_line(gates: pd.DataFrame, verdicts: pd.DataFrame, bases: Mapping[str, 
     --------
     >>> gates = pd.DataFrame({"gate": ["A", "B", "C"], "verdict": ["PASS", "XFAIL", "FAIL"]})
     >>> gates_line(gates, gates, {"B": "published"}).partition(" (")[2]
-    '3 cases: 1 PASS, 1 XFAIL, 1 FAIL)'
+    '3 cases: 1 FAIL, 1 XFAIL, 1 PASS)'
     """
     judged = without_card_gates(verdicts)
+    sentence = gates_sentence(gates, bases)
     if judged.empty:
-        return gates_sentence(gates, bases)
-    cases = Counter(map(str, judged["verdict"]))
-    every = ", ".join(f"{cases[verdict]} {verdict}" for verdict in reversed(Verdict) if cases[verdict])
-    return f"{gates_sentence(gates, bases)} ({counted(len(judged), 'cases', 'case')}: {every})"
+        return sentence
+    return f"{sentence} ({counted(len(judged), 'cases', 'case')}: {_counts(Counter(judged['verdict']))})"
 
 
 def unexpected(gates: pd.DataFrame) -> pd.DataFrame:

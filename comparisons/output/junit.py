@@ -1,11 +1,11 @@
-"""Verdicts as JUnit XML, which CI systems read: one test case a gate and case."""
+"""Verdicts as JUnit XML, which CI systems read: one test suite a gate, one test case a case."""
 
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Callable, Mapping
-from xml.etree import ElementTree
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import pandas as pd
 
@@ -42,12 +42,8 @@ def evaluation_seconds(*tables: pd.DataFrame) -> dict[Key, float]:
     >>> evaluation_seconds(pd.DataFrame(case | {"seconds": [0.5]}))
     {('jkr', 'pull_off_force', 2.0, 0.0, 1.0, None, ''): 0.5}
     """
-    return {
-        key: float(seconds)
-        for table in tables
-        if {"model", "quantity", *PARAMETERS, "seconds"} <= set(table.columns)
-        for key, seconds in zip(keys_in(table), table["seconds"], strict=True)
-    }
+    timed = [table for table in tables if {"model", "quantity", *PARAMETERS, "seconds"} <= set(table)]
+    return {key: float(s) for table in timed for key, s in zip(keys_in(table), table["seconds"], strict=True)}
 
 
 def junit(
@@ -65,41 +61,25 @@ def junit(
         The time of each evaluation, as of `evaluation_seconds`.  The time of a test case is that of the candidate, and
         a suite has the sum of its cases: an evaluation that two gates use counts in both.
     """
-    times = pd.Series([_seconds(row, seconds or {}) for _, row in judged.iterrows()], index=judged.index, dtype=float)
-    root = ElementTree.Element("testsuites", {"name": "fscm-bench"} | _counts(judged, times))
+    times = [(seconds or {}).get(key, 0.0) for key in keys_in(judged.rename(columns={"candidate": "model"}))]
+    judged = judged.assign(time=[time if math.isfinite(time) else 0.0 for time in times])
+    root = Element("testsuites", {"name": "fscm-bench"} | _counts(judged))
     for gate, group in judged.groupby("gate", sort=False):
-        suite = ElementTree.SubElement(root, "testsuite", {"name": _text(gate)} | _counts(group, times[group.index]))
-        _coverage(suite, group)
-        for index, row in group.iterrows():
-            _case(suite, row, command, times[index])
+        suite = SubElement(root, "testsuite", {"name": _text(gate)} | _counts(group))
+        properties = SubElement(suite, "properties")
+        for candidate, rows in group.groupby("candidate", sort=False):
+            for name, number in coverage(rows["status"]).items():
+                SubElement(properties, "property", name=_text(f"{candidate} {name}"), value=str(number))
+        for _, row in group.iterrows():
+            _case(suite, row, command)
     if overall(judged) is Verdict.ERROR and not (judged["verdict"] == Verdict.ERROR).any():
-        _nothing_evaluated(root)
-    ElementTree.indent(root)
-    return ElementTree.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"
-
-
-def _nothing_evaluated(root: ElementTree.Element) -> None:
-    """Add an error, so that a CI system that reads this file alone does not take it for a success."""
-    suite = ElementTree.SubElement(root, "testsuite", name="gates", tests="1", errors="1", failures="0", skipped="0")
-    case = ElementTree.SubElement(suite, "testcase", classname="fscm-bench.gates", name="evaluated", time=_time(0.0))
-    ElementTree.SubElement(case, "error", message="no gate was evaluated")
-    for name in ("tests", "errors"):
-        root.set(name, str(int(root.get(name, "0")) + 1))
-
-
-def _coverage(suite: ElementTree.Element, group: pd.DataFrame) -> None:
-    """State in how many cases each candidate was evaluated and has a value."""
-    properties = ElementTree.SubElement(suite, "properties")
-    for candidate, rows in group.groupby("candidate", sort=False):
-        for name, number in coverage(rows["status"]).items():
-            ElementTree.SubElement(properties, "property", name=_text(f"{candidate} {name}"), value=str(number))
-
-
-def _seconds(row: pd.Series, seconds: Mapping[Key, float]) -> float:
-    """Return the time of the evaluation of a verdict's candidate; 0 where nothing was evaluated."""
-    (key,) = keys_in(row.to_frame().T.assign(model=row["candidate"]))
-    found = seconds.get(key, 0.0)
-    return found if math.isfinite(found) else 0.0
+        # A CI system that reads this file alone must not take it for a success.
+        suite = SubElement(root, "testsuite", name="gates", tests="1", errors="1", failures="0", skipped="0")
+        case = SubElement(suite, "testcase", classname="fscm-bench.gates", name="evaluated", time="0")
+        SubElement(case, "error", message="no gate was evaluated")
+        root.attrib |= {"tests": str(len(judged) + 1), "errors": "1"}
+    indent(root)
+    return tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"
 
 
 def numbers_text(row: pd.Series) -> str:
@@ -113,32 +93,25 @@ def numbers_text(row: pd.Series) -> str:
     return f"E = {row['error']}, U = {row['uncertainty']}, limits {limits_text(row['lower'], row['upper'])}"
 
 
-def _case(suite: ElementTree.Element, row: pd.Series, command: Callable[[pd.Series], str], seconds: float) -> None:
+def _case(suite: Element, row: pd.Series, command: Callable[[pd.Series], str]) -> None:
     parameters = [f"{name}={row[name]:g}" for name in PARAMETERS if pd.notna(row[name])]
-    parameters += [row["problem"]] if row.get("problem") else []
-    case = ElementTree.SubElement(
-        suite,
-        "testcase",
-        classname=_text(f"fscm-bench.{row['gate']}"),
-        name=_text(f"{row['candidate']} {row['quantity']} {' '.join(parameters) or 'whole gate'}"),
-        time=_time(seconds),
-    )
+    label = " ".join(filter(None, [*parameters, row.get("problem")])) or "whole gate"
+    name = _text(f"{row['candidate']} {row['quantity']} {label}")
+    classname, time = _text(f"fscm-bench.{row['gate']}"), _time(row["time"])
+    case = SubElement(suite, "testcase", classname=classname, name=name, time=time)
     numbers = numbers_text(row)
-    element = _ELEMENTS.get(row["verdict"])
-    if element:
-        message = f"{row['verdict']}: {row['reason'] or numbers}"
-        ElementTree.SubElement(case, element, message=_text(message)).text = _text(f"{numbers}\n{command(row)}")
+    if element := _ELEMENTS.get(row["verdict"]):
+        message = _text(f"{row['verdict']}: {row['reason'] or numbers}")
+        SubElement(case, element, message=message).text = _text(f"{numbers}\n{command(row)}")
     else:
-        ElementTree.SubElement(case, "system-out").text = _text(numbers)
+        SubElement(case, "system-out").text = _text(numbers)
 
 
-def _counts(rows: pd.DataFrame, times: pd.Series) -> dict[str, str]:
-    kinds = rows["verdict"].map(_ELEMENTS).value_counts()
-    counts = {
-        name: str(int(kinds.get(kind, 0)))
-        for name, kind in {"errors": "error", "failures": "failure", "skipped": "skipped"}.items()
-    }
-    return {"tests": str(len(rows))} | counts | {"time": _time(math.fsum(times))}
+def _counts(rows: pd.DataFrame) -> dict[str, str]:
+    kinds = list(rows["verdict"].map(_ELEMENTS))
+    attributes = {"errors": "error", "failures": "failure", "skipped": "skipped"}
+    counts = {name: str(kinds.count(kind)) for name, kind in attributes.items()}
+    return {"tests": str(len(rows)), **counts, "time": _time(math.fsum(rows["time"]))}
 
 
 def _time(seconds: float) -> str:

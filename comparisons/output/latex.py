@@ -1,4 +1,4 @@
-"""Tables in LaTeX with booktabs, siunitx and longtable, in ASCII, to be input into a paper.
+"""Texts and tables in LaTeX with booktabs, siunitx and longtable, in ASCII, to be input into a paper.
 
 Any text is typeset: a character that LaTeX has no form for is written by its number, as [U+4E2D].
 """
@@ -7,264 +7,166 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import pandas as pd
 
-from comparisons.output.table import aligned, is_number
+from comparisons.output.alignment import aligned, number_parts
 
 __all__ = ["LatexTable", "escaped", "latex", "latex_table"]
 
 _PACKAGES = r"% The document needs \usepackage{array,booktabs,longtable,pdflscape,siunitx}"
 
-#: Rows of a table that floats; a longer one goes on on the next page.
-_FLOAT_ROWS = 12
+#: Shorter texts do not wrap; the space between two columns, in characters.
+_SHORT, _GAP = 16, 1.2
 
 
-class _Page(NamedTuple):
-    """Font of a table, width of its digits and of the page in points, and whether the page is turned."""
+def _pairs(words: str) -> dict[str, str]:
+    """Every other word by the one before it."""
+    listed = words.split()
+    return dict(zip(listed[::2], listed[1::2], strict=True))
 
-    font: str
-    digit: float
-    room: float
-    turned: bool
-
-
-_UPRIGHT = _Page("footnotesize", 4.5, 345.0, turned=False)
-_TURNED = _Page("scriptsize", 4.2, 598.0, turned=True)
-
-#: Space between two columns in points; and digits of a text that is worth a broader page.
-_GAP, _TEXT = 5.0, 24.0
 
 #: Characters with a meaning of their own.  [ and * would be taken as arguments of the end of a row.
-_SPECIAL = {
-    "\\": r"\textbackslash{}",
-    "~": r"\textasciitilde{}",
-    "^": r"\textasciicircum{}",
-    "<": r"\textless{}",
-    ">": r"\textgreater{}",
-    "|": r"\textbar{}",
-    "[": "{[}",
-    "*": "{*}",
-    '"': "{''}",
-    "`": "{`}",
-    **{character: "\\" + character for character in "{}&%$#_"},
-}
+_SPECIAL = {character: "\\" + character for character in "{}&%$#_"}
+_SPECIAL |= _pairs("[ {[} * {*} \" {''} ` {`} ’ {'} “ {``} ” {''}")
 
-#: Signs of mathematics by their commands.
-_SIGNS = {
-    "−": "-",
-    "≤": r"\leq",
-    "≥": r"\geq",
-    "≠": r"\neq",
-    "≈": r"\approx",
-    "±": r"\pm",
-    "×": r"\times",
-    "·": r"\cdot",
-    "∞": r"\infty",
-    "√": r"\surd",
-    "→": r"\rightarrow",
-    "′": r"\prime",
-    "°": r"\circ",
-}
+#: Commands of text, signs of mathematics, and Greek letters that have a command.
+_TEXTS = _pairs(r"\ textbackslash ~ textasciitilde ^ textasciicircum < textless > textgreater | textbar")
+_TEXTS |= _pairs("– textendash — textemdash § S æ ae ø o Ø O ł l Ł L ß ss")
+_SIGNS = _pairs("≤ leq ≥ geq ≠ neq ≈ approx ± pm × times · cdot ∞ infty √ surd → rightarrow ′ prime ° circ")
+_GREEK = "αβγδεζηθικλμνξπρστυφχψωΓΔΘΛΞΠΣΥΦΨΩ"
 
-_TEXTS = {
-    "–": r"\textendash{}",
-    "—": r"\textemdash{}",
-    "’": "{'}",
-    "“": "{``}",
-    "”": "{''}",
-    "§": r"\S{}",
-    "ß": r"\ss{}",
-    "æ": r"\ae{}",
-    "ø": r"\o{}",
-    "Ø": r"\O{}",
-    "ł": r"\l{}",
-    "Ł": r"\L{}",
-}
-
-#: Combining accents by their commands.
-_ACCENTS = {
-    "\N{COMBINING GRAVE ACCENT}": "`",
-    "\N{COMBINING ACUTE ACCENT}": "'",
-    "\N{COMBINING CIRCUMFLEX ACCENT}": "^",
-    "\N{COMBINING TILDE}": "~",
-    "\N{COMBINING DIAERESIS}": '"',
-    "\N{COMBINING RING ABOVE}": "r",
-    "\N{COMBINING DOUBLE ACUTE ACCENT}": "H",
-    "\N{COMBINING CARON}": "v",
-    "\N{COMBINING CEDILLA}": "c",
-}
-
-#: Greek letters that have a command in both sizes, and in the small one; others have the shape of Latin letters.
-_GREEK = {"GAMMA", "DELTA", "THETA", "LAMDA", "XI", "PI", "SIGMA", "UPSILON", "PHI", "PSI", "OMEGA"}
-_SMALL_GREEK = _GREEK | {"ALPHA", "BETA", "EPSILON", "ZETA", "ETA", "IOTA", "KAPPA", "MU", "NU", "RHO", "TAU", "CHI"}
-_LETTER = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (\w+)")
+#: Combining accents: grave, acute, circumflex, tilde, diaeresis, ring, double acute, caron, cedilla.
+_ACCENTS = _pairs("\u0300 ` \u0301 ' \u0302 ^ \u0303 ~ \u0308 \" \u030a r \u030b H \u030c v \u0327 c")
 
 #: A minus sign before a number.
 _MINUS = re.compile(r"(?<![A-Za-z0-9_.)}-])-(?=[0-9])")
 
 
-@dataclass(frozen=True, slots=True)
-class LatexTable:
+class _Page(NamedTuple):
+    """Font of a table, characters of a line, width of one in points, and the environment around the table."""
+
+    font: str
+    characters: int
+    width: float
+    around: str
+
+
+_UPRIGHT = _Page("footnotesize", 74, 4.6, "center")
+_TURNED = _Page("scriptsize", 138, 4.3, "landscape")
+
+
+class LatexTable(NamedTuple):
     """A table in LaTeX: what stands before and after its rows, and a line for each row."""
 
     before: str
     rows: list[str]
     after: str
 
-    def text(self) -> str:
-        """Return the whole table."""
-        return "\n".join([self.before, *self.rows, self.after, ""])
 
+def latex(texts: pd.DataFrame, caption: str, label: str) -> str:
+    r"""Return a table of texts in LaTeX.
 
-def latex(table: pd.DataFrame, caption: str, label: str) -> str:
-    r"""Return a table of texts in LaTeX that fits a page of A4.
-
-    Columns of numbers are aligned at the decimal marker by siunitx; texts wrap where there is no room for them; a wide
-    table is on its side, and a long one continues on the next page.
+    Columns of numbers are aligned at the decimal marker by siunitx, long texts wrap, a wide table is on its side, and a
+    long one continues on the next page.
 
     Parameters
     ----------
-    table : DataFrame
+    texts : DataFrame
     caption, label : str
         A reference is to ``tab:`` and the label.
 
     Examples
     --------
-    >>> print(latex(pd.DataFrame({"gate": ["A_1"], "E": ["1.788482(3)"]}), "Verdicts", "verdicts"), end="")
+    >>> print(latex(pd.DataFrame({"gate": ["A_1"], "E": ["1.788482(3)"]}), "Verdicts", "verdicts").split("endhead")[0])
     % The document needs \usepackage{array,booktabs,longtable,pdflscape,siunitx}
-    \begin{table}\footnotesize\setlength{\tabcolsep}{2.5pt}\centering
-    \caption{Verdicts}\label{tab:verdicts}
-    \begin{tabular}{@{}lS[table-format=1.6(1)]@{}}
+    \begin{center}\footnotesize\setlength{\tabcolsep}{2.5pt}\setlength{\LTcapwidth}{\linewidth}
+    \begin{longtable}{@{}lS[table-format=1.6(1)]@{}}
+    \caption{Verdicts} \label{tab:verdicts} \\
     \toprule
-    gate & {$E$} \\
+    {gate} & {$E$} \\
     \midrule
-    A\_1 & 1.788482(3) \\
-    \bottomrule
-    \end{tabular}
-    \end{table}
+    \endfirsthead
+    \caption[]{Verdicts} \\
+    \toprule
+    {gate} & {$E$} \\
+    \midrule
+    \
     """
-    return latex_table(table, caption, label).text()
+    table = latex_table(texts, caption, label)
+    return "\n".join([table.before, *table.rows, table.after])
 
 
-def latex_table(table: pd.DataFrame, caption: str, label: str) -> LatexTable:
+def latex_table(texts: pd.DataFrame, caption: str, label: str) -> LatexTable:
     """Return a table as `latex` does, row by row."""
-    columns = [_Column(str(name), [" ".join(str(cell).split()) for cell in table[name]]) for name in table]
-    page = _UPRIGHT if sum(min(one.natural, _TEXT) for one in columns) <= _digits(_UPRIGHT, columns) else _TURNED
-    widths = _widths(columns, _digits(page, columns))
-    wraps = [width < one.natural and not one.number for one, width in zip(columns, widths, strict=True)]
-    form = "".join(
-        rf">{{\raggedright\arraybackslash}}p{{{width * page.digit:.1f}pt}}" if wrapped else one.form
-        for one, width, wrapped in zip(columns, widths, wraps, strict=True)
+    plain = {str(name): [" ".join(str(text).split()) for text in texts[name]] for name in texts}
+    page, form = _layout(plain)
+    cells = pd.DataFrame({_heading(name, column): _cells(column) for name, column in plain.items()}, dtype=object)
+    made = cells.style.hide(axis="index").to_latex(
+        environment="longtable",
+        hrules=True,
+        siunitx=True,
+        caption=escaped(caption),
+        label="tab:" + re.sub("[^A-Za-z0-9-]+", "-", label),
+        column_format=form,
     )
-    heads = [one.head(wrapped) for one, wrapped in zip(columns, wraps, strict=True)]
-    head = "\n".join([r"\toprule", " & ".join(heads) + r" \\", r"\midrule"])
-    cells = zip(*(one.cells(wrapped) for one, wrapped in zip(columns, wraps, strict=True)), strict=True)
-    rows = [" & ".join(row) + r" \\" for row in cells] or [rf"\multicolumn{{{len(columns)}}}{{l}}{{none}} \\"]
-    named = rf"\caption{{{escaped(caption)}}}\label{{tab:{re.sub('[^A-Za-z0-9-]+', '-', label)}}}"
-    font = rf"\{page.font}\setlength{{\tabcolsep}}{{{_GAP / 2:g}pt}}"
-    if len(rows) <= _FLOAT_ROWS and not page.turned:
-        before = [rf"\begin{{table}}{font}\centering", named, rf"\begin{{tabular}}{{@{{}}{form}@{{}}}}", head]
-        after = [r"\bottomrule", r"\end{tabular}", r"\end{table}"]
-    else:
-        around = "landscape" if page.turned else "center"
-        before = [rf"\begin{{{around}}}{font}\setlength{{\LTcapwidth}}{{\linewidth}}"]
-        before += [rf"\begin{{longtable}}{{@{{}}{form}@{{}}}}", rf"{named}\\", head, r"\endfirsthead"]
-        before += [head, r"\endhead", r"\bottomrule", r"\endfoot"]
-        after = [r"\end{longtable}", rf"\end{{{around}}}"]
-    return LatexTable("\n".join([_PACKAGES, *before]), rows, "\n".join(after))
+    begin = (
+        rf"\begin{{{page.around}}}\{page.font}\setlength{{\tabcolsep}}{{2.5pt}}\setlength{{\LTcapwidth}}{{\linewidth}}"
+    )
+    before, end_of_head, body = made.partition("\\endlastfoot\n")
+    rows, end, _ = body.partition(r"\end{longtable}")
+    return LatexTable(
+        f"{_PACKAGES}\n{begin}\n{before}{end_of_head}".rstrip("\n"),
+        rows.splitlines(),
+        f"{end}\n\\end{{{page.around}}}\n",
+    )
 
 
-@dataclass(frozen=True)
-class _Column:
-    """A column of texts; its widths are in digits."""
-
-    heading: str
-    texts: Sequence[str]
-
-    @property
-    def number(self) -> bool:
-        """Whether siunitx aligns it."""
-        return aligned(self.texts)
-
-    @property
-    def natural(self) -> float:
-        """The width if nothing wraps; the words of the heading of numbers are below each other."""
-        if not self.number:
-            return max(map(_width, [self.heading, *self.texts]))
-        others = [text for text in self.texts if not is_number(text)]
-        return max(self._format()[1], *map(_width, [*others, *self.heading.split()]))
-
-    @property
-    def least(self) -> float:
-        """The width of the widest piece that cannot be broken."""
-        pieces = [piece for text in (*self.texts, self.heading) for piece in re.findall(r"[^\s\-_/]+[-_/]*", text)]
-        return self.natural if self.number else max(map(_width, pieces), default=0.0)
-
-    @property
-    def form(self) -> str:
-        """The column in the preamble where it does not wrap."""
-        return f"S[table-format={self._format()[0]}]" if self.number else "l"
-
-    def _format(self) -> tuple[str, float]:
-        """The format of siunitx that has room for every number, and its width."""
-        found = [match for match in map(is_number, self.texts) if match]
-        digits, decimals, bracket = (max((len(match[i] or "") for match in found), default=0) for i in (1, 2, 3))
-        sign = "-" if any(match[0].startswith("-") for match in found) else ""
-        powers = [str(int(match[4])) for match in found if match[4]]
-        form = f"{sign}{digits}.{decimals}" + (f"({bracket})" if bracket else "")
-        width = digits + decimals + 1.2 * bracket + 2.0 * bool(sign) + 2.5 * bool(bracket)
-        if powers:
-            minus = "-" if any(power.startswith("-") for power in powers) else ""
-            most = max(len(power.lstrip("-")) for power in powers)
-            return f"{form}e{minus}{most}", width + 8.0 + most
-        return form, width
-
-    def head(self, wrapped: bool) -> str:
-        """The heading; a symbol of one letter is mathematics."""
-        if re.fullmatch("[A-Za-z]", self.heading):
-            return f"{{${self.heading}$}}"
-        words = self.heading.split()
-        if self.number and len(words) > 1:
-            stacked = r" \\ ".join(map(escaped, words))
-            return rf"{{\shortstack{{{stacked}}}}}"
-        return f"{{{escaped(self.heading)}}}" if self.number else _breakable(self.heading, wrapped)
-
-    def cells(self, wrapped: bool) -> list[str]:
-        """The texts; the power of ten of a number has no plus sign and no leading zeros."""
-        if not self.number:
-            return [_breakable(text, wrapped) for text in self.texts]
-        return [
-            re.sub(r"e(-?)\+?0*([0-9])", r"e\1\2", text) if not text or is_number(text) else f"{{{escaped(text)}}}"
-            for text in self.texts
-        ]
+def _layout(texts: Mapping[str, list[str]]) -> tuple[_Page, str]:
+    """The page of a table, and the form of its columns; texts that are not short share the room that others leave."""
+    widths = {name: max(map(len, [*name.split(), *column])) + _GAP for name, column in texts.items()}
+    wraps = [name for name, width in widths.items() if width > _SHORT and not aligned(texts[name])]
+    page = _UPRIGHT if sum(min(width, 2 * _SHORT) for width in widths.values()) <= _UPRIGHT.characters else _TURNED
+    room = page.characters - sum(width for name, width in widths.items() if name not in wraps)
+    forms = {name: f"S[table-format={_number_format(texts[name])}]" if aligned(texts[name]) else "l" for name in widths}
+    # The shortest first: what it leaves is for the others.
+    for place, name in enumerate(sorted(wraps, key=widths.__getitem__)):
+        share = min(widths[name], max(room / (len(wraps) - place), 6.0))
+        room -= share
+        if share < widths[name]:
+            forms[name] = rf">{{\raggedright\arraybackslash}}p{{{(share - _GAP) * page.width:.0f}pt}}"
+    return page, f"@{{}}{''.join(forms.values())}@{{}}"
 
 
-def _digits(page: _Page, columns: Sequence[_Column]) -> float:
-    """The room that columns have on a page, in digits."""
-    return (page.room - _GAP * (len(columns) - 1)) / page.digit
+def _number_format(texts: list[str]) -> str:
+    """The format of siunitx that has room for every number."""
+    parts = [match for match in map(number_parts, texts) if match]
+    digits, decimals, bracket = (max((len(match[i] or "") for match in parts), default=0) for i in (1, 2, 3))
+    powers = [str(int(match[4])) for match in parts if match[4]]
+    minus = "-" if any(power.startswith("-") for power in powers) else ""
+    power = f"e{minus}{max(len(power.lstrip('-')) for power in powers)}" if powers else ""
+    sign = "-" if any(match[0].startswith("-") for match in parts) else ""
+    return f"{sign}{digits}.{decimals}" + (f"({bracket})" if bracket else "") + power
 
 
-def _width(text: str) -> float:
-    """The width of a text in digits: capitals and signs of mathematics are broader."""
-    return len(text) + 0.6 * sum(one.isupper() or one in "mwMW%&@" or not one.isascii() for one in text)
+def _heading(heading: str, texts: list[str]) -> str:
+    """A heading; a symbol of one letter is mathematics, and the words above numbers are below each other."""
+    if re.fullmatch("[A-Za-z]", heading):
+        return f"${heading}$"
+    stacked = r" \\ ".join(map(escaped, heading.split()))
+    return rf"\shortstack{{{stacked}}}" if aligned(texts) and " " in heading else escaped(heading)
 
 
-def _widths(columns: Sequence[_Column], room: float) -> list[float]:
-    """The widths of columns: each has room for its longest piece, and a share of what is left."""
-    wanted = [one.natural - one.least for one in columns]
-    spare = max(room - sum(one.least for one in columns), 0.0)
-    share = min(1.0, spare / max(sum(wanted), 1e-9))
-    return [one.least + share * more for one, more in zip(columns, wanted, strict=True)]
-
-
-def _breakable(text: str, wrapped: bool) -> str:
-    """A text that may be broken after an underscore and after a slash, too."""
-    found = escaped(text)
-    return found.replace("\\_", "\\_\\allowbreak{}").replace("/", "/\\allowbreak{}") if wrapped else found
+def _cells(texts: list[str]) -> list[str]:
+    """The cells; the power of ten of a number has no plus sign and no leading zeros."""
+    if not aligned(texts):
+        return [escaped(text).replace("\\_", "\\_\\allowbreak{}").replace("/", "/\\allowbreak{}") for text in texts]
+    return [
+        re.sub(r"e(-?)\+?0*([0-9])", r"e\1\2", text) if not text or number_parts(text) else f"{{{escaped(text)}}}"
+        for text in texts
+    ]
 
 
 def escaped(text: str) -> str:
@@ -277,34 +179,27 @@ def escaped(text: str) -> str:
     """
     plain = "".join(map(_character, unicodedata.normalize("NFC", " ".join(text.split()))))
     # Two hyphens would become a dash, and the option of a command could not be copied.
-    return _MINUS.sub(r"\\ensuremath{-}", plain.replace("--", "-{}-"))
+    return _MINUS.sub(r"\\ensuremath{-}", plain.replace("−", r"\ensuremath{-}").replace("--", "-{}-"))
 
 
-def _character(one: str) -> str:
-    if one in _SPECIAL or one in _TEXTS:
-        return (_SPECIAL | _TEXTS)[one]
-    if one.isascii():
-        return one if one.isprintable() else " "
-    if one in _SIGNS:
-        return rf"\ensuremath{{{_SIGNS[one]}}}"
-    return _greek(one) or _composed(one) or f"{{[}}U+{ord(one):04X}]"
+def _character(character: str) -> str:
+    if character in _SPECIAL:
+        return _SPECIAL[character]
+    if character in _TEXTS:
+        return rf"\{_TEXTS[character]}{{}}"
+    if character.isascii() or character == "−":
+        return character if character.isprintable() else " "
+    if character in _SIGNS:
+        return rf"\ensuremath{{\{_SIGNS[character]}}}"
+    if character in _GREEK:
+        name = unicodedata.name(character).split()[-1].replace("LAMDA", "LAMBDA")
+        return rf"\ensuremath{{\{name.lower() if character.islower() else name.capitalize()}}}"
+    return _composed(character) or f"{{[}}U+{ord(character):04X}]"
 
 
-def _greek(one: str) -> str:
-    """A Greek letter without an accent; empty for any other character."""
-    named = _LETTER.fullmatch(unicodedata.name(one, ""))
-    if not named:
-        return ""
-    small, name = named[1] == "SMALL", named[2]
-    if name not in (_SMALL_GREEK if small else _GREEK):
-        return ""
-    name = name.replace("LAMDA", "LAMBDA")
-    return rf"\ensuremath{{\{name.lower() if small else name.capitalize()}}}"
-
-
-def _composed(one: str) -> str:
+def _composed(character: str) -> str:
     """A letter with an accent, a superscript, a subscript or another form of known characters; else empty."""
-    kind, *codes = (unicodedata.decomposition(one) or "-").split()
+    kind, *codes = (unicodedata.decomposition(character) or "-").split()
     parts = [chr(int(code, 16)) for code in ([] if kind == "-" else codes if kind.startswith("<") else [kind, *codes])]
     if len(parts) == 2 and parts[1] in _ACCENTS:
         return rf"\{_ACCENTS[parts[1]]}{{{_character(parts[0])}}}"

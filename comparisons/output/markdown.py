@@ -10,8 +10,16 @@ import pandas as pd
 
 __all__ = ["markdown", "to_step_summary"]
 
+#: What a table, HTML or Markdown takes for its own, and the starts of addresses that become links without any mark.
+_OWN = {
+    **{"&": "&amp;", "<": "&lt;", ">": "&gt;", "|": "\\|", "\n": " "},
+    **{character: f"&#{ord(character)};" for character in "\\`*[]!~"},
+    **{"://": "&#58;//", "www.": "www&#46;", "@": "&#64;<!-- -->"},
+}
+_OWN_TEXT = re.compile("|".join(map(re.escape, _OWN)), re.IGNORECASE)
 
-def markdown(table: pd.DataFrame, title: str) -> str:
+
+def markdown(texts: pd.DataFrame, title: str) -> str:
     r"""Return a table of texts as Markdown.
 
     Examples
@@ -23,18 +31,9 @@ def markdown(table: pd.DataFrame, title: str) -> str:
     | --- | --- |
     | A\|B | PASS |
     """
-    rows = [list(table.columns), ["---"] * len(table.columns), *table.astype(str).values.tolist()]
-    lines = ["| " + " | ".join(row if row == "---" else _escaped(row) for row in cells) + " |" for cells in rows]
+    head, *rows = ([_escaped(str(cell)) for cell in row] for row in [list(texts), *texts.to_numpy().tolist()])
+    lines = [f"| {' | '.join(cells)} |" for cells in (head, ["---"] * len(head), *rows)]
     return "\n".join([f"## {_escaped(title)}", "", *lines, ""])
-
-
-#: What a table, HTML or Markdown takes for its own, and the starts of addresses that become links without any mark.
-_OWN = {
-    **{"&": "&amp;", "<": "&lt;", ">": "&gt;", "|": "\\|", "\n": " "},
-    **{character: f"&#{ord(character)};" for character in "\\`*[]!~"},
-    **{"://": "&#58;//", "www.": "www&#46;", "@": "&#64;<!-- -->"},
-}
-_OWN_TEXT = re.compile("|".join(map(re.escape, _OWN)), re.IGNORECASE)
 
 
 def _escaped(text: str) -> str:

@@ -1,4 +1,4 @@
-"""Summary of a run and of a sweep for the terminal: how the computations ended, and the largest errors."""
+"""Summary of a run and of a sweep for the terminal: how the computations ended, values and the largest errors."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ from collections.abc import Iterator, Mapping, Sequence
 import pandas as pd
 from rich.console import RenderableType
 
-from comparisons.numerics.number_text import exact
+from comparisons.numerics.number_text import case_text, exact
+from comparisons.output.errors import worst_rows
 from comparisons.output.gate_sentence import counted
-from comparisons.output.table import Cell, Column, numbers, percents, short_percent, texts_of, values, words
-from comparisons.output.tables import worst_rows
+from comparisons.output.table import Column, Table, numbers, percents, short_percent, values, words
 from comparisons.output.terminal import rich_table
+from comparisons.output.varied_keys import key_columns, physical_text
+from comparisons.runs.case_columns import varied_of
 from comparisons.runs.rows import Row
 
 __all__ = [
@@ -23,21 +25,15 @@ __all__ = [
     "paper_sentence",
     "statuses",
     "summary_tables",
+    "values_of_problems",
 ]
 
-_MODEL, _QUANTITY, _PROBLEM = (words(name, name) for name in ("model", "quantity", "problem"))
-_CASE = tuple(numbers(name, name, ".4g") for name in ("n", "k", "mu"))
-_LARGEST = percents("largest", "kappa", "u_kappa")
-_SHORT = Column("largest", cell=lambda row: Cell(short_percent(row["kappa"], row["u_kappa"])))
+_MODEL, _QUANTITY, _PROBLEM, _REASON = (words(name, name) for name in ("model", "quantity", "problem", "reason"))
+_CASE = (*(numbers(name, name, ".4g") for name in ("n", "k", "mu")), _PROBLEM)
+_SHORT = Column("largest", lambda row: short_percent(row["kappa"], row["u_kappa"]))
 
-#: Values of n for which a line has room beside the models, and its columns.
-_SHAPES, _WIDTH = 4, 80
-
-#: Lines of a table that are no rows: title, columns and rule.
-_FRAME = 3
-
-#: Rows of the tables of a sweep, which have 30 lines at most.
-_MODELS, _ERRORS = 7, 10
+#: Values of n for which a line has room beside the models; rows of a table that summarises.
+_SHAPES, _MOST = 4, 24
 
 #: Failures that are written one by one.
 _FAILURES = 3
@@ -46,47 +42,32 @@ _FAILURES = 3
 _SEVERAL = {"agrees": "agree", "differs": "differ"}
 
 
-def largest_table(maxima: pd.DataFrame, width: int, lines: int) -> RenderableType | None:
-    """Return the largest abs(kappa) of each model, for each n if these are few and there are lines for them.
+def _shown(columns: Sequence[Column], rows: pd.DataFrame, title: str, most: int | None = _MOST) -> RenderableType:
+    """Return a table of the first rows; the title tells how many there are."""
+    more = f" (the first {most} of {len(rows)} rows)" if most and len(rows) > most else ""
+    return rich_table(Table("", title, columns, rows.head(most or len(rows))).texts, title + more)
+
+
+def largest_table(maxima: pd.DataFrame) -> RenderableType | None:
+    """Return the largest abs(kappa) of each model, for each n if these are few; None if there is no kappa.
 
     Parameters
     ----------
     maxima : DataFrame
-        As of `comparisons.output.tables.largest`.
-    width, lines : int
-        Columns of the terminal, and how many lines there are for the table.
-
-    Returns
-    -------
-    RenderableType or None
-        One column for each n, with k and mu below each error; or one row for each model with the largest over all n,
-        the first ones and their number if the lines are too few.  None if there is no kappa.
+        As of `comparisons.output.errors.largest`.
     """
     if maxima.empty:
         return None
-    several = maxima["quantity"].nunique() > 1
-    series = ["quantity", "model"] if several else ["model"]
-    lead = "" if several else f"{maxima['quantity'].iloc[0]}: "
-    worst = worst_rows(maxima, series)
-    by_shape = width >= _WIDTH and not several and maxima["n"].nunique() <= _SHAPES
-    if by_shape and _FRAME + 2 * len(worst) <= lines:
-        return rich_table(_by_shape(maxima), f"{lead}largest abs(kappa) in percent for each n; below it k and mu")
-    most = max(lines - _FRAME, 1)
-    first = "" if len(worst) <= most else f"the first {most} of {len(worst)} rows; "
-    title = f"{lead}largest abs(kappa) in percent over all n ({first}--verbose prints every n)"
-    columns = (*([_QUANTITY] if several else []), _MODEL, _SHORT, *_CASE)
-    return rich_table(texts_of(columns, worst.head(most)), title)
-
-
-def _by_shape(maxima: pd.DataFrame) -> pd.DataFrame:
+    if maxima["quantity"].nunique() > 1 or maxima["n"].nunique() > _SHAPES:
+        columns = (_QUANTITY, _MODEL, _SHORT, *_CASE)
+        title = "largest abs(kappa) in percent over all n (--verbose prints every n)"
+        return _shown(columns, worst_rows(maxima, ["quantity", "model"]), title)
     worst = worst_rows(maxima, ["model", "n"])
-    places = [
-        f"{short_percent(row['kappa'], row['u_kappa'])}\n{exact(row['k'])}, {row['mu']:.4g}"
-        for row in worst.to_dict("records")
-    ]
-    wide = worst.assign(shown=places).pivot(index="model", columns="n", values="shown").fillna("")
+    cells = [f"{_SHORT.text(row)}\n{exact(row['k'])}, {row['mu']:.4g}" for row in worst.to_dict("records")]
+    wide = worst.assign(cell=cells).pivot(index="model", columns="n", values="cell").fillna("")
     wide.columns = pd.Index([f"n = {exact(n)}" for n in wide.columns])
-    return wide.reset_index()
+    title = f"{maxima['quantity'].iloc[0]}: largest abs(kappa) in percent for each n; below it k and mu"
+    return rich_table(wide.reset_index(), title)
 
 
 def summary_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFrame) -> list[RenderableType]:
@@ -103,7 +84,7 @@ def summary_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFr
     # Not one without rows: older versions of pandas warn that its types will count.
     rows = pd.concat([table for table in tables if len(table)] or tables)
     counts = statuses(rows).assign(seconds=rows.groupby("model")["seconds"].sum().round(1))
-    return [_first(counts.reset_index(), _MODELS, "computations"), *([largest_errors(kappa)] if len(kappa) else [])]
+    return [rich_table(counts.reset_index(), "computations"), *([largest_errors(kappa)] if len(kappa) else [])]
 
 
 def statuses(rows: pd.DataFrame) -> pd.DataFrame:
@@ -120,17 +101,35 @@ def statuses(rows: pd.DataFrame) -> pd.DataFrame:
 
 def largest_errors(kappa: pd.DataFrame) -> RenderableType:
     """Return the largest relative error of each model and quantity, in percent, and its case."""
-    worst = worst_rows(kappa, ["quantity", "model"])
-    columns = [_QUANTITY, _MODEL, *(one for one in _CASE if worst[one.label].notna().any()), _LARGEST]
-    texts = texts_of([*columns, *([_PROBLEM] if "problem" in worst else [])], worst)
-    return _first(texts, _ERRORS, "largest abs(kappa) in percent")
+    columns = [_QUANTITY, _MODEL, *_CASE[:-1], percents("largest", "kappa", "u_kappa"), _PROBLEM]
+    return _shown(columns, worst_rows(kappa, ["quantity", "model"]), "largest abs(kappa) in percent")
 
 
-def _first(table: pd.DataFrame, rows: int, title: str) -> RenderableType:
-    """Return the first rows of a table; the title tells how many there are."""
-    if len(table) > rows:
-        title += f" (the first {rows} of {len(table)} rows)"
-    return rich_table(table.head(rows), title)
+def values_of_problems(results: pd.DataFrame) -> Iterator[RenderableType]:
+    r"""Yield a table of values in SI for each quantity; none where no case is of a problem file.
+
+    Parameters
+    ----------
+    results : DataFrame
+        As of `comparisons.runs.frames.frame`.
+
+    Examples
+    --------
+    >>> row = {"model": "fscm", "quantity": "pull_off_force", "problem": "pad.toml; punch.R=100 nm"}
+    >>> value = {"punch.R [m]": 1e-7, "value": 2e-8, "u_num": 1.54e-15, "unit": "N", "status": "ok"}
+    >>> (table,) = values_of_problems(pd.DataFrame([row | value]))
+    >>> from rich import print
+    >>> print(table)  # doctest: +NORMALIZE_WHITESPACE
+    values
+    punch.R  model  pull_off_force
+    ─────────────────────────────────
+    100 nm   fscm   20.0000000(16) nN
+    """
+    of_files = results[results["problem"] != ""] if "problem" in results else results.head(0)
+    keys = [name for name in varied_of(of_files) if of_files[name].notna().any()]
+    for quantity, rows in of_files.groupby("quantity", sort=False):
+        columns = [*(key_columns(keys) or [_PROBLEM]), _MODEL, Column(str(quantity), physical_text)]
+        yield _shown(columns, rows, "values")
 
 
 def every_error(results: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> Iterator[RenderableType]:
@@ -141,29 +140,20 @@ def every_error(results: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame
     results, kappa, maxima : DataFrame
         As `comparisons.pipeline.tables.RunTables` has them.
     """
-    case = [*_CASE, *([_PROBLEM] if "problem" in kappa else [])]
-    reference, error = values("reference", "reference_value", "u_reference"), _signed("kappa", 3)
-    for names, rows in kappa.groupby(["quantity", "reference"]):
-        title = f"{names[0]} of {names[1]} with its u_num, and kappa of each model in percent"
-        yield rich_table(texts_of([_MODEL, *case, reference, error], rows), title)
+    error = Column("kappa", lambda row: f"{100 * row['kappa']:+.3f}")
+    for (quantity, reference), rows in kappa.groupby(["quantity", "reference"]):
+        title = f"{quantity} of {reference} with its u_num, and kappa of each model in percent"
+        yield _shown([_MODEL, *_CASE, values("reference", "reference_value", "u_reference"), error], rows, title, None)
     failed = results[results["status"] == "failed"]
     if len(failed):
-        yield rich_table(texts_of([_MODEL, _QUANTITY, *case, words("reason", "reason")], failed), "failed computations")
+        yield _shown([_MODEL, _QUANTITY, *_CASE, _REASON], failed, "failed computations", None)
     yield rich_table(statuses(results).reset_index(), "computations")
     if len(maxima):
-        columns = [_QUANTITY, _MODEL, *_CASE, _signed("kappa", 2)]
-        yield rich_table(texts_of(columns, maxima), "largest abs(kappa) in percent")
-    stated = maxima[maxima["paper_percent"] != ""]
-    if len(stated):
-        end = Column("at_end", cell=lambda row: Cell("yes" if row["at_end"] else ""))
-        columns = [_MODEL, *_CASE, end, percents("kappa", "kappa", "u_kappa")]
-        columns += [words("paper_percent", "paper_percent"), words("verdict", "verdict")]
-        title = "largest abs(kappa) in percent beside that of the paper (at_end: at an end of the range of mu)"
-        yield rich_table(texts_of(columns, stated), title)
-
-
-def _signed(name: str, decimals: int) -> Column:
-    return Column(name, cell=lambda row: Cell(f"{100 * row[name]:+.{decimals}f}"))
+        paper = words("paper_percent", "paper_percent"), words("verdict", "verdict")
+        end = Column("at_end", lambda row: "yes" if row["at_end"] else "")
+        columns = [_QUANTITY, _MODEL, *_CASE, end, percents("kappa", "kappa", "u_kappa"), *paper]
+        title = "largest abs(kappa) in percent, and that of the paper (at_end: at an end of the range of mu)"
+        yield _shown(columns, maxima, title, None)
 
 
 def failure_lines(failures: Sequence[Row]) -> Iterator[str]:
@@ -175,7 +165,8 @@ def failure_lines(failures: Sequence[Row]) -> Iterator[str]:
     []
     """
     for row in failures[:_FAILURES]:
-        yield f"{row.model}: {row.quantity} at {row.label}: {row.reason}"
+        case = case_text({"n": row.n, "k": row.k, "mu": row.mu, "problem": row.problem})
+        yield f"{row.model}: {row.quantity} at {case}: {row.reason}"
     if len(failures) > _FAILURES:
         yield f"{len(failures) - _FAILURES} more computations failed; the tables have their reasons"
 
@@ -188,9 +179,8 @@ def computations_sentence(counts: Mapping[str, int]) -> str:
     >>> computations_sentence({"all": 12, "resumed": 0, "ok": 8, "not-applicable": 4})
     '12 results: 8 ok, 4 not-applicable'
     """
-    others = ("all", "resumed")
-    statuses = ", ".join(f"{count} {name}" for name, count in counts.items() if name not in others)
-    return f"{counts['all']} results: {statuses}" if statuses else "no results"
+    ended = ", ".join(f"{count} {name}" for name, count in counts.items() if name not in ("all", "resumed"))
+    return f"{counts['all']} results: {ended}" if ended else "no results"
 
 
 def paper_sentence(maxima: pd.DataFrame) -> str:
@@ -202,15 +192,12 @@ def paper_sentence(maxima: pd.DataFrame) -> str:
     >>> paper_sentence(pd.DataFrame(rows))
     'the paper prints 3 maxima, for k = 0.4: 1 agrees, 2 differ'
     """
-    stated = maxima[maxima["paper_percent"] != ""]
-    if stated.empty:
+    printed = maxima[maxima["paper_percent"] != ""]
+    if printed.empty:
         return ""
-    gradients = ", ".join(exact(k) for k in sorted(set(stated["k"])))
-    verdicts = sorted(stated["verdict"].value_counts().items())
-    listed = ", ".join(counted(count, _said_of_several(verdict), verdict) for verdict, count in verdicts)
-    return f"the paper prints {counted(len(stated), 'maxima', 'maximum')}, for k = {gradients}: {listed}"
-
-
-def _said_of_several(verdict: str) -> str:
-    verb, _, rest = verdict.partition(" ")
-    return " ".join([_SEVERAL.get(verb, verb), rest]).rstrip()
+    gradients = ", ".join(exact(k) for k in sorted(set(printed["k"])))
+    verdicts = []
+    for verdict, count in sorted(printed["verdict"].value_counts().items()):
+        verb, *rest = verdict.split(" ", 1)
+        verdicts.append(counted(count, " ".join([_SEVERAL.get(verb, verb), *rest]), verdict))
+    return f"the paper prints {counted(len(printed), 'maxima', 'maximum')}, for k = {gradients}: {', '.join(verdicts)}"

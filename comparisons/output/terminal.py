@@ -1,53 +1,24 @@
-"""Tables on a terminal, by rich: a row a line, or a row as a block of lines where a line has no room for it."""
+"""Tables on a terminal, by rich."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Literal
+from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
 from rich.box import SIMPLE_HEAD
-from rich.console import Console, ConsoleOptions, Group, RenderableType
+from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
 from comparisons.console.printable import printable
-from comparisons.output.table import aligned
+from comparisons.output.alignment import aligned
 
 __all__ = ["records", "rich_table"]
-
-#: Spaces between two columns.
-_GAP = 2
-
-
-class _Fitted:
-    """A table, or its rows as blocks where names and numbers have no room in a line."""
-
-    def __init__(self, texts: pd.DataFrame, title: str) -> None:
-        self._table = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
-        self._title, self._blocks, self._least = Text(title, style="bold"), _blocks(texts), -_GAP
-        for name, cells in texts.items():
-            lines = [line for cell in cells for line in cell.split("\n")]
-            number = aligned([part for line in lines for part in line.split(", ")])
-            whole = number or not any(" " in line for line in lines)
-            words = [*name.split(), *(lines if whole else " ".join(lines).split())]
-            width = max(map(len, words), default=0)
-            self._least += width + _GAP
-            justify: Literal["left", "right"] = "right" if number else "left"
-            self._table.add_column(Text(name), justify=justify, no_wrap=whole, min_width=width, overflow="fold")
-        for row in texts.itertuples(index=False):
-            self._table.add_row(*map(Text, row))
-
-    def __rich_console__(self, console: Console, options: ConsoleOptions) -> Iterator[RenderableType]:
-        yield self._title
-        yield self._table if self._least <= options.max_width else self._blocks
 
 
 def rich_table(table: pd.DataFrame, title: str, formats: Mapping[str, str] | None = None) -> RenderableType:
     """Return a table for the terminal: numbers on the right, texts folded between words, blank where missing.
-
-    Where names and numbers have no room in a line, each row is a block of lines.
 
     Parameters
     ----------
@@ -65,7 +36,17 @@ def rich_table(table: pd.DataFrame, title: str, formats: Mapping[str, str] | Non
     ────────────
     jkr    +0.50
     """
-    return _Fitted(_texts(table, formats or {}), title)
+    texts = _texts(table, formats or {})
+    lines = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
+    for name, cells in texts.items():
+        number = aligned([part for cell in cells for part in cell.replace("\n", ", ").split(", ")])
+        # A column of single words gives way to one of sentences.
+        whole = number or not any(" " in cell for cell in cells)
+        width = max(map(len, "\n".join(cells).split("\n"))) if whole and len(cells) else None
+        lines.add_column(Text(str(name)), justify="right" if number else "left", min_width=width, overflow="fold")
+    for row in texts.itertuples(index=False):
+        lines.add_row(*map(Text, row))
+    return Group(Text(title, style="bold"), lines)
 
 
 def records(table: pd.DataFrame, title: str) -> RenderableType:
@@ -79,29 +60,22 @@ def records(table: pd.DataFrame, title: str) -> RenderableType:
     jkr
       domain  soft solids
     """
-    return Group(Text(title, style="bold"), _blocks(_texts(table, {})))
-
-
-def _blocks(texts: pd.DataFrame) -> Group:
+    texts = _texts(table, {})
     first, *others = texts
-    parts: list[RenderableType] = []
+    blocks: list[RenderableType] = [Text(title, style="bold")]
     for row in texts.to_dict("records"):
         block = Table.grid(padding=(0, 2, 0, 0))
         block.add_column(no_wrap=True, min_width=2 + max(map(len, others), default=0))
         block.add_column(overflow="fold")
-        for name in others:
-            if row[name]:
-                block.add_row(Text(f"  {name}"), Text(row[name]))
-        heading = f"{first} {row[first]}" if aligned([row[first]]) else row[first]
-        parts += [Text(heading, style="bold"), block]
-    return Group(*parts)
+        for name in filter(row.get, others):
+            block.add_row(Text(f"  {name}"), Text(row[name]))
+        blocks += [Text(row[first], style="bold"), block]
+    return Group(*blocks)
 
 
 def _texts(table: pd.DataFrame, formats: Mapping[str, str]) -> pd.DataFrame:
-    return pd.DataFrame(
-        {str(name): [printable(_text(cell, formats.get(str(name), "g"))) for cell in table[name]] for name in table},
-        dtype=object,
-    )
+    texts = {str(name): [printable(_text(cell, formats.get(str(name), "g"))) for cell in table[name]] for name in table}
+    return pd.DataFrame(texts, dtype=object)
 
 
 def _text(cell: object, form: str) -> str:

@@ -1,4 +1,4 @@
-"""Columns of tables of verdicts, the command that computes a case again, and the files of verdicts."""
+"""The command that computes a case again, and the files of verdicts."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import shlex
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
@@ -17,22 +16,25 @@ from comparisons.numerics.number_text import exact
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
-from comparisons.output.table import CASE_LABELS, COLUMNS, Cell, Column, chosen, table_of, texts_of
-from comparisons.problem import PARAMETERS
-from comparisons.problem.problem import split_name
+from comparisons.output.table import CASE, Column, Record, Table, columns
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.rows import Key
+from comparisons.runs.rows import PARAMETERS, Key, split_label
 from comparisons.runs.tables import write_table
 
-__all__ = ["GATE_COLUMNS", "WORST_CASES", "command", "write_verdicts"]
+__all__ = ["GATE_COLUMNS", "command", "write_verdicts"]
 
 #: What is stored of each gate beside its verdicts: what was required, in which unit, and on what grounds.
 GATE_COLUMNS = ("id", "requirement", "metric", "basis", "grounds")
 
+#: The worst case of each gate, as it is in LaTeX.
+_WORST_CASES = columns(
+    *("verdict", "gate", *CASE, "candidate", "candidate's value", "reference", "reference's value", "E(U)")
+)
 
-def command(row: Mapping[str, Any], specs: Mapping[str, str]) -> str:
+
+def command(row: Record, specs: Mapping[str, str]) -> str:
     """Return the command that computes the candidate's side of a verdict again.
 
     Parameters
@@ -48,35 +50,19 @@ def command(row: Mapping[str, Any], specs: Mapping[str, str]) -> str:
     >>> command(pd.Series({"candidate": "jkr", "quantity": "pull_off_force", **case}), {})
     'fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0 --mu 5'
     """
+    model = specs.get(row["candidate"], row["candidate"])
+    varied: list[str] = []
     if row.get("problem"):
-        return _command_of_file(row, specs)
-    case = " ".join(f"--{name} {exact(row[name])}" for name in PARAMETERS if pd.notna(row[name]))
-    if not case and not str(row.get("gate", "")).startswith(CARD):
-        return "fscm-bench list gates"
-    model = shlex.quote(specs.get(row["candidate"], row["candidate"]))
+        file, *varied = split_label(row["problem"])
+        case = ["--problem", file]
+    else:
+        case = [word for name in PARAMETERS if pd.notna(row[name]) for word in (f"--{name}", exact(row[name]))]
     if not case:
-        return f"fscm-bench check-model {model}"
-    verb = "curve" if row["quantity"] in CURVES else "solve"
-    return f"fscm-bench {verb} --model {model} --quantity {row['quantity']} {case}"
-
-
-def _command_of_file(row: Mapping[str, Any], specs: Mapping[str, str]) -> str:
-    file, *varied = split_name(row["problem"])
-    model = shlex.quote(specs.get(row["candidate"], row["candidate"]))
-    vary = "".join(f" --vary {shlex.quote(one)}" for one in varied)
-    quoted = shlex.quote(file)
-    if row["quantity"] in CURVES:
-        return f"fscm-bench curve --model {model} --quantity {row['quantity']} --problem {quoted}"
-    if not varied:
-        return f"fscm-bench solve --model {model} --quantity {row['quantity']} --problem {quoted}"
-    return f"fscm-bench sweep --problem {quoted}{vary} --model {model} --quantity {row['quantity']}"
-
-
-#: The worst case of each gate, as it is in LaTeX.
-WORST_CASES = chosen(
-    *("verdict", "gate", *CASE_LABELS),
-    *("candidate", "candidate's value", "reference", "reference's value", "E(U)"),
-)
+        of_card = str(row.get("gate", "")).startswith(CARD)
+        return shlex.join(["fscm-bench", "check-model", model]) if of_card else "fscm-bench list gates"
+    verb = "curve" if row["quantity"] in CURVES else "sweep" if varied else "solve"
+    vary = [word for text in varied for word in ("--vary", text)] if verb == "sweep" else []
+    return shlex.join(["fscm-bench", verb, "--model", model, "--quantity", row["quantity"], *case, *vary])
 
 
 def write_verdicts(
@@ -92,25 +78,25 @@ def write_verdicts(
     later.
     """
     files = RunFolder(folder)
-    stored = judged.assign(verdict=judged["verdict"].map(str))
-    write_table(stored, files.verdicts)
-    required = [[str(getattr(gate, name)) for name in GATE_COLUMNS] for gate in gates]
-    write_table(pd.DataFrame(required, columns=list(GATE_COLUMNS), dtype=str), files.gates)
     summary = summarise(judged)
+    required = [[str(getattr(gate, name)) for name in GATE_COLUMNS] for gate in gates]
+    write_table(judged.assign(verdict=judged["verdict"].map(str)), files.verdicts)
     write_table(summary.assign(verdict=summary["verdict"].map(str)), files.summary)
+    write_table(pd.DataFrame(required, columns=list(GATE_COLUMNS), dtype=str), files.gates)
     requirement = {gate.id: gate.requirement for gate in gates}
-    columns = (
-        *chosen("verdict", "gate", "candidate", "reference", "coverage", "worst E(U)", "limits"),
-        Column("command", cell=lambda row: Cell(command(row, specs))),
-        COLUMNS["reason"],
-        Column("requirement", cell=lambda row: Cell(requirement.get(row["gate"], ""))),
-    )
-    page = markdown(texts_of(columns, summary), "Verdicts")
-    worst = table_of("verdicts", "Verdicts of fscm-bench, worst first, each in its worst case", WORST_CASES, summary)
-    texts = {files.verdicts_markdown: page, files.verdicts_latex: latex(worst.on_paper(), worst.caption, worst.id)}
-    for path, text in texts.items():
+    shown = [
+        *columns("verdict", "gate", "candidate", "reference", "coverage", "E(U)", "limits"),
+        Column("command", partial(command, specs=specs)),
+        *columns("reason"),
+        Column("requirement", lambda row: requirement.get(row["gate"], "")),
+    ]
+    page = markdown(Table("verdicts", "Verdicts", shown, summary).texts, "Verdicts")
+    worst = Table("verdicts", "Verdicts of fscm-bench, worst first, each in its worst case", _WORST_CASES, summary)
+    for path, text in (
+        (files.verdicts_markdown, page.encode()),
+        (files.verdicts_latex, latex(worst.texts, worst.caption, worst.id).encode()),
+        (files.junit, junit(judged, partial(command, specs=specs), seconds)),
+    ):
         with atomic(path) as file:
-            file.write(text.encode())
-    with atomic(files.junit) as file:
-        file.write(junit(judged, partial(command, specs=specs), seconds))
+            file.write(text)
     return page

@@ -5,49 +5,41 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from string import ascii_uppercase
-from typing import Any
 
 import pandas as pd
 
 from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import roll_up
-from comparisons.output.error_summary import error_summary
-from comparisons.output.report.render import filled
+from comparisons.numerics.number_text import percent_text
+from comparisons.output.errors import error_summary
+from comparisons.output.report.page import Facts, Page
+from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import Stored
-from comparisons.output.table import CASE_LABELS, Cell, Column, chosen, kappa_cell, numbers, table_of, words
+from comparisons.output.table import CASE as CASE_COLUMNS
+from comparisons.output.table import Column, Table, columns, numbers, percents, words
 from comparisons.runs.case_columns import keys_in, with_problem
-from comparisons.runs.csv_format import csv_text
 from comparisons.runs.rows import CASE, Key
 
 __all__ = ["Entry", "case_sets", "leaderboard_html", "standing"]
 
-
-def _size(label: str, name: str, u: str) -> Column:
-    """Return a column of relative errors with their signs, which sorts by their sizes."""
-
-    def cell(row: Mapping[str, Any]) -> Cell:
-        found = kappa_cell(row[name], row[u])
-        return Cell(found.text, None if found.value is None else abs(found.value))
-
-    return Column(label, "number", cell)
-
-
-def _bound(row: Mapping[str, Any]) -> Cell:
-    return Cell("") if pd.isna(row["u"]) else Cell(f"{100 * row['u']:.1e}", float(row["u"]))
-
-
+_COUNTS = (numbers(name.replace("_", " "), name, ".0f") for name in ("asked", "answered", "not_applicable", "failed"))
 _COLUMNS = (
-    *(*chosen("quantity", "verdict"), _size("largest |κ| (%)", "largest", "u_largest"), *chosen(*CASE_LABELS)),
-    *(_size("rms κ (%)", "rms", "u"), Column("bound (%)", "number", _bound)),
-    *(numbers(name.replace("_", " "), name, ".0f") for name in ("asked", "answered", "not_applicable", "failed")),
-    *(numbers("cases with κ", "cases", ".0f"), *chosen("reference"), words("version", "version")),
-    *(words("date", "finished"), words("fscm-bench", "package"), words("run", "run")),
+    *columns("quantity", "verdict"),
+    Column("largest |κ| (%)", lambda row: _signed(row["largest"], row["u_largest"]), "size"),
+    *(*columns(*CASE_COLUMNS), percents("rms κ (%)", "rms", "u")),
+    Column("bound (%)", lambda row: "" if pd.isna(row["u"]) else f"{100 * row['u']:.1e}", "u"),
+    *(*_COUNTS, numbers("cases with κ", "cases", ".0f"), *columns("reference"), words("version", "version")),
+    *(words("date", "date"), words("fscm-bench", "package"), words("run", "run")),
 )
 
 _KEY = ["model", "quantity", *CASE]
 
 #: Facts that two runs must share for their errors and verdicts to be comparable, in words for a message.
 _FACTS = ("cases", "tier", "gates", "chosen by gates")
+
+
+def _signed(kappa: float, u: float) -> str:
+    return "" if pd.isna(kappa) else percent_text(kappa, u)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,9 +65,8 @@ class Entry:
         """What `_FACTS` names: checksums of cases and gates, the tier, and whether gates chose what was computed."""
         record, arguments = self.stored.record, self.stored.record["arguments"]
         gates = record.get("judged_again", record).get("gates_sha256", "")
-        chosen = arguments["tier"] is not None and (arguments["model"] is not None or arguments["gates"] is not None)
-        tier = "" if arguments["tier"] is None else str(arguments["tier"])
-        return record["cases_sha256"], tier, gates, "yes" if chosen else "no"
+        by_gates = arguments["tier"] is not None and (arguments["model"] is not None or arguments["gates"] is not None)
+        return record["cases_sha256"], str(arguments["tier"] or ""), gates, "yes" if by_gates else "no"
 
 
 def case_sets(entries: Sequence[Entry], mixed: bool) -> list[str]:
@@ -86,46 +77,36 @@ def case_sets(entries: Sequence[Entry], mixed: bool) -> list[str]:
     ValueError
         If they differ and are not meant to; one sentence names two runs and what is different.
     """
-    found: dict[tuple[str, ...], str] = {}
-    letters = []
-    for entry in entries:
-        if entry.facts not in found:
-            place = len(found)
-            found[entry.facts] = ascii_uppercase[place % 26] * (place // 26 + 1)
-        letters.append(found[entry.facts])
-    if len(found) > 1 and not mixed:
-        first = entries[0]
-        other = next(entry for entry in entries if entry.facts != first.facts)
-        different = [name for name, one, two in zip(_FACTS, first.facts, other.facts, strict=True) if one != two]
+    sets = list(dict.fromkeys(entry.facts for entry in entries))
+    if len(sets) > 1 and not mixed:
+        other = next(entry for entry in entries if entry.facts == sets[1])
+        different = [name for name, a, b in zip(_FACTS, *sets[:2], strict=True) if a != b]
         raise ValueError(
-            f"{first.name} and {other.name} were not judged in the same way (different: {', '.join(different)}), so "
-            "that their errors are not comparable; --mixed puts them on one page, which states it"
+            f"{entries[0].name} and {other.name} were not judged in the same way (different: {', '.join(different)}), "
+            "so that their errors are not comparable; --mixed puts them on one page, which states it"
         )
-    return letters
+    letters = [ascii_uppercase[place % 26] * (place // 26 + 1) for place in range(len(sets))]
+    return [letters[sets.index(entry.facts)] for entry in entries]
 
 
 def standing(entry: Entry) -> pd.DataFrame:
-    """Return the summary of errors of a run (`comparisons.output.error_summary`) with version and verdict."""
+    """Return the summary of errors of a run (`comparisons.output.errors`) with version and verdict."""
     stored = entry.stored
     kappa = with_problem(stored.kappa)[[*_KEY, "reference", "kappa", "u_kappa"]]
-    keys = keys_in(stored.results)
-    results = with_problem(stored.results)
-    if entry.planned is None:
-        of_quantity = dict(kappa.groupby("quantity")["reference"].agg("first"))
-        results = results.assign(stated=[of_quantity.get(key[1], "") for key in keys])
-    else:
-        results = results.assign(stated=[entry.planned.get(key) for key in keys])
-        results = results[results["stated"].notna()]
-    joined = results.merge(kappa, on=_KEY, how="left")
+    results, keys = with_problem(stored.results), keys_in(stored.results)
+    of_quantity = dict(kappa.groupby("quantity")["reference"].agg("first"))
+    planned = entry.planned
+    stated = [of_quantity.get(key[1], "") if planned is None else planned.get(key) for key in keys]
+    joined = results.assign(stated=stated).dropna(subset="stated").merge(kappa, on=_KEY, how="left")
     # A model without any value has no relative error, which would name the reference.
     joined["reference"] = joined["reference"].fillna(joined["stated"])
-    found = error_summary(joined[joined["model"] != joined["reference"]])
-    versions = dict(stored.results.groupby("model")["model_version"].agg("first"))
-    found["version"] = found["model"].map(versions)
-    found["verdict"] = [
-        _verdict(stored.verdicts, *pair) for pair in zip(found["model"], found["quantity"], strict=True)
-    ]
-    return found
+    summary = error_summary(joined[joined["model"] != joined["reference"]])
+    pairs = zip(summary["model"], summary["quantity"], strict=True)
+    return summary.assign(
+        version=summary["model"].map(dict(stored.results.groupby("model")["model_version"].agg("first"))),
+        verdict=[_verdict(stored.verdicts, *pair) for pair in pairs],
+        size=summary["largest"].abs(),
+    )
 
 
 def _verdict(verdicts: pd.DataFrame, model: str, quantity: str) -> str:
@@ -149,47 +130,25 @@ def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:
         If they may not, and are different.
     """
     letters = case_sets(entries, mixed)
-    every = pd.concat(
-        [
-            standing(entry).assign(
-                run=entry.name,
-                case_set=letter,
-                finished=entry.stored.record["finished"][:10],
-                package=_package(entry.stored.record),
-            )
-            for entry, letter in zip(entries, letters, strict=True)
-        ],
-        ignore_index=True,
-    )
-    order = every.assign(size=every["largest"].abs()).sort_values(["quantity", "case_set", "size"], kind="stable").index
-    every = every.loc[order].reset_index(drop=True)
-    mixed_sets = [words("set", "case_set")] if len(set(letters)) > 1 else []
-    columns = (*chosen("model"), *mixed_sets, *_COLUMNS)
-    table = table_of("leaderboard", "One row a model and quantity of each run", columns, every, "leaderboard.csv")
-    return filled(
-        "leaderboard.html",
-        [table],
-        {"leaderboard.csv": csv_text(every)},
-        table=table,
-        models=every["model"].nunique(),
-        runs=len(entries),
-        sets=_sets(entries, letters),
-    )
-
-
-def _package(record: dict[str, Any]) -> str:
-    package = record["package"]
-    commit = (package["commit"] or "")[:7]
-    return package["version"] + (f" ({commit})" if commit else "")
-
-
-def _sets(entries: Sequence[Entry], letters: Sequence[str]) -> list[tuple[str, str]]:
-    """Return the letter and the description of each set of cases; nothing if there is only one."""
-    described: dict[str, str] = {}
+    rows = []
     for entry, letter in zip(entries, letters, strict=True):
-        cases, tier, gates, chosen = entry.facts
-        words = f"the standing cases of the tier {tier}" if tier else "cases of a user"
-        words += f" (SHA-256 {cases[:12]})"
-        words += f", gates {gates[:12]}" if gates else ", no gates"
-        described.setdefault(letter, words + (", computed as far as the gates need them" if chosen == "yes" else ""))
-    return sorted(described.items()) if len(described) > 1 else []
+        package = entry.stored.record["package"]
+        commit = f" ({package['commit'][:7]})" if package["commit"] else ""
+        facts = {"run": entry.name, "case_set": letter, "date": entry.stored.record["finished"][:10]}
+        rows.append(standing(entry).assign(**facts, package=package["version"] + commit))
+    every = pd.concat(rows, ignore_index=True)
+    every = every.sort_values(["quantity", "case_set", "size"], kind="stable", ignore_index=True)
+    sets = {letter: _described(entry) for entry, letter in zip(entries, letters, strict=True)}
+    facts = [(f"set {letter}", text) for letter, text in sorted(sets.items())] if len(sets) > 1 else []
+    shown = [*columns("model"), *([words("set", "case_set")] if facts else []), *_COLUMNS]
+    models = every["model"].nunique()
+    board = Table("leaderboard", "One row a model and quantity of each run", shown, every)
+    headline = f"{models} model{'s' * (models != 1)}, {len(entries)} run{'s' * (len(entries) != 1)}"
+    return render(Page("leaderboard", headline, [], {"sets": [Facts(facts)] if facts else [], "board": [board]}))
+
+
+def _described(entry: Entry) -> str:
+    cases, tier, gates, by_gates = entry.facts
+    words = f"the standing cases of the tier {tier}" if tier else "cases of a user"
+    words += f" (SHA-256 {cases[:12]}), " + (f"gates {gates[:12]}" if gates else "no gates")
+    return words + (", computed as far as the gates need them" if by_gates == "yes" else "")

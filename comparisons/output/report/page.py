@@ -1,103 +1,131 @@
-"""The content of a page: the texts, tables and plots of its sections, before there is any HTML."""
+"""The content of a page: sections of tables, plots and facts; a folder has those for which it has data."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+import tomllib
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from importlib.resources import files
+from typing import Any, NamedTuple
 
 import pandas as pd
 
-from comparisons.data.paper_statements import verdicts
 from comparisons.judging.card_gates import overall, without_card_gates
 from comparisons.judging.decision import Verdict
-from comparisons.output.error_summary import error_summary
-from comparisons.output.report import plots, problem_plots
+from comparisons.output.comparison import SUMMARY_FILE, TABLE_FILE, case_tables, summary_tables
+from comparisons.output.errors import error_summary
+from comparisons.output.report import plots, tables
 from comparisons.output.report.headline import errors_of_models, gates_of, headline
-from comparisons.output.report.plot import Plot
-from comparisons.output.report.provenance import provenance, verdict_counts
+from comparisons.output.report.plots import Plot
+from comparisons.output.report.problem_plots import values_over_keys
 from comparisons.output.report.stored_run import Stored
-from comparisons.output.report.tables import (
-    SUMMARY_FILE,
-    TABLE_FILE,
-    case_tables,
-    curve_points,
-    run_tables,
-    summary_tables,
-    verdict_tables,
-)
-from comparisons.output.style import ModelStyle, model_styles
-from comparisons.output.table import Table, table_csv
+from comparisons.output.table import Table
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["Page", "make_page"]
+__all__ = ["Block", "Facts", "File", "Page", "Section", "make_page", "texts"]
 
 
 @dataclass(frozen=True, slots=True)
+class Facts:
+    """Texts with their names."""
+
+    pairs: Sequence[tuple[str, str]]
+
+
+@dataclass(frozen=True, slots=True)
+class File:
+    """The text of a file."""
+
+    name: str
+    text: str
+
+
+Block = Table | Plot | Facts | File
+
+
+class Section(NamedTuple):
+    """A section of a page."""
+
+    id: str
+    title: str
+    text: str
+    blocks: Sequence[Block]
+
+
+@dataclass(frozen=True)
 class Page:
     """The content of a page.
 
     Attributes
     ----------
+    kind : str
+        "report" or "leaderboard".
     headline : str
         What was found, in one sentence.
-    errors : list of (str, str)
+    lines : list of str
+        What is written below it.
+    blocks : dict of str to list
+        The tables, plots, facts and files of each section, by its name in ``assets/texts.toml``.
+    stored : dict of str to DataFrame
+        The stored tables behind the tables, by the names of their files.
+    facts : list of (str, str)
         Each model and its largest error, largest first.
-    gates : str
-        The finding over all gates in one sentence; empty where nothing was judged.
-    verdict, meaning : str
-        Over all gates; no verdict where nothing was judged.
+    verdict : str
+        Over all gates; empty where nothing was judged.
     counts : list of (str, int)
         How many cases ended with each verdict, worst first.
-    summary : str
-        What was run, in one sentence.
-    texts : dict of str to str
-        The files of cases and problem files, by their names.
-    tables : dict of str to Table
-        By their ids.
-    compared : list of Table
-        Of a comparison: coverage and errors, then every case; also among `tables`.
-    plots : dict of str to list of Plot
-        By section.
-    provenance : list of (str, str)
-        Where the numbers come from.
-    files : dict of str to str
-        The stored tables behind the tables, as CSV.
-    model_styles : dict of str to ModelStyle
-        How each model is drawn.
     """
 
+    kind: str
     headline: str
-    errors: list[tuple[str, str]]
-    gates: str
-    verdict: str
-    meaning: str
-    counts: list[tuple[str, int]]
-    summary: str
-    texts: dict[str, str]
-    tables: dict[str, Table]
-    compared: list[Table]
-    plots: dict[str, list[Plot]]
-    provenance: list[tuple[str, str]]
-    files: dict[str, str]
-    model_styles: dict[str, ModelStyle]
+    lines: list[str]
+    blocks: Mapping[str, Sequence[Block]]
+    stored: Mapping[str, pd.DataFrame] = field(default_factory=dict)
+    facts: Sequence[tuple[str, str]] = ()
+    verdict: str = ""
+    counts: Sequence[tuple[str, int]] = ()
 
     @property
-    def every_plot(self) -> list[Plot]:
-        """The plots of all sections."""
-        return [plot for section in self.plots.values() for plot in section]
+    def sections(self) -> list[Section]:
+        """The sections that are not empty, in the order of the texts."""
+        return [
+            Section(name, text["title"], text["text"], self.blocks[name])
+            for name, text in texts()["section"].items()
+            if self.blocks.get(name)
+        ]
+
+    @property
+    def end(self) -> str:
+        """What the page was made of."""
+        return str(texts()["end"][self.kind])
+
+    @cached_property
+    def tables(self) -> dict[str, Table]:
+        """The tables of all sections, by their ids."""
+        return {block.id: block for blocks in self.blocks.values() for block in blocks if isinstance(block, Table)}
+
+    @cached_property
+    def plots(self) -> dict[str, Plot]:
+        """The plots of all sections, by their ids."""
+        return {block.id: block for blocks in self.blocks.values() for block in blocks if isinstance(block, Plot)}
+
+    @property
+    def files(self) -> dict[str, str]:
+        """The stored tables as CSV, digit for digit, and those that are only on the page."""
+        own = {f"{table.id}.csv": table.stored for table in self.tables.values() if not table.source}
+        stored = {name: self.stored[name] for name in sorted({table.source for table in self.tables.values()} - {""})}
+        # The CSV files of a folder have no times.
+        return {name: csv_text(table.drop(columns="seconds", errors="ignore")) for name, table in stored.items()} | {
+            name: csv_text(table) for name, table in own.items()
+        }
 
 
-#: The verdict over all gates in words, for a reader who sees it for the first time.
-_MEANINGS = {
-    Verdict.ERROR: "Something could not be judged: a value, a row or a case is missing, or no gate was evaluated.",
-    Verdict.FAIL: "At least one gate fails: an error is outside its limits, whatever the uncertainties.",
-    Verdict.XPASS: "A gate that is declared to fail passes: its declaration is out of date.",
-    Verdict.INCONCLUSIVE: "Nothing fails, but for at least one gate the uncertainties are too large for a verdict.",
-    Verdict.XFAIL: "Every gate passes, but for known failures, which are declared with their reasons.",
-    Verdict.PASS: "Every gate passes.",
-}
-
-_UNJUDGED = "Nothing was judged: these are results without gates."
+@cache
+def texts() -> Any:
+    """Return the texts of a page."""
+    return tomllib.loads(files(__package__).joinpath("assets/texts.toml").read_text(encoding="utf-8"))
 
 
 def make_page(stored: Stored) -> Page:
@@ -108,75 +136,88 @@ def make_page(stored: Stored) -> Page:
     stored : Stored
         As `comparisons.output.report.stored_run.read_folder` returns it.
     """
-    specs = stored.record["arguments"]["external"]
-    curves = plots.curves(stored)
-    over_keys = problem_plots.plots(stored.results)
-    compared = [] if stored.compared is None else _compared(stored.compared)
-    made = [
-        *(verdict_tables(stored, specs) if stored.judged else ()),
-        *compared,
-        *(values.numbers for values in over_keys),
-        *(curve_points(stored, plot.table, (plot.x_label, plot.y_label)) for plot in curves),
-        *run_tables(stored, specs),
-    ]
-    tables = {table.id: table for table in made}
-    sections = {
-        "values": [values.plot for values in over_keys],
-        "kappa": [plots.kappa(stored)] if stored.kappa["mu"].notna().any() else [],
-        "curves": curves,
-        "convergence": plots.convergence(stored),
-    }
-    drawn = {name for section in sections.values() for plot in section for name in plot.models}
-    verdict = overall(stored.verdicts)
-    gates = gates_of(stored)
+    found, gates = headline(stored), gates_of(stored)
+    verdict = str(overall(stored.verdicts)) if stored.judged else ""
+    lines = [f"{gates}." if gates and gates != found else "", texts()["meaning"][verdict or "none"], _summary(stored)]
+    summary = error_summary(stored.comparison)
+    errors = errors_of_models(stored.kappa)
+    counts = Counter(stored.verdicts["verdict"])
     return Page(
-        headline=headline(stored),
-        errors=errors_of_models(stored.kappa),
-        gates=gates,
-        verdict=str(verdict) if stored.judged else "",
-        meaning=_MEANINGS[verdict] if stored.judged else _UNJUDGED,
-        counts=verdict_counts(stored),
-        summary=_summary(stored),
-        texts=stored.texts,
-        tables=tables,
-        compared=compared,
-        plots=sections,
-        provenance=provenance(stored),
-        files=_files(stored, made),
-        model_styles=model_styles(drawn),
+        kind="report",
+        headline=f"{found}.",
+        lines=list(filter(None, lines)),
+        blocks=_blocks(stored, summary),
+        facts=errors if len(errors) > 1 else (),
+        verdict=verdict,
+        counts=[(str(each), counts[each]) for each in Verdict if counts[each]],
+        stored={
+            "kappa.csv": stored.kappa,
+            "largest_kappa.csv": stored.largest_kappa,
+            "curves.csv": stored.curves,
+            "results.csv": stored.results,
+            "verdicts.csv": stored.verdicts,
+            "summary.csv": stored.summary,
+            "paper_statements.csv": tables.STATEMENTS,
+            TABLE_FILE: stored.comparison,
+            SUMMARY_FILE: summary,
+        },
     )
 
 
+def _blocks(stored: Stored, summary: pd.DataFrame) -> dict[str, Sequence[Block]]:
+    with_mu = stored.kappa["mu"].notna().any()
+    return {
+        "gates": _filled(tables.gates(stored)) if stored.judged else [],
+        "worst": _filled(tables.worst_cases(stored)) if stored.judged else [],
+        "compared": [*summary_tables(summary), *case_tables(stored.comparison)],
+        "values": [block for pair in values_over_keys(stored.results) for block in pair],
+        "errors": [*([plots.kappa(stored.kappa)] if with_mu else []), *_filled(tables.errors(stored))],
+        "shapes": [
+            block for plot in plots.curves(stored.curves) for block in (plot, tables.curve_points(stored, plot))
+        ],
+        "order": [*plots.convergence(stored.results), *_filled([tables.convergence(stored.results)])],
+        "numbers": list(tables.numbers_of(stored)),
+        "cases": [File(name, text) for name, text in stored.texts.items()],
+        "statements": [tables.statements()],
+        "origin": [Facts(_provenance(stored.record))],
+    }
+
+
+def _filled(made: Iterable[Table]) -> list[Table]:
+    return [table for table in made if len(table.stored)]
+
+
 def _summary(stored: Stored) -> str:
-    rows = stored.record["rows"]["all"]
+    rows, arguments = stored.record["rows"]["all"], stored.record["arguments"]
     if not stored.judged:
         names = sorted({*stored.results["model"], *stored.curves["model"]})
         return f"The folder holds {rows} computations. Models: {', '.join(names) or 'none'}."
-    models = stored.record["arguments"]["model"]
-    candidates = ", ".join(models if models is not None else sorted(set(stored.summary["candidate"]))) or "none"
-    tier = stored.record["arguments"]["tier"]
-    size = f"The run{f' of the {tier} tier' if tier else ''} has {rows} results."
+    models = arguments["model"] if arguments["model"] is not None else sorted(set(stored.summary["candidate"]))
+    tier = f" of the {arguments['tier']} tier" if arguments["tier"] else ""
     gates, cases = without_card_gates(stored.summary), without_card_gates(stored.verdicts)
-    if gates.empty:
-        return f"{size} No gate was evaluated, which is an error and not a pass. Candidates: {candidates}."
-    return f"{size} {len(gates)} gates were judged in {len(cases)} cases. Candidates: {candidates}."
+    judged = f"{len(gates)} gates were judged in {len(cases)} cases."
+    none = "No gate was evaluated, which is an error and not a pass."
+    candidates = ", ".join(models) or "none"
+    return f"The run{tier} has {rows} results. {none if gates.empty else judged} Candidates: {candidates}."
 
 
-def _compared(table: pd.DataFrame) -> list[Table]:
-    return [*summary_tables(error_summary(table)), *case_tables(table)]
+#: Entries of a record that other sections of the page have.
+_ELSEWHERE = ("files", "models", "domains", "cards", "coverage")
 
 
-def _files(stored: Stored, tables: Iterable[Table]) -> dict[str, str]:
-    """Return the tables of the folder, digit for digit, and those that are only on the page."""
-    files = {
-        "kappa.csv": csv_text(stored.kappa),
-        "largest_kappa.csv": csv_text(stored.largest),
-        "curves.csv": csv_text(stored.curves.drop(columns="seconds")),
-        "results.csv": csv_text(stored.results.drop(columns="seconds")),
-        "paper_statements.csv": csv_text(pd.DataFrame(verdicts())),
-    }
-    if stored.judged:
-        files |= {"verdicts.csv": csv_text(stored.verdicts), "summary.csv": csv_text(stored.summary)}
-    if stored.compared is not None:
-        files |= {TABLE_FILE: csv_text(stored.compared), SUMMARY_FILE: csv_text(error_summary(stored.compared))}
-    return files | {table.source: table_csv(table) for table in tables if table.source not in files}
+def _provenance(record: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Return the entries of a record as texts, each with its name."""
+    parts = {f"part {number}": part for number, part in enumerate(record["parts"], 1)}
+    entries = {name: entry for name, entry in record.items() if name not in (*_ELSEWHERE, "parts")} | parts
+    return [(name.replace("_", " "), _plain(entry)) for name, entry in entries.items()]
+
+
+def _plain(entry: Any) -> str:
+    if isinstance(entry, dict):
+        pairs = (f"{name} {_plain(value)}" for name, value in entry.items() if value not in (None, {}, []))
+        return ", ".join(pairs)
+    if isinstance(entry, list):
+        return (
+            "; ".join(map(_plain, entry)) if any(isinstance(one, dict) for one in entry) else " ".join(map(str, entry))
+        )
+    return "not known" if entry is None else str(entry)
