@@ -15,7 +15,7 @@ __all__ = ["EXTRAS", "check_packages", "sentence_on_missing_module"]
 _PACKAGES = ("fscm", "fem_reference", "comparisons")
 
 #: Module -> the extra of fscm-bench that installs it.
-EXTRAS = {"bokeh": "report", "jinja2": "report", "markupsafe": "report"}
+EXTRAS = {"bokeh": "report"}
 
 #: Metadata of a distribution that is called as one of the packages, as the `fscm` and the `comparisons` of PyPI.
 _OTHERS = re.compile(rf"({'|'.join(_PACKAGES)})-([^-]+)(-py[^-]*)?\.(dist|egg)-info", re.IGNORECASE)
@@ -63,8 +63,8 @@ def sentence_on_missing_module(error: ModuleNotFoundError) -> str | None:
 
     Examples
     --------
-    >>> sentence_on_missing_module(ModuleNotFoundError("No module named 'jinja2'", name="jinja2"))
-    "the package jinja2 is not installed, which this command needs: pip install 'fscm-bench[report]'"
+    >>> sentence_on_missing_module(ModuleNotFoundError("No module named 'bokeh'", name="bokeh"))
+    "the package bokeh is not installed, which this command needs: pip install 'fscm-bench[report]'"
     """
     module = (error.name or "").partition(".")[0]
     if module not in EXTRAS:

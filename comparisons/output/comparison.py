@@ -14,8 +14,9 @@ from comparisons.judging.summary import coverage_text
 from comparisons.numerics.number_text import exact, value_text
 from comparisons.output.table import Column, Record, Table, columns, numbers, percents, short_percent, words
 from comparisons.output.terminal import rich_table
+from comparisons.problem import PARAMETERS
 from comparisons.runs.case_columns import with_problem
-from comparisons.runs.rows import CASE, PARAMETERS
+from comparisons.runs.rows import CASE
 
 __all__ = ["SUMMARY_FILE", "TABLE_FILE", "WIDTH", "case_tables", "summary_tables", "terminal_tables"]
 
@@ -83,18 +84,18 @@ def _stored_text(name: str, row: Record) -> str:
 
 
 def summary_tables(summary: pd.DataFrame) -> Iterator[Table]:
-    """Yield a table for each quantity: in how many cases a model has a value, and its errors in percent.
+    """Yield a table for each quantity and reference: in how many cases a model has a value, and its errors in percent.
 
     Parameters
     ----------
     summary : DataFrame
         As of `comparisons.output.errors.error_summary`.
     """
-    shown = [*columns("model", "reference"), Column("a value in", coverage_text), Column("at", _worst_case)]
-    shown[3:3] = [percents("largest", "largest", "u_largest")]
-    for quantity, group in summary.reset_index(drop=True).groupby("quantity", sort=False):
-        caption = f"{quantity}: coverage, largest and root mean square kappa in percent"
-        yield Table(f"summary-{quantity}", caption, [*shown, percents("rms", "rms", "u")], group, SUMMARY_FILE)
+    shown = [*columns("model"), Column("a value in", coverage_text), percents("largest", "largest", "u_largest")]
+    shown += [Column("at", _worst_case), percents("rms", "rms", "u")]
+    for (quantity, reference), group in summary.reset_index(drop=True).groupby(["quantity", "reference"], sort=False):
+        caption = f"{quantity}: coverage, largest and root mean square kappa in percent, against {reference}"
+        yield Table(f"summary-{quantity}-{reference}", caption, shown, group, SUMMARY_FILE)
 
 
 def terminal_tables(

@@ -19,7 +19,7 @@ from comparisons.quantities import QUANTITIES
 from comparisons.runs.case_columns import keys_in, with_problem, without_empty_problem
 from comparisons.runs.cases import Grid
 from comparisons.runs.rows import CASE
-from comparisons.runs.tasks import Task, case_for
+from comparisons.runs.tasks import Task, problem_for
 
 __all__ = [
     "COMPARED",
@@ -190,11 +190,11 @@ def comparison_table(results: pd.DataFrame, grids: Iterable[Grid], models: Seque
     stored = dict(zip(keys_in(results), results[["status", "value", "u_num", "reason"]].to_numpy(), strict=True))
 
     def row(grid: Grid, model: str, quantity: str, case: Any) -> dict[str, Any]:
-        status, value, u, reason = stored[Task(model, quantity, case_for(model, case)).key]
-        own, reference, u_reference, why = stored[Task(grid.reference, quantity, case_for(grid.reference, case)).key]
+        status, value, u, reason = stored[Task(model, quantity, problem_for(model, case)).key]
+        own, reference, u_reference, why = stored[Task(grid.reference, quantity, problem_for(grid.reference, case)).key]
         if status == "ok" and own != "ok":
             reason = f"the reference {grid.reference}: {own}: {why}"
-        parameters = {"n": case.n, "k": case.k, "mu": case.mu, "nu": case.nu, "problem": case.label_of_file}
+        parameters = dict(zip(CASE, case.key, strict=True))
         table = {"quantity": quantity, "model": model, "status": status, "value": value, "u_num": u, "reason": reason}
         return table | parameters | dict(zip(_REFERENCE, (grid.reference, reference, u_reference), strict=True))
 
@@ -249,7 +249,7 @@ def _summed(rows: pd.DataFrame) -> dict[str, Any]:
     summed = {"asked": len(rows), "answered": int((rows["status"] == "ok").sum()), **counts, "cases": len(errors)}
     if errors.empty:
         return summed | {"problem": ""}
-    worst = errors.loc[errors["kappa"].abs().idxmax()]
+    worst = errors.iloc[int(errors["kappa"].abs().to_numpy().argmax())]
     sizes = {"largest": worst["kappa"], "u_largest": worst["u_kappa"], **{name: worst[name] for name in CASE}}
     rms = float(np.sqrt(np.mean(errors["kappa"].to_numpy(float) ** 2)))
     return summed | sizes | {"rms": rms, "u": errors["u_kappa"].max()}

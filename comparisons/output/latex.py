@@ -96,7 +96,7 @@ def latex(texts: pd.DataFrame, caption: str, label: str) -> str:
     \
     """
     table = latex_table(texts, caption, label)
-    return "\n".join([table.before, *table.rows, table.after])
+    return "\n".join([table.before, *table.rows, table.after, ""])
 
 
 def latex_table(texts: pd.DataFrame, caption: str, label: str) -> LatexTable:
@@ -120,7 +120,7 @@ def latex_table(texts: pd.DataFrame, caption: str, label: str) -> LatexTable:
     return LatexTable(
         f"{_PACKAGES}\n{begin}\n{before}{end_of_head}".rstrip("\n"),
         rows.splitlines(),
-        f"{end}\n\\end{{{page.around}}}\n",
+        f"{end}\n\\end{{{page.around}}}",
     )
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import pandas as pd
 from rich.console import RenderableType
 
-from comparisons.numerics.number_text import case_text, exact
+from comparisons.numerics.number_text import exact
 from comparisons.output.errors import worst_rows
 from comparisons.output.gate_sentence import counted
 from comparisons.output.table import Column, Table, numbers, percents, short_percent, values, words
@@ -148,12 +148,11 @@ def every_error(results: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame
     if len(failed):
         yield _shown([_MODEL, _QUANTITY, *_CASE, _REASON], failed, "failed computations", None)
     yield rich_table(statuses(results).reset_index(), "computations")
-    if len(maxima):
-        paper = words("paper_percent", "paper_percent"), words("verdict", "verdict")
-        end = Column("at_end", lambda row: "yes" if row["at_end"] else "")
-        columns = [_QUANTITY, _MODEL, *_CASE, end, percents("kappa", "kappa", "u_kappa"), *paper]
-        title = "largest abs(kappa) in percent, and that of the paper (at_end: at an end of the range of mu)"
-        yield _shown(columns, maxima, title, None)
+    paper = words("paper_percent", "paper_percent"), words("verdict", "verdict")
+    end = Column("at_end", lambda row: "yes" if row["at_end"] else "")
+    for quantity, rows in maxima.groupby("quantity"):
+        title = f"{quantity}: largest abs(kappa) in percent, and that of the paper (at_end: of the range of mu)"
+        yield _shown([_MODEL, *_CASE, end, percents("kappa", "kappa", "u_kappa"), *paper], rows, title, None)
 
 
 def failure_lines(failures: Sequence[Row]) -> Iterator[str]:
@@ -165,8 +164,7 @@ def failure_lines(failures: Sequence[Row]) -> Iterator[str]:
     []
     """
     for row in failures[:_FAILURES]:
-        case = case_text({"n": row.n, "k": row.k, "mu": row.mu, "problem": row.problem})
-        yield f"{row.model}: {row.quantity} at {case}: {row.reason}"
+        yield f"{row.model}: {row.quantity} at {row.label}: {row.reason}"
     if len(failures) > _FAILURES:
         yield f"{len(failures) - _FAILURES} more computations failed; the tables have their reasons"
 

@@ -1,4 +1,4 @@
-"""Styles of models, verdicts, figures and the report.
+"""Styles of models, verdicts and figures.
 
 They are legible in print and in grey: models differ by colour, line style and marker.
 """
@@ -28,79 +28,55 @@ __all__ = [
     "MODEL_NAMES",
     "VERDICT_SYMBOLS",
     "ModelStyle",
-    "empty_figure",
     "first_shown",
     "lettered",
     "model_label",
     "model_styles",
+    "new_figure",
     "picture_path",
     "save",
     "styled",
-    "verdict_class",
 ]
 
 #: Okabe and Ito's colours that stay apart for every kind of colour vision and, in this order, in grey.
 COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666")
-#: Markers of the points, in the order of `COLOURS`.
+#: Markers of the points, in the order of `COLOURS`; the same in Bokeh, and as characters.
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+_BOKEH_MARKERS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "hex", "square_pin", "star")
+_SIGNS = "○□△◇▽⬡▣☆"
 #: Dashes of the lines, in the order of `COLOURS`.
-LINES: tuple[Any, ...] = (
-    "-",
-    "--",
-    "-.",
-    ":",
-    (0, (5, 1, 1, 1, 1, 1)),
-    (0, (8, 2)),
-    (0, (4, 1, 4, 1, 1, 1)),
-    (0, (2, 2)),
-)
+LINES: tuple[Any, ...] = ("-", "--", "-.", ":")
+LINES += ((0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (4, 1, 4, 1, 1, 1)), (0, (2, 2)))
 
-#: Dashes: line style of Matplotlib, name in Bokeh, dash array of SVG.
-_SOLID, _DASHED, _DASHDOT, _DOTTED = (
-    ("-", "solid", ""),
-    ("--", "dashed", "6 3"),
-    ("-.", "dotdash", "2 4 6 4"),
-    (":", "dotted", "2 3"),
-)
-_DASHES = (_SOLID, _DASHED, _DASHDOT, _DOTTED)
+#: Dashes in Matplotlib -> in Bokeh.
+_DASHES = {"-": "solid", "--": "dashed", "-.": "dotdash", ":": "dotted"}
 
-#: Markers in the order of `MARKERS`: name in Bokeh, and path of SVG in a box of -5 to 5.
-_PAGE_MARKERS = (
-    ("circle", "M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z"),
-    ("square", "M-4 -4h8v8h-8z"),
-    ("triangle", "M0 -4.5l4.5 8h-9z"),
-    ("diamond", "M0 -5l4 5l-4 5l-4 -5z"),
-    ("inverted_triangle", "M0 4.5l4.5 -8h-9z"),
-    ("hex", "M-5 0l2.5 -4.3h5l2.5 4.3l-2.5 4.3h-5z"),
-    ("square_pin", "M-4 -4q4 2 8 0q-2 4 0 8q-4 -2 -8 0q2 -4 0 -8z"),
-    ("star", "M0 -5l1.3 3.4h3.7l-3 2.2l1.2 3.6l-3.2 -2.2l-3.2 2.2l1.2 -3.6l-3 -2.2h3.7z"),
-)
-
-#: Model -> (label as in the paper, dash), in the order of the colours and markers; a model needs no row here.
-_MODELS = {
-    "fscm": ("FSCM", _SOLID),
-    "md-improved": (r"improved M-D-$n$-$k$", _SOLID),
-    "md-original": (r"original M-D-$n$-$k$", _DASHED),
-    "fem": ("FEM", _DASHED),
-    "jkr": (r"JKR-$n$-$k$", _DASHDOT),
-    "bradley": (r"Bradley-$n$", _DOTTED),
-    "double-hertz-n-k": (r"double-Hertz-$n$-$k$", _DASHDOT),
-    "semi-rigid": ("semi-rigid", _SOLID),
-    "fscm-stieltjes": ("fscm-stieltjes", _DOTTED),
-    "fscm-stieltjes-400": ("fscm-stieltjes-400", _DOTTED),
-    "dmt": ("dmt", _DOTTED),
-    "md-jin": (r"M-D-$n$-$k$, $\sigma_0 = 1$", _DOTTED),
-    "dmt-strength": (r"dmt, $\sigma_0 = \sigma_{th}$", _DOTTED),
-    "carpick-ogletree-salmeron": ("Carpick-Ogletree-Salmeron", _DASHDOT),
-    "pietrement-troyon": ("Pietrement-Troyon", _DOTTED),
-    "schwarz": ("Schwarz", _DASHDOT),
-    "jump-asymptotes": ("jump asymptotes", _DASHDOT),
-    "atlas": ("atlas", _DASHED),
+#: Model -> label as in the paper, in the order of the colours and markers; a model needs no row here.
+MODEL_NAMES = {
+    "fscm": "FSCM",
+    "md-improved": r"improved M-D-$n$-$k$",
+    "md-original": r"original M-D-$n$-$k$",
+    "fem": "FEM",
+    "jkr": r"JKR-$n$-$k$",
+    "bradley": r"Bradley-$n$",
+    "double-hertz-n-k": r"double-Hertz-$n$-$k$",
+    "semi-rigid": "semi-rigid",
+    "fscm-stieltjes": "fscm-stieltjes",
+    "fscm-stieltjes-400": "fscm-stieltjes-400",
+    "dmt": "dmt",
+    "md-jin": r"M-D-$n$-$k$, $\sigma_0 = 1$",
+    "dmt-strength": r"dmt, $\sigma_0 = \sigma_{th}$",
+    "carpick-ogletree-salmeron": "Carpick-Ogletree-Salmeron",
+    "pietrement-troyon": "Pietrement-Troyon",
+    "schwarz": "Schwarz",
+    "jump-asymptotes": "jump asymptotes",
+    "atlas": "atlas",
 }
+#: Their dashes, in the same order.
+_MODEL_DASHES = "- - -- -- -. : -. - : : : : : -. : -. -. --"
 
 #: The model whose curve is broad and pale, below the others: where they are right they cover it.
 _BROAD = "fscm"
-
 
 #: Models that a plot of a page shows at first: more lines hide each other.
 _SHOWN_AT_FIRST = 5
@@ -116,10 +92,10 @@ class ModelStyle:
         Its name in figures.
     colour : str
         In hexadecimal digits.
-    line, dash, array : str
-        Its dashes in Matplotlib, Bokeh and SVG.
-    symbol, marker, path : str
-        Its marker in Matplotlib, Bokeh and SVG.
+    line, dash : str
+        Its dashes in Matplotlib and Bokeh.
+    symbol, marker, sign : str
+        Its marker in Matplotlib, in Bokeh and as a character.
     broad : bool
         Whether its line is broad and pale, below the others.
     """
@@ -128,10 +104,9 @@ class ModelStyle:
     colour: str
     line: str
     dash: str
-    array: str
     symbol: str
     marker: str
-    path: str
+    sign: str
     broad: bool
 
     @property
@@ -150,20 +125,23 @@ def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
     ('#000000', '#0072b2', 'mine')
     """
     present = sorted(set(names))
-    known = {name: index for index, name in enumerate(_MODELS) if name in present}
-    free = (index for index in count() if index not in known.values())
-    indices = {name: known[name] if name in known else next(free) for name in present}
+    own = {name: index for index, name in enumerate(MODEL_NAMES) if name in present}
+    free = (index for index in count() if index not in own.values())
+    dashes = dict(zip(MODEL_NAMES, _MODEL_DASHES.split(), strict=True))
     styles: dict[str, ModelStyle] = {}
     # Ours first: the dashes of the others are those that their colour has left.
-    for name in sorted(present, key=lambda name: name not in known):
-        turn, colour = indices[name] // len(COLOURS), COLOURS[indices[name] % len(COLOURS)]
-        taken = {style.dash for style in styles.values() if style.colour == colour}
-        left = [dashes for dashes in _DASHES if dashes[1] not in taken] or _DASHES
-        label, (line, dash, array) = _MODELS.get(name, (name, left[indices[name] % len(left)]))
+    for name in sorted(present, key=lambda name: name not in own):
+        index = own[name] if name in own else next(free)
+        turn, place = divmod(index, len(COLOURS))
+        taken = {style.line for style in styles.values() if style.colour == COLOURS[place]}
+        left = [line for line in _DASHES if line not in taken] or list(_DASHES)
+        line = dashes.get(name, left[index % len(left)])
         # With every turn of the colours the markers move on by one: a pair of both comes back after 64 models.
-        shape = (indices[name] + turn) % len(MARKERS)
-        markers = MARKERS[shape], *_PAGE_MARKERS[shape]
-        styles[name] = ModelStyle(label, colour, line, dash, array, *markers, broad=name == _BROAD)
+        shape = (index + turn) % len(MARKERS)
+        markers = MARKERS[shape], _BOKEH_MARKERS[shape], _SIGNS[shape]
+        styles[name] = ModelStyle(
+            model_label(name), COLOURS[place], line, _DASHES[line], *markers, broad=name == _BROAD
+        )
     return {name: styles[name] for name in present}
 
 
@@ -175,9 +153,8 @@ def first_shown(names: Iterable[str]) -> list[str]:
     >>> first_shown(["schwarz", "dmt", "bradley", "jkr", "md-original", "md-improved", "mine"])
     ['mine', 'md-improved', 'md-original', 'jkr', 'bradley']
     """
-    order = list(_MODELS)
-    ranked = sorted(names, key=lambda name: order.index(name) if name in order else -1)
-    return ranked[:_SHOWN_AT_FIRST]
+    order = list(MODEL_NAMES)
+    return sorted(names, key=lambda name: order.index(name) if name in order else -1)[:_SHOWN_AT_FIRST]
 
 
 def model_label(name: str) -> str:
@@ -188,59 +165,28 @@ def model_label(name: str) -> str:
     >>> model_label("fem"), model_label("mine")
     ('FEM', 'mine')
     """
-    return _MODELS[name][0] if name in _MODELS else name
+    return MODEL_NAMES.get(name, name)
 
 
-#: Labels of our models.
-MODEL_NAMES = {name: label for name, (label, _) in _MODELS.items()}
 #: Lines of the models that the figures of the paper draw side by side.
 MODEL_LINES = {name: model_styles([name])[name].arguments for name in ("fscm", "md-original", "md-improved")}
 
 #: Verdict -> symbol, read beside the colour, and where there is none.
-VERDICT_SYMBOLS = {
-    Verdict.PASS: "✓",
-    Verdict.FAIL: "✗",
-    Verdict.ERROR: "!",
-    Verdict.INCONCLUSIVE: "?",
-    Verdict.XFAIL: "~",
-    Verdict.XPASS: "*",
-    Verdict.NOT_APPLICABLE: "–",
-}
+VERDICT_SYMBOLS = dict(zip(Verdict, "!✗*?~✓–", strict=True))
 
-
-def verdict_class(verdict: str) -> str:
-    """Return the CSS class of a verdict.
-
-    Examples
-    --------
-    >>> verdict_class("NOT-APPLICABLE")
-    'v-not-applicable'
-    """
-    return f"v-{Verdict(verdict).value.lower()}"
-
-
-#: File formats of a figure, by suffix.
-FORMATS = (".png", ".pdf", ".svg")
-
-_SETTINGS: Any = {
-    "font.size": 9,
-    "axes.grid": True,
-    "grid.alpha": 0.25,
-    "grid.linewidth": 0.5,
-    "lines.linewidth": 1.3,
-    "legend.frameon": False,
-    "legend.fontsize": 8,
-    "figure.dpi": 100,
-    "savefig.dpi": 150,
-    "pdf.fonttype": 42,
-    "svg.hashsalt": "fscm-bench",
-}
-
-#: The clock and the program stay out of the files, so that the same data give the same bytes.
-_METADATA = {
+#: File formats of a figure, by suffix, with what keeps the clock and the program out of the files, so that the same
+#: data give the same bytes.
+_METADATA: dict[str, Any] = {
     ".png": {"Software": None},
     ".pdf": {"CreationDate": None, "Producer": None, "Creator": None},
     ".svg": {"Date": None, "Creator": None},
+}
+FORMATS = tuple(_METADATA)
+
+_SETTINGS: Any = {
+    **{"font.size": 9, "axes.grid": True, "grid.alpha": 0.25, "grid.linewidth": 0.5, "lines.linewidth": 1.3},
+    **{"legend.frameon": False, "legend.fontsize": 8, "figure.dpi": 100, "savefig.dpi": 150},
+    **{"pdf.fonttype": 42, "svg.hashsalt": "fscm-bench"},
 }
 
 
@@ -251,7 +197,7 @@ def styled() -> Any:
     return rc_context(_SETTINGS)
 
 
-def empty_figure(width: float, height: float) -> Figure:
+def new_figure(width: float, height: float) -> Figure:
     """Return a figure without panels, of this size in inches."""
     from matplotlib.figure import Figure
 

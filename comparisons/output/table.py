@@ -16,8 +16,8 @@ import pandas as pd
 
 from comparisons.judging.summary import coverage_text
 from comparisons.numerics.number_text import error_text, exact, limits_text, percent_text, value_text
+from comparisons.problem import PARAMETERS
 from comparisons.quantities import title_of
-from comparisons.runs.rows import PARAMETERS
 
 __all__ = ["CASE", "Column", "Record", "Table", "columns", "numbers", "percents", "short_percent", "values", "words"]
 

@@ -8,7 +8,7 @@ from functools import partial
 import pandas as pd
 
 from comparisons.output.table import Column, Record
-from comparisons.problem_file.units import si_text
+from comparisons.problem.units import si_text
 from comparisons.runs.case_columns import unit_in
 
 __all__ = ["key_columns", "key_text", "physical_text"]

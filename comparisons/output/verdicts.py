@@ -17,10 +17,12 @@ from comparisons.output.junit import junit
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
 from comparisons.output.table import CASE, Column, Record, Table, columns
+from comparisons.problem import PARAMETERS
+from comparisons.problem.problem import split_name
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.rows import PARAMETERS, Key, split_label
+from comparisons.runs.rows import Key
 from comparisons.runs.tables import write_table
 
 __all__ = ["GATE_COLUMNS", "command", "write_verdicts"]
@@ -53,7 +55,7 @@ def command(row: Record, specs: Mapping[str, str]) -> str:
     model = specs.get(row["candidate"], row["candidate"])
     varied: list[str] = []
     if row.get("problem"):
-        file, *varied = split_label(row["problem"])
+        file, *varied = split_name(row["problem"])
         case = ["--problem", file]
     else:
         case = [word for name in PARAMETERS if pd.notna(row[name]) for word in (f"--{name}", exact(row[name]))]

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from comparisons.data.file_names import RUN_FILES
-from comparisons.output.comparison import comparison_table
-from comparisons.output.error_summary import error_summary
+from comparisons.output.comparison import case_tables, summary_tables
+from comparisons.output.errors import comparison_table, error_summary
 from comparisons.output.figures import comparison as figure_of_comparison
+from comparisons.output.html import html_table
 from comparisons.output.style import save
 from comparisons.pipeline.inputs import Cases, load_cases, names_of_inputs, stored_cases
 from comparisons.pipeline.run import run
@@ -39,10 +40,10 @@ class Comparison:
     Attributes
     ----------
     table : DataFrame
-        One row for each quantity, case and model (`comparisons.output.comparison.comparison_table`).
+        One row for each quantity, case and model (`comparisons.output.errors.comparison_table`).
     summary : DataFrame
         One row for each quantity and model: coverage, largest and root mean square error
-        (`comparisons.output.error_summary.error_summary`).
+        (`comparisons.output.errors.error_summary`).
     folder : Path
         The run folder, with `table` and `figure` as ``comparison.csv``, ``.parquet``, ``.png`` and ``.pdf``.
     failures : tuple of Row
@@ -58,13 +59,8 @@ class Comparison:
         """Return the errors as a Matplotlib figure."""
         return figure_of_comparison.draw(self.table)
 
-    def _repr_html_(self) -> str | None:
-        # The packages of the extra `report`; without them a notebook shows the text.
-        try:
-            from comparisons.output.report.notebook import notebook_html
-        except ModuleNotFoundError:
-            return None
-        return notebook_html(self.table, self.summary)
+    def _repr_html_(self) -> str:
+        return "\n".join(map(html_table, [*summary_tables(self.summary), *case_tables(self.table)]))
 
 
 def compare(

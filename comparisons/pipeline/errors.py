@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import pandas as pd
 
 from comparisons.model import Model
-from comparisons.output.tables import relative_error
+from comparisons.output.errors import relative_error
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
@@ -35,7 +35,7 @@ def errors(
     Returns
     -------
     DataFrame
-        As `comparisons.output.tables.relative_error`: one row for each model and case where both have a value.
+        As `comparisons.output.errors.relative_error`: one row for each model and case where both have a value.
 
     Raises
     ------

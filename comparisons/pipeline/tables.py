@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import pandas as pd
 
 from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA
+from comparisons.output.errors import agreement, largest, relative_error
 from comparisons.output.figures.registry import figures_of
 from comparisons.output.style import save
-from comparisons.output.tables import agreement, largest, relative_error
 from comparisons.pipeline.inputs import Cases
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.case_columns import in_case_order, keys_in, varied_of
@@ -36,9 +36,9 @@ class RunTables:
     results, curves : DataFrame
         The rows, with the columns of `comparisons.runs.frames`.
     kappa : DataFrame
-        Relative errors, as of `comparisons.output.tables.relative_error`.
+        Relative errors, as of `comparisons.output.errors.relative_error`.
     largest : DataFrame
-        The largest of them, as of `comparisons.output.tables.largest`.
+        The largest of them, as of `comparisons.output.errors.largest`.
     agreement : DataFrame
         Differences of the two references; empty unless the run has both.
     """

@@ -51,9 +51,6 @@ OPTIONS = (
     QUIET,
 )
 
-#: Lines of the table of errors, at most.
-_LINES = 24
-
 
 def call(args: argparse.Namespace) -> int:
     """Run and print; return the exit status."""
@@ -99,7 +96,7 @@ def _print_errors(finished: FinishedRun, *, verbose: bool, with_paper: bool) -> 
         for table in every_error(tables.results, tables.kappa, tables.largest):
             console.print(table)
         return
-    if (largest := largest_table(tables.largest, console.width, _LINES)) is not None:
+    if (largest := largest_table(tables.largest)) is not None:
         console.print(largest)
     if "problem" in tables.kappa:
         console.print(largest_errors(tables.kappa[tables.kappa["problem"].fillna("") != ""]))

@@ -8,8 +8,7 @@ from comparisons.cli.options import JOBS, OUT, QUIET, RETRY_FAILED, file, option
 from comparisons.cli.screen import output
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note
-from comparisons.output.problem_values import values_of_problems
-from comparisons.output.run_summary import failure_lines, summary_tables
+from comparisons.output.run_summary import failure_lines, summary_tables, values_of_problems
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.pipeline.run import run

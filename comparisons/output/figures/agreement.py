@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from comparisons.output.style import COLOURS, MARKERS, empty_figure, lettered, model_label, styled
+from comparisons.output.style import COLOURS, MARKERS, lettered, model_label, new_figure, styled
 from comparisons.quantities import QUANTITIES, title_of
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ def draw(agreement: pd.DataFrame) -> Figure:
     Parameters
     ----------
     agreement : DataFrame
-        As `comparisons.output.tables.agreement` returns it; at least one row.
+        As `comparisons.output.errors.agreement` returns it; at least one row.
     """
     names = [str(agreement[column].iloc[0]) for column in ("model", "reference")]
     pair = " and ".join(model_label(name) for name in names)
@@ -36,7 +36,7 @@ def draw(agreement: pd.DataFrame) -> Figure:
     columns = min(_COLUMNS, len(quantities))
     rows = -(-len(quantities) // columns)
     with styled():
-        figure = empty_figure(9.6, 0.8 + 2.3 * rows)
+        figure = new_figure(9.6, 0.8 + 2.3 * rows)
         panels = figure.subplots(rows, columns, sharey=True, squeeze=False)
         for letter, axes, quantity in zip(ascii_lowercase, panels.flat, quantities, strict=False):
             _panel(axes, agreement[agreement["quantity"] == quantity], sorted(agreement["n"].unique()))

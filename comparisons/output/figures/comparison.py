@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from comparisons.output.style import ModelStyle, empty_figure, model_styles, styled
+from comparisons.output.style import ModelStyle, model_styles, new_figure, styled
 from comparisons.quantities import title_of
 from comparisons.runs.rows import CASE
 
@@ -36,7 +36,7 @@ def draw(table: pd.DataFrame) -> Figure:
     Parameters
     ----------
     table : DataFrame
-        As of `comparisons.output.comparison.comparison_table`.
+        As of `comparisons.output.errors.comparison_table`.
 
     Returns
     -------
@@ -62,7 +62,7 @@ def draw(table: pd.DataFrame) -> Figure:
     width = max(4.8, 2.5 * columns)
     in_legend = max(1, int(width // _LEGEND_WIDTH))
     with styled():
-        figure = empty_figure(width, 0.7 + 2.4 * max(rows, 1) + _LEGEND_HEIGHT * (len(styles) // in_legend))
+        figure = new_figure(width, 0.7 + 2.4 * max(rows, 1) + _LEGEND_HEIGHT * (len(styles) // in_legend))
         every = iter(figure.subplots(max(rows, 1), columns, squeeze=False, sharex=True).ravel().tolist())
         for (quantity, reference), of_group in panels.items():
             for index in range(-(-len(of_group) // columns) * columns):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from comparisons.output.style import COLOURS, MARKERS, empty_figure, lettered, model_label, model_styles, styled
+from comparisons.output.style import COLOURS, MARKERS, lettered, model_label, model_styles, new_figure, styled
 from comparisons.quantities import title_of
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def draw(kappa: pd.DataFrame, k: float = 0.4) -> Figure:
     Parameters
     ----------
     kappa : DataFrame
-        As `comparisons.output.tables.relative_error` returns it.
+        As `comparisons.output.errors.relative_error` returns it.
     k : float
         Gradient exponent.
 
@@ -44,7 +44,7 @@ def draw(kappa: pd.DataFrame, k: float = 0.4) -> Figure:
     """
     chosen = shown(kappa, k).sort_values("mu")
     with styled():
-        figure = empty_figure(7.2, 4.2)
+        figure = new_figure(7.2, 4.2)
         whole, near = figure.subplots(1, 2)
         panels(whole, near, chosen)
         lettered(whole, "a", f"{title_of(_QUANTITY)}, $k$ = {k:g}")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from comparisons.output.style import COLOURS, empty_figure, lettered, model_label, model_styles, styled
+from comparisons.output.style import COLOURS, lettered, model_label, model_styles, new_figure, styled
 from comparisons.quantities import CURVES
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def draw(curves: pd.DataFrame) -> Figure:
         As a run stores them in ``curves.csv``.
     """
     with styled():
-        figure = empty_figure(7.2, 4.0)
+        figure = new_figure(7.2, 4.0)
         for letter, axes, quantity in zip("ab", figure.subplots(1, 2), _PANELS, strict=True):
             _panel(axes, curves[(curves["quantity"] == quantity) & (curves["status"] == "ok")], quantity)
             lettered(axes, letter)

@@ -11,8 +11,9 @@ from comparisons.output.report.plots import in_registry
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.table import Record
 from comparisons.output.varied_keys import physical_text
+from comparisons.problem.problem import split_name
 from comparisons.quantities import title_of
-from comparisons.runs.rows import CASE, split_label
+from comparisons.runs.rows import CASE
 
 __all__ = ["errors_of_models", "gates_of", "headline"]
 
@@ -47,7 +48,7 @@ def _of_values(results: pd.DataFrame) -> str:
     rows = rows[rows["quantity"] == min(rows["quantity"], key=in_registry)].sort_values("value", kind="stable")
     texts = []
     for row in (rows.iloc[0], rows.iloc[-1]):
-        file, *keys = split_label(row["problem"])
+        file, *keys = split_name(row["problem"])
         texts.append(f"{physical_text(row)} ({', '.join(keys) or file})")
     subject = f"The {title_of(rows['quantity'].iloc[0])} of {rows['model'].iloc[0]} is"
     return f"{subject} {texts[0]}" if len(rows) == 1 else f"{subject} between {texts[0]} and {texts[1]}"

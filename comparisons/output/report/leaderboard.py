@@ -139,12 +139,14 @@ def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:
     every = pd.concat(rows, ignore_index=True)
     every = every.sort_values(["quantity", "case_set", "size"], kind="stable", ignore_index=True)
     sets = {letter: _described(entry) for entry, letter in zip(entries, letters, strict=True)}
-    facts = [(f"set {letter}", text) for letter, text in sorted(sets.items())] if len(sets) > 1 else []
-    shown = [*columns("model"), *([words("set", "case_set")] if facts else []), *_COLUMNS]
+    described = [(f"set {letter}", text) for letter, text in sorted(sets.items())] if len(sets) > 1 else []
+    shown = [*columns("model"), *([words("set", "case_set")] if described else []), *_COLUMNS]
     models = every["model"].nunique()
     board = Table("leaderboard", "One row a model and quantity of each run", shown, every)
     headline = f"{models} model{'s' * (models != 1)}, {len(entries)} run{'s' * (len(entries) != 1)}"
-    return render(Page("leaderboard", headline, [], {"sets": [Facts(facts)] if facts else [], "board": [board]}))
+    return render(
+        Page("leaderboard", headline, [], {"sets": [Facts(described)] if described else [], "board": [board]})
+    )
 
 
 def _described(entry: Entry) -> str:

@@ -10,10 +10,10 @@ from comparisons.numerics.number_text import value_text
 from comparisons.output.report.plots import Plot, choice, in_registry, points
 from comparisons.output.table import Column, Record, Table, columns, numbers, words
 from comparisons.output.varied_keys import key_columns, key_text, physical_text
-from comparisons.problem_file.units import prefixed_unit
+from comparisons.problem.problem import split_name
+from comparisons.problem.units import prefixed_unit
 from comparisons.quantities import title_of
 from comparisons.runs.case_columns import unit_in, varied_of
-from comparisons.runs.rows import split_label
 
 __all__ = ["values_over_keys"]
 
@@ -40,7 +40,7 @@ def values_over_keys(results: pd.DataFrame) -> Iterator[tuple[Plot, Table]]:
         return
     solved = results[(results["status"] == "ok") & (results["problem"] != "")]
     count = 0
-    for file, rows in solved.groupby(solved["problem"].map(lambda label: split_label(label)[0])):
+    for file, rows in solved.groupby(solved["problem"].map(lambda label: split_name(label)[0])):
         varied = [name for name in varied_of(rows) if rows[name].notna().any()]
         for name in varied:
             if pd.api.types.is_numeric_dtype(rows[name]) and rows[name].nunique() > 1:

@@ -18,10 +18,10 @@ from comparisons.judging.judge import Judged
 from comparisons.judging.summary import COVERAGE
 from comparisons.output.errors import COMPARED, KAPPA_COLUMNS
 from comparisons.output.verdicts import GATE_COLUMNS
-from comparisons.runs.case_columns import DIMENSIONLESS
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
 from comparisons.runs.record import check_files, read_record, warn_of_other_code
+from comparisons.runs.rows import DIMENSIONLESS
 from comparisons.runs.tables import read_table
 
 __all__ = ["Stored", "read_folder"]

@@ -13,9 +13,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from scipy.interpolate import CubicSpline
 
+from comparisons.output.errors import relative_error
 from comparisons.output.figures import kappa as kappa_figure
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered
-from comparisons.output.tables import relative_error
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, by_model, dashed, gradient, held, legend_below, of_model, panels
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure, rows_of

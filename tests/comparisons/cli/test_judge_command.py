@@ -112,8 +112,8 @@ def test_other_gates_than_those_of_the_run_are_named_and_the_record_agrees(folde
     assert record["verdicts"] == {"all": "FAIL", "FAIL": 4}
     assert record["judged_again"]["gates"] == str(tmp_path / "gates.toml")
     assert set(pd.read_csv(folder / "verdicts.csv")["verdict"]) == {"FAIL"}
-    page = dict(make_page(read_folder(folder)).provenance)
-    assert page["judged again"].startswith(f"by {tmp_path / 'gates.toml'}, SHA-256")
+    page = dict(make_page(read_folder(folder)).blocks["origin"][0].pairs)
+    assert page["judged again"].startswith(f"gates {tmp_path / 'gates.toml'}, ")
     # Without --gates the run's own are back, and nothing of the others is left.
     assert main(["judge", str(folder)]) == 0
     assert read_record(folder / "run.json") == finished
@@ -290,7 +290,7 @@ def test_results_of_other_code_are_named_as_such(folder, capsys, command):
     assert "computed by another version of the code, of NumPy or of SciPy (NumPy 0.1, now" in capsys.readouterr().err
     if command == "judge":
         assert read_record(folder / "run.json")["judged_by_other_code"] == fingerprint()
-        assert dict(make_page(read_folder(folder)).provenance)["judged by other code"] == fingerprint()
+        assert dict(make_page(read_folder(folder)).blocks["origin"][0].pairs)["judged by other code"] == fingerprint()
         write_record(record, folder / "run.json")
         assert main(["judge", str(folder)]) == 0
         assert "judged_by_other_code" not in read_record(folder / "run.json")

@@ -1,17 +1,14 @@
 """Texts of a run on the terminal: the largest errors, what does not pass, and one sentence on all gates."""
 
 import shlex
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 from rich.console import Console
 
-from comparisons.console.shell_text import wrapped_command
 from comparisons.judging.decision import Verdict
-from comparisons.output.gate_sentence import declared_sentence, gate_lines, gates_line, gates_sentence
-from comparisons.output.report.headline import gates_of
+from comparisons.output.gate_sentence import declared_sentence, gate_lines, gates_sentence
 from comparisons.output.run_summary import largest_table, paper_sentence
 from comparisons.output.terminal import records, rich_table
 
@@ -36,28 +33,19 @@ def shown(table, width=80):
 
 
 def test_each_shape_has_its_largest_error_with_its_place():
-    title, heads, _, first, second = shown(largest_table(maxima(["jkr"]), 80, 30))
+    title, heads, _, first, second = shown(largest_table(maxima(["jkr"])))
     assert title.startswith("pull_off_force: ")
     assert heads.split() == ["model", *["n", "=", "1", "n", "=", "1.5", "n", "=", "2", "n", "=", "5"]]
     assert first.split() == ["jkr", "-41.000(5)", "-41.500(5)", "-42.000(5)", "-45.000(5)"]
     assert second.split() == ["0.4,", "0.8367"] * 4
 
 
-@pytest.mark.parametrize("count", [1, 12, 40])
-@pytest.mark.parametrize("shapes", [(2.0,), (1.0, 1.5, 2.0, 5.0), tuple(np.linspace(1, 10, 19))])
-def test_the_table_has_no_more_lines_and_columns_than_there_are(count, shapes):
-    lines = shown(largest_table(maxima([f"a-model-with-a-name-{number}" for number in range(count)], shapes), 80, 25))
-    assert len(lines) <= 26
-    assert max(map(len, lines[1:])) <= 80
-    assert ("the first 22 of 40 rows" in " ".join(lines)) is (count == 40)
-
-
 def test_the_largest_of_all_shapes_is_named_with_its_shape_and_quantity():
-    lines = shown(largest_table(maxima(["jkr"], quantities=("pull_off_force", "jump_in_gap")), 80, 6))
+    lines = shown(largest_table(maxima(["jkr"], quantities=("pull_off_force", "jump_in_gap"))))
     assert [line.split() for line in lines[-2:]] == [
         [quantity, "jkr", "-45.000(5)", "5", "0.4", "0.8367"] for quantity in ("jump_in_gap", "pull_off_force")
     ]
-    assert largest_table(maxima([]), 80, 30) is None
+    assert largest_table(maxima([])) is None
 
 
 def gates(*verdicts):
@@ -110,25 +98,10 @@ def test_the_sentence_on_all_gates(verdicts, bases, sentence):
     assert gates_sentence(table, bases) == sentence
 
 
-def test_terminal_and_report_say_the_same():
-    table = gates("PASS", "XFAIL", "XFAIL", "FAIL")
-    bases = dict.fromkeys(table["gate"], "published")
-    stored = SimpleNamespace(judged=True, summary=table, gates=pd.DataFrame({"id": bases.keys(), "basis": "published"}))
-    assert gates_line(table, table, bases) == f"{gates_of(stored)} (4 cases: 1 PASS, 2 XFAIL, 1 FAIL)"
-    assert "fail as declared" in gates_of(SimpleNamespace(judged=True, summary=table, gates=None))
-
-
 def test_verbs_on_the_numbers_of_the_paper_agree_with_their_count():
     verdicts = ["agrees", "agrees if truncated", "agrees if truncated", *["differs"] * 5, "undecided"]
     rows = pd.DataFrame({"k": 0.4, "paper_percent": "3.5", "verdict": verdicts})
     assert paper_sentence(rows).endswith(": 1 agrees, 2 agree if truncated, 5 differ, 1 undecided")
-
-
-def test_a_folded_command_is_the_same_for_a_shell():
-    line = "fscm-bench check-model '/a folder/model.py:Model' --out 'x y'"
-    folded = wrapped_command(line, 30)
-    assert len(folded) > 1
-    assert shlex.split("\n".join(folded).replace("\\\n", "")) == shlex.split(line)
 
 
 NAMES = ["carpick-ogletree-salmeron", "double-hertz-n-k"]
@@ -146,9 +119,3 @@ def test_names_and_numbers_are_whole_and_texts_are_folded(width):
         assert "nan" not in words
         assert words.count("[bold]n") == 2
         assert max(map(len, lines)) <= width
-
-
-def test_a_row_is_a_block_where_names_and_numbers_have_no_room_in_a_line():
-    table = rich_table(pd.DataFrame({"model": ["a" * 10], "kappa": ["-1234567.5"]}), "t")
-    assert shown(table, 22)[-1] == "aaaaaaaaaa  -1234567.5"
-    assert shown(table, 21) == ["t", "a" * 10, "  kappa  -1234567.5"]

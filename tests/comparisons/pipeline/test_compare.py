@@ -14,11 +14,9 @@ import comparisons
 from comparisons.baseline import read_baseline
 from comparisons.cli.main import main
 from comparisons.judging.summary import coverage_text
-from comparisons.output.comparison import WIDTH, by_case, case_columns, comparison_table, terminal_tables
-from comparisons.output.error_summary import error_summary
+from comparisons.output.comparison import WIDTH, case_tables, terminal_tables
+from comparisons.output.errors import comparison_table, error_summary
 from comparisons.output.figures.comparison import draw
-from comparisons.output.report.notebook import notebook_html
-from comparisons.output.table import table_of
 from comparisons.runs.cases import load_grids
 from comparisons.runs.frames import frame
 from comparisons.runs.record import check_files, read_record
@@ -109,14 +107,6 @@ def test_the_command_fits_80_columns_and_states_reference_and_coverage(tmp_path,
     assert len(load_grids(grid, tier="quick")[0].cases) == 6
 
 
-def wide(table):
-    """The texts of each quantity: one row a case, one column a model."""
-    return [
-        table_of("cases", "", case_columns(reference, models), rows).on_paper()
-        for _, reference, models, rows in by_case(table)
-    ]
-
-
 def printed(table, capsys, **options):
     console = Console(width=WIDTH)
     for one in terminal_tables(table, error_summary(table), **options):
@@ -147,8 +137,8 @@ def test_a_reference_that_needs_no_poisson_ratio_is_found():
     table = comparison_table(frame(rows), grid, None)
     assert table["nu"].tolist() == [0.25] * 8
     assert table["kappa"].tolist() == pytest.approx([0.1] * 8)
-    texts, _ = wide(table)
-    assert list(texts) == ["n", "k", "mu", "nu", "fscm", "fem"]
+    texts, _ = case_tables(table)
+    assert list(texts.texts) == ["n", "k", "mu", "nu", "fscm", "fem"]
 
 
 def fake(models=("a", "b"), quantities=("pull_off_force",), **other):
@@ -173,11 +163,11 @@ def test_a_table_with_long_names_is_split_and_nothing_is_lost(capsys):
 
 def test_the_notebook_shows_escaped_tables_with_every_digit():
     table = fake(("<script>alert(1)</script>", "b"))
-    html = notebook_html(table, error_summary(table))
+    html = comparisons.pipeline.compare.Comparison(table, error_summary(table), Path(), ())._repr_html_()
     assert "<script>" not in html
     assert "&lt;script&gt;" in html
     assert html.count("<table") == 2
-    assert 'data-v="0.1"' in html
+    assert '<data value="0.1">' in html
     assert "3 of 3" in html
 
 
@@ -250,6 +240,6 @@ def test_the_printed_table_of_the_document_is_the_one_of_the_baseline():
     known = rows[rows["quantity"] == "pull_off_force"].assign(nu=np.nan, reason="")
     force = replace(grid[0], quantities=("pull_off_force",))
     table = comparison_table(known, [force], ["jkr", "md-improved"])
-    (texts,) = wide(table)
+    texts = next(case_tables(table)).texts
     for cells in texts.itertuples(index=False):
         assert "  ".join(cells).split() in [line.split() for line in text.splitlines()]

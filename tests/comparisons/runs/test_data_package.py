@@ -14,8 +14,7 @@ from comparisons.data.columns import column, title
 from comparisons.data.file_names import DATA_PACKAGE, TABLES
 from comparisons.judging.judge import Judged
 from comparisons.judging.summary import COVERAGE
-from comparisons.output.comparison import COLUMNS as COMPARISON_COLUMNS
-from comparisons.output.tables import agreement, relative_error
+from comparisons.output.errors import COMPARED, agreement, relative_error
 from comparisons.output.verdicts import GATE_COLUMNS
 from comparisons.pipeline.run import run
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES
@@ -109,7 +108,7 @@ def test_every_column_of_every_table_is_described():
         "kappa": list(kappa),
         "largest_kappa": [*kappa, "cases", "at_end", "paper_percent", "verdict"],
         "agreement": list(agreement(rows, "fem", "fscm")),
-        "comparison": list(COMPARISON_COLUMNS),
+        "comparison": list(COMPARED),
         "verdicts": verdicts,
         "summary": [*verdicts, "cases", "skipped", *COVERAGE],
         "gates": list(GATE_COLUMNS),

@@ -7,7 +7,7 @@ const Files = (() => {
 
   function csv({ source, lines }, shown) {
     const [head, ...records] = DATA.files[source];
-    const places = shown.flatMap((row) => (lines ? lines[row] : row));
+    const places = shown.flatMap((row) => lines[row]);
     return [head, ...places.map((place) => records[place]), ""].join("\n");
   }
 

@@ -84,12 +84,12 @@ const Plots = (() => {
       const [light, night, dash, marker, broad] = DATA.model_styles[series.model];
       const colour = one.dark ? night : light;
       const data = {
-        x: series.x, y: series.y, low: series.low ?? series.y, high: series.high ?? series.y,
+        x: series.x, y: series.y, low: series.low, high: series.high,
         hover: series.hover, name: series.x.map(() => series.label),
       };
       const source = new Bokeh.ColumnDataSource({ data });
       const renderers = [];
-      if (series.low) {
+      if (series.low.some((low, index) => low < series.high[index])) {
         renderers.push(drawn.varea({ field: "x" }, { field: "low" }, { field: "high" }, { source, fill_color: colour, fill_alpha: 0.2 }));
       }
       if (plot.mark !== "points") {
@@ -153,7 +153,7 @@ const Plots = (() => {
       const margin = 0.06 * (high - low);
       return [low - margin, high + margin].map((v) => (scale === "log" ? 10 ** v : v));
     };
-    const y = shown.flatMap((series) => [...series.y, ...(series.low ?? []), ...(series.high ?? [])]);
+    const y = shown.flatMap((series) => [...series.low, ...series.high]);
     return [...span(shown.flatMap((series) => series.x), one.plot.x_scale), ...span(y, one.plot.y_scale)];
   }
 

@@ -10,44 +10,35 @@ const Tables = (() => {
     const id = box.dataset.table;
     const table = {
       id, box, body: box.querySelector("tbody"), count: box.querySelector(".count"), group: null, words: [],
+      rows: Array.from(box.querySelectorAll("tbody tr")), groups: DATA.tables[id].groups,
     };
     byId[id] = table;
+    table.rows.forEach((row, index) => { row.dataset.row = index; });
+    for (const data of box.querySelectorAll("td > data")) if (!data.querySelector(".verdict")) data.title = data.value;
     box.querySelectorAll("thead th").forEach((head, index) => {
-      head.querySelector("button").addEventListener("click", () => sort(table, head, index));
+      const button = document.createElement("button");
+      Object.assign(button, { type: "button", className: "sort", textContent: head.textContent });
+      button.addEventListener("click", () => sort(table, head, index));
+      head.replaceChildren(button);
+      head.setAttribute("aria-sort", "none");
+      head.classList.toggle("number", table.rows.some((row) => row.cells[index].querySelector(":scope > data:not(:has(.verdict))")));
     });
     box.querySelector(".filter").addEventListener("input", (event) => {
       table.words = event.target.value.toLowerCase().split(/\s+/).filter(Boolean);
       show(table);
     });
-    const fold = box.closest("details");
-    if (fold) fold.addEventListener("toggle", () => fold.open && layOut(table));
-    if (!fold || fold.open) layOut(table);
-  }
-
-  // The rows of a long table are in a template, and laid out when they are first seen.
-  function layOut(table) {
-    if (table.laidOut) return;
-    table.laidOut = true;
-    const template = table.body.querySelector("template");
-    if (template) {
-      table.body.append(template.content);
-      template.remove();
-    }
-    Array.from(table.body.rows, (row, place) => { row.dataset.row = place; });
-    for (const cell of table.body.querySelectorAll("td.number[data-v]")) cell.title = cell.dataset.v;
     show(table);
   }
 
   function sort(table, head, index) {
-    layOut(table);
     const rising = head.getAttribute("aria-sort") !== "ascending";
     for (const other of head.parentNode.children) other.setAttribute("aria-sort", "none");
     head.setAttribute("aria-sort", rising ? "ascending" : "descending");
-    const keyed = Array.from(table.body.rows, (row) => {
-      const { v } = row.cells[index].dataset;
+    const keyed = table.rows.map((row) => {
       const text = row.cells[index].textContent;
+      const stored = row.cells[index].querySelector("data")?.value;
       // Texts that are numbers sort as numbers; what is missing comes last either way.
-      const number = v === undefined ? (text === "" ? NaN : Number(text)) : Number(v.replace("inf", "Infinity"));
+      const number = stored === undefined ? (text === "" ? NaN : Number(text)) : Number(stored.replace("inf", "Infinity"));
       return { row, number, text };
     });
     const sign = rising ? 1 : -1;
@@ -63,14 +54,13 @@ const Tables = (() => {
 
   function show(table) {
     let shown = 0;
-    for (const row of table.body.rows) {
-      const chosen = table.group === null || row.dataset.group === table.group;
+    for (const row of table.rows) {
+      const chosen = table.group === null || table.groups[row.dataset.row] === table.group;
       const text = table.words.length ? row.textContent.toLowerCase() : "";
       row.hidden = !(chosen && table.words.every((word) => text.includes(word)));
       shown += !row.hidden;
     }
-    if (!table.laidOut) return;
-    const all = table.body.rows.length;
+    const all = table.rows.length;
     table.count.textContent = shown === all ? `${all} rows` : `${shown} of ${all} rows`;
   }
 
@@ -84,9 +74,7 @@ const Tables = (() => {
 
   // The places of the rows that are shown, in their order.
   function shown(id) {
-    const table = byId[id];
-    layOut(table);
-    return Array.from(table.body.rows).filter((row) => !row.hidden).map((row) => Number(row.dataset.row));
+    return Array.from(byId[id].body.rows).filter((row) => !row.hidden).map((row) => Number(row.dataset.row));
   }
 
   async function copy(button) {

@@ -4,7 +4,6 @@ import base64
 import importlib
 import json
 import os
-import re
 import shutil
 import time
 
@@ -80,7 +79,10 @@ def cells(browser, table, column):
       const rows = Array.from(document.querySelectorAll(`#table-${arguments[0]} tbody tr`)).filter((r) => !r.hidden);
       const heads = Array.from(document.querySelectorAll(`#table-${arguments[0]} thead th`), (h) => h.innerText.trim());
       const at = heads.indexOf(arguments[1]);
-      return rows.map((row) => row.cells[at].dataset.v ?? row.cells[at].textContent);
+      return rows.map((row) => {
+        const data = row.cells[at].querySelector("data");
+        return data && !data.querySelector(".verdict") ? data.value : row.cells[at].textContent;
+      });
     """
     return browser.execute_script(script, table, column)
 
@@ -135,10 +137,6 @@ def printed(browser):
     """The page as the browser prints it."""
     made = browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "preferCSSPageSize": True})
     return base64.b64decode(made["data"])
-
-
-def pages(pdf):
-    return len(re.findall(rb"/Type\s*/Page\b", pdf))
 
 
 def text_of(browser, table, kind):

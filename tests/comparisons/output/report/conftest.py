@@ -2,7 +2,6 @@
 
 import math
 import sys
-from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -11,13 +10,9 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.judging.gates import gates_text, load_gates, of_tier
-from comparisons.judging.summary import summarise
-from comparisons.output.report.page import make_page
-from comparisons.output.report.render import render
-from comparisons.output.report.stored_run import read_folder
-from comparisons.output.tables import largest, relative_error
-from comparisons.output.verdicts import GATE_COLUMNS, write_verdicts
+from comparisons.judging.gates import gates_text, load_gates
+from comparisons.output.errors import largest, relative_error
+from comparisons.output.verdicts import write_verdicts
 from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.frames import curve_frame, frame
 from comparisons.runs.record import read_record, write_record
@@ -25,8 +20,6 @@ from comparisons.runs.tables import write_curves, write_results, write_table
 from tests.comparisons.rows import row as made_row
 
 from .browsing import ARGUMENTS, DESKTOP, PATIENCE, package, programs, show
-
-BASELINE = Path(__file__).parents[4] / "results" / "baseline"
 
 IMAGE = """<img src=x onerror="window.hostile='image'">"""
 SCRIPT = "</script><script>window.hostile='script'</script><!--<script>"
@@ -189,44 +182,6 @@ def browser(tmp_path_factory):
 def page(run_folder, tmp_path_factory):
     path = tmp_path_factory.mktemp("page") / "report.html"
     assert main(["report", str(run_folder), "--out", str(path)]) == 0
-    return path
-
-
-@pytest.fixture(scope="session")
-def standing_run(run_folder):
-    """Tables of the size of a standing run: its gates in fourteen cases each, its errors and its results."""
-    stored = read_folder(run_folder)
-    gates = of_tier(load_gates(gates_text()), "quick")
-    verdicts = pd.DataFrame(
-        judged(gate.id, "md-improved", 0.1 * case, "XFAIL" if gate.expected_failure and case < 4 else "PASS", 0.01)
-        | {"lower": gate.lower, "upper": gate.upper, "reason": gate.expected_failure or ""}
-        for gate in gates
-        for case in range(1, 15)
-    )
-    summary = summarise(verdicts)
-    results = pd.read_csv(BASELINE / "quick.csv", dtype={"reason": str}).reindex(columns=stored.results.columns)
-    results = results.assign(model_version="1", unit="1", size=100.0).fillna({"reason": ""})
-    maxima = pd.read_csv(BASELINE / "largest_kappa.csv", dtype={"paper_percent": str, "verdict": str})
-    every = [
-        stored.kappa.assign(model=name, kappa=0.01 * place + 0.02 * stored.kappa["mu"])
-        for place, name in enumerate(sorted(set(maxima["model"])))
-    ]
-    return replace(
-        stored,
-        results=results,
-        verdicts=verdicts.assign(verdict=verdicts["verdict"].map(str)),
-        summary=summary.assign(verdict=summary["verdict"].map(str)),
-        largest=maxima.fillna({"paper_percent": "", "verdict": ""}),
-        gates=pd.DataFrame([{name: getattr(gate, name) for name in GATE_COLUMNS} for gate in gates]),
-        kappa=pd.concat(every, ignore_index=True).drop_duplicates(["model", "n", "k", "mu"], ignore_index=True),
-    )
-
-
-@pytest.fixture(scope="session")
-def standing(standing_run, tmp_path_factory):
-    """Its page."""
-    path = tmp_path_factory.mktemp("standing") / "report.html"
-    path.write_text(render(make_page(standing_run)), encoding="utf-8")
     return path
 
 

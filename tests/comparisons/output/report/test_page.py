@@ -1,7 +1,5 @@
 """Content of a page: the stored results in the right order, and the refusal of a broken folder."""
 
-import csv
-import io
 import shutil
 
 import pandas as pd
@@ -10,11 +8,8 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.output.latex import latex
 from comparisons.output.report.page import make_page
-from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
 from comparisons.output.style import model_styles
-from comparisons.output.table import texts_of
-from comparisons.output.verdicts import WORST_CASES
 from comparisons.registry import MODELS
 
 
@@ -28,122 +23,78 @@ def page(stored):
     return make_page(stored)
 
 
-def column(table, label):
-    index = [one.label for one in table.columns].index(label)
-    return [row.cells[index] for row in table.rows]
-
-
 def texts(table, label):
-    return [cell.text for cell in column(table, label)]
+    return table.texts[label].tolist()
 
 
-def test_the_first_lines_are_the_errors_of_the_models_and_then_the_gates(page, stored):
-    rendered = render(page)
+def test_the_first_lines_are_the_errors_of_the_models(page, stored):
     largest = stored.kappa["kappa"].abs().groupby(stored.kappa["model"]).max().sort_values(ascending=False)
-    assert len(largest) == 2
-    assert [model for model, _ in page.errors] == largest.index.tolist()
-    for (_, text), kappa in zip(page.errors, largest, strict=True):
+    assert [model for model, _ in page.facts] == largest.index.tolist()
+    for (_, text), kappa in zip(page.facts, largest, strict=True):
         assert abs(float(text.partition("(")[0])) == pytest.approx(100 * kappa, rel=1e-2)
-    assert page.headline.endswith(page.errors[0][1])
-    first, then = rendered.index(page.errors[-1][1]), rendered.index(page.gates)
-    assert first < then < rendered.index('id="gates"')
+    assert page.headline.endswith(f"{page.facts[0][1]}.")
 
 
 def test_the_sentence_on_the_gates_is_the_roll_up_of_the_stored_verdicts(page):
-    assert page.gates == "0 of 3 gates pass, 0 fail as declared, 3 unexpected: 1 ERROR, 1 FAIL, 1 INCONCLUSIVE"
+    assert page.lines[0] == "0 of 3 gates pass, 0 fail as declared, 3 unexpected: 1 ERROR, 1 FAIL, 1 INCONCLUSIVE."
     assert page.verdict == "ERROR"
     assert page.counts == [("ERROR", 1), ("FAIL", 2), ("INCONCLUSIVE", 1), ("PASS", 3), ("NOT-APPLICABLE", 1)]
-    assert "3 gates were judged in 8 cases" in page.summary
+    assert "3 gates were judged in 8 cases" in page.lines[-1]
 
 
-def test_the_matrix_is_worst_first_with_a_mark_for_each_case(page, hostile):
+def test_the_matrix_is_worst_first_with_requirements(page):
     table = page.tables["matrix"]
     assert texts(table, "verdict") == ["ERROR", "FAIL", "INCONCLUSIVE"]
-    marks = column(table, "cases")
-    assert [len(cell.marks) for cell in marks] == [1, 5, 2]
-    assert marks[1].text == "2 FAIL, 3 PASS"
+    assert texts(table, "cases")[1] == "2 FAIL, 3 PASS"
     assert texts(table, "limits") == ["-0.1 to inf", "-0.1 to 0.1", "-0.1 to 0.1"]
     # What the gates required is stored beside the verdicts.
-    assert column(table, "gate")[1].more.startswith("At mu = 5 the pull-off force is that of JKR")
+    (gate,) = (column for column in table.columns if column.heading == "gate")
+    assert gate.small(table.records[1]).startswith("At mu = 5 the pull-off force is that of JKR")
 
 
 def test_the_worst_cases_come_first_with_commands_that_find_the_model(page, hostile):
     table = page.tables["offenders"]
     assert texts(table, "verdict") == ["ERROR", "FAIL", "FAIL", "INCONCLUSIVE", "PASS", "PASS", "PASS"]
-    assert [cell.value for cell in column(table, "E(U)")][1:3] == [0.2, 0.123456789]
+    assert table.stored["error"].tolist()[1:3] == [0.2, 0.123456789]
     commands = texts(table, "computed again by")
     assert commands[1] == "fscm-bench solve --model plain.py:Model --quantity pull_off_force --n 2 --k 0.4 --mu 3"
     assert """--model 'my models/it'"'"'s.py:Model' --quantity""" in commands[3]
     assert not any(hostile.image in command or hostile.script in command for command in commands)
 
 
-def test_numbers_shown_are_the_stored_ones(page, stored):
-    kappa, discrete = column(page.tables["kappa"], "κ (%)"), column(page.tables["convergence"], "value")
-    assert [cell.value for cell in kappa] == stored.kappa["kappa"].tolist()
-    assert [cell.value for cell in discrete] == stored.results.loc[stored.results["size"] > 0, "value"].tolist()
-    for cell in kappa:
-        assert float(cell.text.partition("(")[0]) == pytest.approx(100 * cell.value, abs=2.0)
-        assert float(cell.exact or cell.text) == cell.value
+def series(plot):
+    return plot.data()["series"]
 
 
 def test_plots_have_the_stored_points(page, stored):
-    (plot,) = page.plots["kappa"]
-    for series in plot.series:
-        quantity, reference, n, k = series.group.split("|")
-        mine = stored.kappa[
-            (stored.kappa["model"] == series.model) & (stored.kappa["n"] == float(n)) & (stored.kappa["k"] == float(k))
+    for one in series(page.plots["plot-kappa"]):
+        quantity, reference, n, k = one["group"].split("|")
+        rows = stored.kappa[
+            (stored.kappa["model"] == one["model"]) & (stored.kappa["n"] == float(n)) & (stored.kappa["k"] == float(k))
         ].sort_values("mu")
         assert (quantity, reference) == ("pull_off_force", "fscm")
-        assert series.x == mine["mu"].tolist()
-        assert series.y == (100 * mine["kappa"]).tolist()
-        assert series.high == (100 * mine["kappa"] + 100 * mine["u_kappa"]).tolist()
-    force, pressure, gap = page.plots["curves"]
-    assert [len(series.x) for series in force.series] == [41, 41]
+        assert one["x"] == rows["mu"].tolist()
+        assert one["y"] == (100 * rows["kappa"]).tolist()
+        assert one["high"] == (100 * rows["kappa"] + 100 * rows["u_kappa"]).tolist()
+    force, gap = series(page.plots["plot-force-curve"]), series(page.plots["plot-pull-off-gap"])
+    assert [len(one["x"]) for one in force] == [41, 41]
     # In the order of the path, which turns back: not sorted.
-    assert force.series[0].x != sorted(force.series[0].x)
-    assert pressure.series[0].y == [0.1, -1.0, 0.0]
-    assert (gap.table, [series.y for series in gap.series]) == ("pull_off_gap", [[0.2, 1.0, 3.0], [0.25, 1.05, 3.05]])
-    assert [plot.id for plot in page.plots["convergence"]] == ["plot-uncertainty", "plot-order"]
-
-
-def in_latex(table, most):
-    return latex(table.on_paper().head(most), table.caption, table.id)
+    assert force[0]["x"] != sorted(force[0]["x"])
+    assert [one["y"] for one in gap] == [[0.2, 1.0, 3.0], [0.25, 1.05, 3.05]]
 
 
 def test_every_table_compiles_as_latex_whatever_the_texts(page, run_folder, typeset):
-    texts = [in_latex(table, 30) for table in page.tables.values()]
+    texts = [latex(table.on_paper.head(30), table.caption, table.id) for table in page.tables.values()]
     # A command has no room on paper.
     assert not any("solve -{}-model" in text for text in texts)
     assert all(text.isascii() for text in texts)
     typeset(*texts, (run_folder / "verdicts.tex").read_text(encoding="utf-8"), fits=False)
 
 
-@pytest.mark.heavy
-def test_the_tables_of_a_standing_run_fit_a_page_of_paper(standing_run, typeset):
-    tables = make_page(standing_run).tables
-    # The names in the other tables are hostile: they have no place at which a line could end.
-    names = ("matrix", "offenders", "verdicts", "kappa", "largest", "convergence", "results", "statements")
-    texts = [in_latex(tables[name], 90) for name in names]
-    texts.append(latex(texts_of(WORST_CASES, standing_run.summary), "Verdicts", "worst"))
-    assert sum("S[table-format" in text for text in texts) >= 8
-    typeset(*texts)
-
-
-def test_every_row_has_its_place_in_the_stored_table(page, stored):
-    for table in page.tables.values():
-        records = len(list(csv.reader(io.StringIO(page.files[table.source])))) - 1
-        places = range(records) if table.lines is None else table.lines
-        assert len(places) == len(table.rows)
-        assert set(places) <= set(range(records))
-    offenders = page.tables["offenders"]
-    gates = stored.verdicts["gate"].iloc[list(offenders.lines)].tolist()
-    assert gates == texts(offenders, "gate")
-
-
 def test_all_models_and_external_ones_differ_by_colour_and_marker_and_as_lines_by_colour_and_dashes():
     styles = model_styles([*MODELS, *(f"mine-{number}" for number in range(12))])
     assert len({(style.colour, style.marker) for style in styles.values()}) == len(styles)
-    assert len({(style.colour, style.path) for style in styles.values()}) == len(styles)
+    assert len({(style.colour, style.sign) for style in styles.values()}) == len(styles)
     assert len({(style.colour, style.dash) for style in styles.values()}) == len(styles)
 
 
@@ -154,20 +105,19 @@ def test_a_run_without_verdicts_errors_or_curves_has_a_page(run_folder, tmp_path
     hostile.seal(folder)
     page = make_page(read_folder(folder))
     assert page.verdict == "ERROR"
-    assert page.headline == "No gate was evaluated"
-    assert "No gate was evaluated" in page.summary
+    assert page.headline == "No gate was evaluated."
     assert main(["report", str(folder)]) == 0
 
 
 def test_a_sweep_has_a_page_without_verdicts(run_folder, tmp_path, hostile):
     folder = shutil.copytree(run_folder, tmp_path / "sweep")
-    for name in ("verdicts", "summary", "gates", "largest_kappa"):
+    for name in ("verdicts", "summary", "gates"):
         for suffix in ("csv", "parquet"):
             (folder / f"{name}.{suffix}").unlink()
     hostile.seal(folder)
     page = make_page(read_folder(folder))
     assert (page.verdict, page.counts) == ("", [])
-    assert page.meaning.startswith("Nothing was judged")
+    assert page.lines[0].startswith("Nothing was judged")
     assert not {"matrix", "offenders", "verdicts"} & set(page.tables)
     assert not {"verdicts.csv", "summary.csv"} & set(page.files)
     assert texts(page.tables["kappa"], "value") == texts(make_page(read_folder(run_folder)).tables["kappa"], "value")
@@ -184,24 +134,18 @@ def test_a_comparison_has_a_page_with_its_tables(tmp_path, capsys):
     assert main(["report", str(tmp_path / "run")]) == 0
     page = make_page(read_folder(tmp_path / "run"))
     assert page.headline.startswith("Of 2 models bradley differs most from atlas: by ")
-    summary, cases = page.compared
+    summary, cases = page.blocks["compared"]
     assert texts(summary, "model") == ["jkr", "bradley"]
     assert texts(summary, "a value in") == ["4 of 4"] * 2
     table = pd.read_csv(tmp_path / "run" / "comparison.csv")
     # The parser of older versions of pandas is wrong in the last digit.
     stored = table.loc[table["model"] == "jkr", "kappa"].tolist()
-    assert [cell.value for cell in column(cases, "jkr")] == pytest.approx(stored, rel=1e-14)
+    assert cases.stored["kappa jkr"].tolist() == pytest.approx(stored, rel=1e-14)
     # A row of cases is made of a stored row of each model.
-    assert {tuple(table["model"].iloc[list(places)]) for places in cases.lines} == {("jkr", "bradley")}
+    assert {tuple(table["model"].iloc[places]) for places in cases.stored["lines"]} == {("jkr", "bradley")}
     assert page.files[cases.source] == (tmp_path / "run" / "comparison.csv").read_text()
     text = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
     assert text.index('id="compared"') < text.index('id="errors"')
-
-
-def test_a_folder_judged_before_gates_were_stored_has_a_page(run_folder, tmp_path):
-    folder = shutil.copytree(run_folder, tmp_path / "run")
-    (folder / "gates.parquet").unlink()
-    assert not any(cell.more for cell in column(make_page(read_folder(folder)).tables["matrix"], "gate"))
 
 
 def test_the_command_writes_the_page_where_it_is_asked_to(run_folder, tmp_path, capsys):
@@ -235,7 +179,7 @@ def test_a_folder_that_is_no_whole_run_is_wrong_input(run_folder, tmp_path, caps
     ("change", "message"),
     [
         (lambda table: table.drop(columns="upper"), "has no column upper"),
-        (lambda table: table.assign(error="much"), "column error that is no number"),
+        (lambda table: table.assign(error="much"), "column error is not numeric"),
         (lambda table: table.assign(verdict="FINE"), "unknown verdict 'FINE'"),
     ],
 )

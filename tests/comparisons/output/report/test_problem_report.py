@@ -73,7 +73,7 @@ def test_the_headline_is_the_largest_error_or_the_range_of_the_values(laid_out, 
     options = ["--vary", "punch.R=1, 2 um", "--model", "bradley", "--quiet", "--out", str(tmp_path)]
     assert main(["sweep", "--problem", str(PAD), *options]) == 0
     headline = make_page(read_folder(tmp_path)).headline
-    form = r"The pull-off force of bradley is between (\S+) nN \(.*=1 um\) and (\S+) nN \(.*=2 um\)"
+    form = r"The pull-off force of bradley is between (\S+) nN \(.*=1 um\) and (\S+) nN \(.*=2 um\)\."
     found = re.fullmatch(form, headline)
     assert [float(text.partition("(")[0]) for text in found.groups()] == pytest.approx([100 * math.pi, 200 * math.pi])
 
@@ -82,23 +82,23 @@ def test_every_choice_of_a_plot_shows_the_stored_numbers(laid_out, swept):
     stored = pd.read_csv(swept / "results.csv").set_index(
         ["quantity", "model", "punch.R [m]", "law.work_of_adhesion [J/m^2]"]
     )
-    over_radius, over_work = laid_out.plots["values"]
+    over_radius, over_work = laid_out.plots["plot-1"], laid_out.plots["plot-2"]
     assert (over_radius.x_label, over_radius.x_scale) == ("punch.R (µm)", "log")
     assert (over_work.x_label, over_work.x_scale) == ("law.work_of_adhesion (mJ/m^2)", "linear")
     seen = 0
     for plot, power in ((over_radius, 1e-6), (over_work, 1e-3)):
-        for series in plot.series:
-            quantity, unit, other = series.group.split("|")
+        for series in plot.data()["series"]:
+            quantity, unit, other = series["group"].split("|")
             scale = {"N": 1.0, "nN": 1e-9, "µN": 1e-6, "nm": 1e-9, "pm": 1e-12}
-            label = plot.y_labels[series.group]
+            label = plot.y_labels[series["group"]]
             column, factor = (
                 ("value", scale[label.rpartition("(")[2].removesuffix(")")])
                 if unit == "si"
                 else ("dimensionless_value", 1.0)
             )
-            for x, y, low, high in zip(series.x, series.y, series.low, series.high, strict=True):
+            for x, y, low, high in zip(*(series[name] for name in ("x", "y", "low", "high")), strict=True):
                 key = (round(x * power, 12), float(other)) if plot is over_radius else (float(other), x * power)
-                row = stored.loc[(quantity, series.model)]
+                row = stored.loc[(quantity, series["model"])]
                 distance = [math.dist(key, one) / max(one) for one in row.index]
                 row = row.iloc[distance.index(min(distance))]
                 assert y * factor == pytest.approx(row[column], rel=1e-9)
@@ -107,18 +107,8 @@ def test_every_choice_of_a_plot_shows_the_stored_numbers(laid_out, swept):
                 seen += 1
     # Both units of 30 values (Bradley has no jump), in both plots.
     assert seen == 2 * 2 * 30
-    groups = {row.group for row in laid_out.tables["plot-1-numbers"].rows}
-    assert groups == {series.group for series in over_radius.series}
-
-
-def test_each_row_stands_for_lines_of_its_file(laid_out):
-    for values in laid_out.plots["values"]:
-        table = laid_out.tables[values.table]
-        stored = list(csv.DictReader(io.StringIO(laid_out.files[table.source])))
-        lines = table.lines if table.lines is not None else range(len(table.rows))
-        assert len(lines) == len(table.rows)
-        for row, line in zip(table.rows, lines, strict=True):
-            assert row.cells[0].text == stored[line]["model"]
+    numbers = laid_out.tables["plot-1-numbers"]
+    assert set(map(numbers.group, numbers.records)) == set(over_radius.points["group"])
 
 
 def test_the_same_folder_gives_the_same_page_and_a_changed_one_none(swept, tmp_path, capsys):
@@ -144,7 +134,7 @@ def test_keys_with_texts_are_choices(tmp_path):
     out = ["--model", "bradley", "--quiet", "--out", str(tmp_path / "out")]
     assert main(["sweep", "--problem", str(tmp_path / "tip.toml"), *vary, *out]) == 0
     page = make_page(read_folder(tmp_path / "out"))
-    assert page.plots["values"] == []
+    assert page.plots == {}
     assert "Values over the varied keys" not in render(page)
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from comparisons.output.latex import escaped, latex
 
-PAPER = Path(__file__).parents[2] / "results" / "baseline" / "paper"
+PAPER = Path(__file__).parents[3] / "results" / "baseline" / "paper"
 #: What our texts hold, what LaTeX takes as commands, and what others may write.
 TEXTS = (
     "κ = −5.24(3) %, μ ≤ 0.7, ν ≥ 0, δ ± 1 × 10⁻³, π Q^(2/n) Δγ z₀^(2/n−1), Q² ∞ √(u²) α₁₂ xᵢ",
@@ -80,17 +80,14 @@ def test_the_tables_of_the_paper_fit_a_page(typeset):
 def test_numbers_are_aligned(texts, specification):
     text = latex(pd.DataFrame({"x": texts}, dtype=object), "c", "l")
     assert rf"{{@{{}}{specification}@{{}}}}" in text
-    assert ("{none}" in text) is (not texts)
 
 
-@pytest.mark.parametrize(
-    ("rows", "wide", "form"), [(3, 1, "table"), (12, 1, "table"), (13, 1, "longtable"), (3, 9, "landscape")]
-)
-def test_a_table_floats_or_continues_or_is_on_its_side(typeset, rows, wide, form):
+@pytest.mark.parametrize(("wide", "form"), [(1, "center"), (9, "landscape")])
+def test_a_wide_table_is_on_its_side(typeset, wide, form):
     words = "a-long-name with some words beside it"
-    text = latex(pd.DataFrame({f"column {i}": [words] * rows for i in range(wide)}), words, "form")
+    text = latex(pd.DataFrame({f"column {i}": [words] * 40 for i in range(wide)}), words, "form")
     assert rf"\begin{{{form}}}" in text
-    assert text.count(r"\caption{") == text.count(r"\label{tab:form}") == 1
+    assert text.count(r"\label{tab:form}") == 1
     typeset(text)
 
 
