@@ -20,7 +20,7 @@ extensions = [
     "repository_pages",
 ]
 exclude_patterns = [
-    *("_extensions", "examples", "ci", "gallery", "screens", "**/.ipynb_checkpoints"),
+    *("_extensions", "examples", "ci", "gallery", "**/.ipynb_checkpoints"),
     *("_generated/gallery/*.ipynb", "**/sg_execution_times.rst"),
 ]
 nitpicky = True

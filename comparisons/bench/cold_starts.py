@@ -19,6 +19,7 @@ from comparisons.external.template import write_template
 
 __all__ = ["BARE", "COLD_STARTS"]
 
+#: An interpreter that does nothing, to which the others are compared.
 BARE = "python -c pass"
 _OWN_MODEL = "run --model my.py:My"
 _COMMANDS = (

@@ -80,10 +80,15 @@ CASE_OR_FILE = (
     file("--problem", help="in place of these: a file in physical units; results are in SI"),
 )
 
+#: Number of processes.
 JOBS = option("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one a core)")
+#: Folder for the results.
 OUT = file("--out", metavar="DIR", help="folder for the results (default: results/runs/TIME); resumed if it has some")
+#: Leaves out all but failures.
 QUIET = option("--quiet", action="store_true", help="print nothing but warnings and failures")
+#: Prints all rows.
 VERBOSE = option("--verbose", action="store_true", help="print every row, not a summary")
+#: Computes stored failures again.
 RETRY_FAILED = option(
     "--retry-failed",
     action="store_true",

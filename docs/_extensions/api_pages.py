@@ -17,7 +17,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_origin
 
-from api_texts import PACKAGES, ROOT, TEXTS, texts_of
+from api_texts import PACKAGES, ROOT, texts_of
 
 from comparisons.runs.code_files import NOT_INSTALLED
 
@@ -139,7 +139,7 @@ def _entry(place: str, name: str) -> str:
 
 
 def comment(place: str, name: str) -> str:
-    """The text on data: that at their definition, the title of a figure, or that of `api_texts.TEXTS`."""
+    """The text on data: that at their definition or the title of a figure."""
     value = getattr(import_module(place), name)
     folder = ROOT / Path(*place.split("."))
     for path in sorted(folder.rglob("*.py")) if folder.is_dir() else [folder.with_suffix(".py")]:
@@ -149,7 +149,7 @@ def comment(place: str, name: str) -> str:
     title = getattr(value, "title", "")
     if isinstance(title, str) and title:
         return escaped(f"{type(value).__name__} `{value.name}`: {title}.")
-    return escaped(TEXTS.get(f"{place}.{name}", ""))
+    return ""
 
 
 def escaped(line: str) -> str:

@@ -12,28 +12,20 @@ ROOT = Path(__file__).resolve().parents[2]
 #: The packages, in the order of the reference.
 PACKAGES = ("fscm", "fem_reference", "comparisons")
 
-#: Texts on data of the solvers that have none in their modules: place and name -> text.
-TEXTS = {
-    "fem_reference.verification.checks.EXPONENTS": "Gradient exponents k of the checks.",
-    "fem_reference.verification.checks.POISSON": "Poisson's ratios of the checks.",
-    "fem_reference.verification.checks.RING": "Mesh for a load on the line r = 1, by which w is singular.",
-}
-
 
 @cache
 def texts_of(path: Path) -> dict[str, str]:
-    """Text of each datum of a module: the comment ``#:`` before it, the string after it, or that where it comes from.
+    """Text of each datum of a module: the comment ``#:`` before it, or that where it comes from.
 
     Examples
     --------
-    >>> texts = texts_of(ROOT / "comparisons" / "cli" / "options.py")
-    >>> texts["OK"] == texts_of(ROOT / "comparisons" / "console" / "exit_status.py")["OK"] != ""
+    >>> texts_of(ROOT / "comparisons" / "console" / "exit_status.py")["OK"] != ""
     True
     """
     text = path.read_text(encoding="utf-8")
     lines, body = text.splitlines(), ast.parse(text).body
     found = {}
-    for statement, after in zip(body, [*body[1:], None], strict=True):
+    for statement in body:
         match statement:
             case ast.Assign(targets=targets):
                 pass
@@ -45,7 +37,7 @@ def texts_of(path: Path) -> dict[str, str]:
             case _:
                 continue
         names = [node.id for target in targets for node in ast.walk(target) if isinstance(node, ast.Name)]
-        found |= dict.fromkeys(names, _before(lines[: statement.lineno - 1]) or _string(after))
+        found |= dict.fromkeys(names, _before(lines[: statement.lineno - 1]))
     return found
 
 
@@ -60,10 +52,3 @@ def _before(lines: list[str]) -> str:
     """The comment ``#:`` that ends these lines."""
     comments = list(takewhile(lambda line: line.startswith("#:"), reversed(lines)))
     return " ".join(line.removeprefix("#:").strip() for line in reversed(comments))
-
-
-def _string(statement: ast.stmt | None) -> str:
-    match statement:
-        case ast.Expr(value=ast.Constant(value=str(text))):
-            return " ".join(text.split())
-    return ""

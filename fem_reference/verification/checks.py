@@ -40,7 +40,9 @@ __all__ = [
 ]
 
 
+#: Gradient exponents k of the checks.
 EXPONENTS = (0.0, 0.1, 0.2, 0.4, 0.6, 0.8)
+#: Poisson's ratios of the checks.
 POISSON = (0.0, 0.25, 0.45)
 
 #: Material of the checks that are about something else.
@@ -55,6 +57,7 @@ FINE = MeshSpec(0.25, 5e-4, 64.0, 0.5, 6)
 #: For pressures with a singular edge at r = 1.
 EDGE = MeshSpec(1e-3, 2e-5, 64.0, 0.69, 6)
 
+#: Mesh for a load on the line r = 1, by which w is singular.
 RING = MeshSpec(1e-3, 2e-3, 64.0, 0.55, 6, 0.05)
 #: For a load on the line r = 1, by which w is singular: denser than the others (with the default density the error is
 #: 1e-5, and 2e-5 for k = 0.8, nu = 0.45), and fine at the line and at the axis.

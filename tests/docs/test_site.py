@@ -1,6 +1,5 @@
 """The documentation site: every public name, every page in a table of contents, spelling, and the whole site."""
 
-import doctest
 import re
 import subprocess
 import sys
@@ -19,6 +18,7 @@ from comparisons.runs.code_files import NOT_INSTALLED
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
+PACKAGES = ("fscm", "fem_reference", "comparisons")
 
 
 def extension(name):
@@ -39,11 +39,6 @@ def api():
 
 
 @pytest.fixture(scope="module")
-def texts():
-    return extension("api_texts")
-
-
-@pytest.fixture(scope="module")
 def reference(api):
     """The pages of the API reference: name -> text."""
     return dict(api.pages())
@@ -52,18 +47,6 @@ def reference(api):
 def documented(reference):
     """What the directives of the reference describe."""
     return set(re.findall(r"^\.\. (?:auto(?:class|function)|py:data):: (\S+)$", "\n".join(reference.values()), re.M))
-
-
-@pytest.mark.parametrize("name", ["api_pages", "api_texts", "repository_pages"])
-def test_examples_of_an_extension(name):
-    assert doctest.testmod(extension(name)) == (0, doctest.testmod(extension(name)).attempted)
-
-
-@pytest.mark.parametrize("package", [fscm, fem_reference, comparisons], ids=lambda package: package.__name__)
-def test_every_name_of_a_package_is_in_the_reference(package, reference):
-    names = {f"{package.__name__}.{name}" for name in package.__all__}
-    assert len(names) > 10
-    assert names - documented(reference) == set()
 
 
 def public(package):
@@ -75,16 +58,18 @@ def public(package):
 
 
 @pytest.mark.parametrize("package", [fscm, fem_reference, comparisons], ids=lambda package: package.__name__)
-def test_every_name_of_a_public_module_is_in_the_reference(package, reference):
-    found = documented(reference)
+def test_the_reference_has_every_name_of_a_package_and_of_its_public_modules(package, reference):
+    described = documented(reference)
+    own = {f"{package.__name__}.{name}" for name in package.__all__}
     objects = {id(getattr(package, name)) for name in package.__all__}
-    missing = [
+    others = {
         f"{module}.{name}"
         for module in public(package)
         for name in getattr(import_module(module), "__all__", ())
-        if f"{module}.{name}" not in found and id(getattr(import_module(module), name)) not in objects
-    ]
-    assert missing == []
+        if id(getattr(import_module(module), name)) not in objects
+    }
+    assert (own | others) - described == set()
+    assert [name for name in described if any(part.startswith("_") for part in name.split("."))] == []
 
 
 def test_every_name_of_the_reference_has_a_text(api, reference):
@@ -115,36 +100,6 @@ def test_the_reference_is_written_with_the_packages_of_the_extra_docs_alone():
     assert int(done.stdout) > 10
 
 
-def test_the_text_is_of_the_data_and_not_of_others_with_the_same_name(api):
-    assert api.comment("comparisons", "QUANTITIES") == api.comment("comparisons.quantities", "QUANTITIES")
-    assert api.comment("comparisons", "QUANTITIES") != api.comment(
-        "comparisons.paper.studies.graded_routes", "QUANTITIES"
-    )
-
-
-def test_a_text_of_the_site_is_of_data_without_one_in_their_module(texts):
-    for full in texts.TEXTS:
-        place, _, name = full.rpartition(".")
-        assert name in import_module(place).__all__
-        assert texts.texts_of(ROOT / Path(*place.split(".")).with_suffix(".py"))[name] == "", full
-
-
-def test_texts_are_found_before_data_after_them_and_where_they_are_imported_from(texts, tmp_path):
-    module = tmp_path / "module.py"
-    module.write_text(
-        "import x\n\n#: Both,\n#: of one line.\nA, B = 1, 2\nC: int = 3\n'''After it.'''\n# No text.\nD = 4\n"
-        "from comparisons.console.exit_status import FAILED as LOST, OK\n"
-    )
-    found = texts.texts_of(module)
-    assert [found[name] for name in "ABCD"] == ["Both, of one line.", "Both, of one line.", "After it.", ""]
-    assert found["OK"] == found["LOST"]
-    assert found["OK"].startswith("Exit statuses: 0 done")
-
-
-def test_private_modules_are_not_in_the_reference(reference):
-    assert [name for name in documented(reference) if any(part.startswith("_") for part in name.split("."))] == []
-
-
 @cache
 def contents():
     """What the tables of contents of the first page list."""
@@ -155,50 +110,25 @@ def contents():
 def test_every_page_is_in_one_table_of_contents():
     pages = {path.stem for path in DOCS.glob("*.md")} - {"index"}
     pages |= {f"notebooks/{path.stem}" for path in (DOCS / "notebooks").glob("*.ipynb")}
-    assert len(contents()) == len(set(contents()))
-    assert {name for name in contents() if not name.startswith("_generated/")} == pages
-
-
-def test_every_generated_page_exists():
-    generated = {name.removeprefix("_generated/") for name in contents() if name.startswith("_generated/")}
-    others = {Path(name).stem for name in extension("repository_pages").pages()}
-    assert generated == {*others, "gallery/index", "api/index"}
+    generated = {f"_generated/{Path(name).stem}" for name in extension("repository_pages").pages()}
+    generated |= {"_generated/gallery/index", "_generated/api/index"}
+    assert sorted(contents()) == sorted(pages | generated)
 
 
 def test_links_of_the_pages_from_other_files_resolve():
-    for name, text in extension("repository_pages").pages().items():
+    pages = extension("repository_pages").pages()
+    for name, text in pages.items():
         for link in re.findall(r"\]\(([^)#\s]+)", text):
-            assert (
-                "://" in link
-                or (DOCS / "_generated" / link).resolve().exists()
-                or link in extension("repository_pages").pages()
-            ), (name, link)
+            assert "://" in link or (DOCS / "_generated" / link).resolve().exists() or link in pages, (name, link)
 
 
 @pytest.mark.lint
 def test_spelling():
     """The documents, the names of files aside; words of the trade are in `[tool.codespell]` of pyproject.toml."""
-    names = (
-        "README.md",
-        "CONTRIBUTING.md",
-        "CHANGELOG.md",
-        "CITATION.cff",
-        "docs",
-        "fscm",
-        "fem_reference",
-        "comparisons",
-    )
+    names = [*ROOT.glob("*.md"), ROOT / "CITATION.cff", *(ROOT / name for name in ("docs", *PACKAGES))]
     command = [sys.executable, "-m", "codespell_lib", *names]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert (done.stdout, done.returncode) == ("", 0)
-
-
-@pytest.mark.lint
-def test_a_wrong_word_is_found(tmp_path):
-    (tmp_path / "page.md").write_text("The presure of the contact.\n", encoding="utf-8")
-    command = [sys.executable, "-m", "codespell_lib", str(tmp_path)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-    assert "presure ==> pressure" in done.stdout
 
 
 @pytest.mark.heavy

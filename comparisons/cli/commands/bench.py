@@ -12,7 +12,7 @@ from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = ("fscm-bench bench --only work-precision",)
 

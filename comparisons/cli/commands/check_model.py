@@ -12,7 +12,7 @@ from comparisons.external.contract_checks import SKIPPED, examine
 from comparisons.external.model_source import load_model
 from comparisons.registry import MODELS
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = ("fscm-bench check-model my_model.py:MyModel",)
 

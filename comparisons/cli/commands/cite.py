@@ -15,7 +15,7 @@ from comparisons.runs.environment import version_text
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = ("fscm-bench cite", "fscm-bench cite --format bibtex results/runs/TIME")
 

@@ -12,7 +12,7 @@ from comparisons.output.comparison import terminal_tables
 from comparisons.output.run_summary import failure_lines
 from comparisons.pipeline.compare import REFERENCES, compare
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = ("fscm-bench compare jkr md-improved --n 1 2 --k 0 0.4 --mu 0.1 1 3",)
 

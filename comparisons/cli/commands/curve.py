@@ -21,7 +21,7 @@ from comparisons.registry import create, identify
 from comparisons.runs.atomic_files import atomic, writable_file
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = (
     "fscm-bench curve --model fscm jkr --n 2 --k 0.4 --mu 3 --plot curve.png --csv curve.csv",

@@ -16,7 +16,7 @@ from comparisons.description.overview_text import content, lines
 from comparisons.description.propagation_text import outcome_of
 from comparisons.problem import Problem
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = ("fscm-bench describe pad.toml", "fscm-bench describe pad.toml --uncertain")
 

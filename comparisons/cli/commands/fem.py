@@ -20,7 +20,7 @@ from comparisons.runs.atomic_files import writable_file, writing
 from fem_reference import export
 from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, solver_table
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = (
     "fscm-bench fem --n 2 --k 0.4 --mu 1 --vtu body.vtu --plot body.png",

@@ -10,7 +10,7 @@ from comparisons.console.progress import log
 from comparisons.pipeline.leaderboard import leaderboard
 from comparisons.runs.atomic_files import atomic, writable_file
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = ("fscm-bench leaderboard results/mine results/other --out leaderboard.html",)
 

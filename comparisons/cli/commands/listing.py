@@ -21,7 +21,7 @@ from comparisons.registry import MODELS, create
 from comparisons.runs.cases import TIERS, grids
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = ("fscm-bench list models", "fscm-bench list gates --format json")
 

@@ -8,7 +8,7 @@ from comparisons.cli.commands.sweep import show
 from comparisons.cli.options import QUIET, file
 from comparisons.pipeline.merge import merge
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = ("fscm-bench merge results/shard1 results/shard2 --out results/sweep",)
 

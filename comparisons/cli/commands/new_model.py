@@ -11,7 +11,7 @@ from comparisons.console.progress import log
 from comparisons.external.template import write_template
 from comparisons.registry import MODELS
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = ("fscm-bench new-model my-model",)
 

@@ -13,7 +13,7 @@ from comparisons.console.progress import log
 from comparisons.paper.registry import NAMES
 from comparisons.pipeline.figures import make_figures
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = ("fscm-bench paper --figure 16 --out results/paper",)
 

@@ -16,7 +16,7 @@ from comparisons.runs.atomic_files import atomic, writable_file
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import read_record
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = ("fscm-bench report results/mine --out report.html",)
 

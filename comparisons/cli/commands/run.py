@@ -23,7 +23,7 @@ from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
 from comparisons.runs.cases import TIERS
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = (
     "fscm-bench run",

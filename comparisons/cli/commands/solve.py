@@ -17,7 +17,7 @@ from comparisons.quantities import QUANTITIES
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["EXAMPLES", "OPTIONS", "call"]
+__all__ = ["call"]
 
 EXAMPLES = (
     "fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1",

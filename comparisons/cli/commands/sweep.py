@@ -15,7 +15,7 @@ from comparisons.pipeline.run import run
 from comparisons.registry import identify
 from comparisons.runs.backends import BACKENDS
 
-__all__ = ["EXAMPLES", "OPTIONS", "call", "show"]
+__all__ = ["call", "show"]
 
 EXAMPLES = (
     "fscm-bench sweep my_cases.toml --model jkr md-improved --out results/sweep",

@@ -164,6 +164,19 @@ def test_every_list_has_a_form_for_people_and_two_for_programs(capsys, what):
         assert {(row[0], float(row[-2]), float(row[-1])) for row in rows} == limits
 
 
+def test_a_narrow_terminal_shows_every_name_whole(capsys, monkeypatch):
+    monkeypatch.setattr("comparisons.cli.screen._WIDTH", 60)
+    for what, names in {
+        "models": MODELS,
+        "quantities": QUANTITIES,
+        "gates": [g.id for g in load_gates(gates_text())],
+    }.items():
+        assert main(["list", what]) == 0
+        shown = capsys.readouterr().out
+        assert max(map(len, shown.splitlines())) <= 60
+        assert set(names) <= set(shown.replace(",", " ").split())
+
+
 @pytest.mark.parametrize("more", [[], ["--csv", "-"]])
 def test_curve_goes_to_stdout_as_csv(capsys, tmp_path, monkeypatch, more):
     monkeypatch.chdir(tmp_path)
