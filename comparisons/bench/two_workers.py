@@ -16,8 +16,9 @@ from comparisons.problem import Problem
 from comparisons.runs.tasks import Task, evaluate_task
 from comparisons.runs.workers import processes
 
-__all__ = ["CASES", "WORKERS"]
+__all__ = ["WORKERS"]
 
+#: Cases of the sweep.
 CASES = 200
 #: Gradient exponents and Tabor numbers of the sweep, the largest first as in a run.
 _EXPONENTS, _MU = (0.0, 0.1, 0.2, 0.3, 0.4), (1.0, 0.1)

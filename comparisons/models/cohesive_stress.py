@@ -18,11 +18,11 @@ from comparisons.model import NotApplicable
 
 __all__ = ["SMALLEST_SHAPE_INDEX", "THEORETICAL_STRENGTH", "eta"]
 
+#: Largest tension of the 9-3 law (Eq. 73).
 THEORETICAL_STRENGTH = 16.0 * math.sqrt(3.0) / 27.0
-"""Largest tension of the 9-3 law (Eq. 73)."""
 
+#: At n <= 2/3 the tail -(8/3) H^-3 of the 9-3 law integrates to an infinite load over r^n / n.
 SMALLEST_SHAPE_INDEX = 2.0 / 3.0
-"""At n <= 2/3 the tail -(8/3) H^-3 of the 9-3 law integrates to an infinite load over r^n / n."""
 
 # Below this e the even term is summed from its Taylor series, of which 16 terms leave 0.25^32 = 5e-20.
 _SERIES_BELOW = 0.25
