@@ -22,8 +22,8 @@ ALLOWED = {
     # A solid that is no power law has no dimensionless problem.
     "comparisons.paper.studies.graded_routes": ("fscm", "fem_reference"),
     "comparisons.paper.studies.layered_adhesion": ("fscm",),
-    # The landing of a jump and the surface at pull-off are no quantities of a model; both jumps of one path, in half the
-    # time of two computations.
+    # The landing of a jump and the surface at pull-off are no quantities of a model; both jumps of one path, in half
+    # the time of two computations.
     "comparisons.paper.solver_tasks": ("fscm",),
     # Judges statements on the functions inside the FSCM and on the two Tabor numbers (Eqs. 18-22 and 30).
     "comparisons.paper.statements.formula_measures": ("fscm",),
