@@ -14,6 +14,14 @@ from fscm._meshes import Mesh, Meshes
 from fscm._typing import Array
 
 FUNCTIONALS = ("load", "displacement", "central_gap", "energy")
+#: Meshes of references: other panels on another coarse path, and an end that is ten times farther out.
+FINER = Meshes(path=Mesh(10, 2e-5), check=Mesh(8, 1e-3), value=Mesh(18, 1e-9), end_height=1e7)
+
+
+@cache
+def finer_analysis(problem: Problem, end_height: float = FINER.end_height) -> Analysis:
+    """The model on the meshes of references."""
+    return Analysis(problem, replace(FINER, end_height=end_height))
 
 
 @dataclass(frozen=True)

@@ -23,15 +23,14 @@ from fscm import _continuation as continuation
 from fscm._arc_length import Point
 from fscm._completeness import completed
 from fscm._equilibrium import State
-from fscm._meshes import Mesh, Meshes
 from fscm._threads import one_thread
 from fscm._whole_path import path_end
+from tests.fscm.equilibria_on_finer_meshes import FINER
 
 SEED, COUNT = 20261122, 500
 TABLE = Path(__file__).with_suffix(".csv")
 COLUMNS = ("n", "k", "mu", "quantity", "status", "value", "points", "u_num")
-# Other panels, a mesh that ends ten times farther out, and steps of an eighth in arc length.
-MESHES = Meshes(path=Mesh(10, 2e-5), check=Mesh(8, 1e-3), value=Mesh(18, 1e-9), end_height=1e7)
+# Steps of an eighth in arc length.
 STEPS = 8
 # Seconds of CPU after which the finer path of a problem is given up; its rows then say so.
 PATIENCE = 60
@@ -54,11 +53,11 @@ def problems(count: int = COUNT) -> list[Problem]:
 @one_thread()
 def finer(problem: Problem) -> Analysis:
     """The model on the finer meshes, with a path of small steps."""
-    model = Analysis(problem, MESHES)
-    end = path_end(problem, MESHES.end_height)
+    model = Analysis(problem, FINER)
+    end = path_end(problem, FINER.end_height)
     longest = 0.5 / STEPS
-    path = continuation.equilibrium_path(problem, *MESHES.path, longest, end_height=MESHES.end_height)
-    points = completed(_thinned(path, end), MESHES.path.tolerance)
+    path = continuation.equilibrium_path(problem, *FINER.path, longest, end_height=FINER.end_height)
+    points = completed(_thinned(path, end), FINER.path.tolerance)
     model.__dict__.update(_traced=points, points=points)
     return model
 

@@ -9,7 +9,6 @@ import pytest
 
 from fscm import Analysis, Problem, displacement_cycle, equilibria, trace
 from fscm._completeness import completed, may_hide
-from fscm._continuation import equilibrium_path
 from fscm._path_end import LeastLoad, displacement_of_compression
 from fscm._whole_path import path_until
 from fscm.custom_punch import CustomPunch
@@ -166,18 +165,6 @@ def test_states_next_to_a_fold_are_all_found(control: str, value: float, number:
     assert len({round(gap, 6) for gap in gaps}) == number
 
 
-def test_a_path_lists_its_folds() -> None:
-    path = path_of(Problem(2, 0.4, 1.0))
-    assert [(fold.quantity, fold.maximum) for fold in path.folds] == [
-        ("displacement", True),
-        ("displacement", False),
-        ("load", False),
-    ]
-    assert path.folds[-1].load == path.load.min()
-    assert math.isnan(path.folds[0].edge_radius)
-    assert path.folds[-1].edge_radius > 1.0
-
-
 @pytest.mark.heavy
 def test_a_landing_that_the_path_does_not_contain_is_told() -> None:
     """It was extrapolated to -0.761; the true load is -0.084."""
@@ -212,14 +199,9 @@ def test_a_tensile_end_comes_after_pull_off() -> None:
 
 
 def test_a_retreat_needs_a_path_beyond_pull_off() -> None:
-    path = trace(Problem(2, 0.4, 0.3))
-    cut = int(np.argmin(path.load)) + 1
-    short = type(path)(*(getattr(path, name)[:cut] for name in _ARRAYS), path.u_displacement, path.u_load)
+    x = np.linspace(0.0, 1.0, 3)
     with pytest.raises(ValueError, match="before pull-off"):
-        load_controlled_retreat(short)
-
-
-_ARRAYS = ("central_gap", "displacement", "load", "energy", "edge_radius")
+        load_controlled_retreat(EquilibriumPath(-x, x, -x, x, x, 0.0, 0.0))
 
 
 def test_two_jumps_on_one_approach() -> None:
@@ -235,13 +217,3 @@ def test_two_jumps_on_one_approach() -> None:
     assert cycle.jump_in[0].tolist() == [-5.0, -5.0]
     assert cycle.jump_out[0].tolist() == [-6.0, -6.0]
     assert cycle.jump_out[1, 0] == -2.0 < cycle.jump_out[1, 1]
-
-
-def test_a_path_without_end_is_cut_by_its_stretches() -> None:
-    """The stretch of a point tells its continuation parameter: 0 apart, 1 in contact of a power law."""
-    segments = []
-    for point in equilibrium_path(Problem(2, 0.4, 1.0), 8, 1e-3):
-        segments.append((point.segment, point.state.follows_edge))
-        if point.state.follows_edge and point.state.load > 0.0:
-            break
-    assert set(segments) == {(0, False), (1, True)}

@@ -85,13 +85,6 @@ def test_no_number_where_there_is_no_equilibrium(control: Control) -> None:
         newton(_state(Problem(2, 0.4, 3.0), True), control)
 
 
-@pytest.mark.parametrize(("n", "k"), [pytest.param(300.0, 0.0, marks=pytest.mark.heavy), (300.0, 0.4)])
-def test_the_flattest_punch_is_solved_without_a_warning(n: float, k: float) -> None:
-    solution = solve(Problem(n=n, k=k, mu=1.0), "pull_off_force")
-    assert 0.8 < solution.value < 0.9
-    assert solution.u_num < 1e-9
-
-
 @pytest.mark.parametrize(("n", "k", "mu"), [(8.445, 0.824, 18.4), (300.0, 0.2, 2.0)])
 def test_a_nucleus_many_decades_smaller_than_its_mesh_does_not_overflow(n: float, k: float, mu: float) -> None:
     """Its mesh is made with the load of the known state; at the scale of the nucleus that mesh ends at no height."""

@@ -58,6 +58,13 @@ def test_a_shift_next_to_an_extreme_covers_both_roots(error, slope, curvature):
     assert abs(real).max() == pytest.approx(shift, rel=1e-9)
 
 
+@pytest.mark.parametrize(("error", "slope", "curvature"), [(1e-9, 1.0, 3.0), (0.04, 0.5, 2.0), (0.2, 0.5, 0.0)])
+def test_a_shift_away_from_an_extreme_covers_the_closest_root_for_both_signs_of_the_error(error, slope, curvature):
+    shift = root_shift(error, slope, curvature)
+    closest = [min(abs(np.roots([0.5 * curvature, slope, moved]))) for moved in (-error, error)]
+    assert max(closest) == pytest.approx(shift, rel=1e-9)
+
+
 @pytest.mark.parametrize("functional", ["load", "displacement", "central_gap"])
 @pytest.mark.parametrize("event", ["pull_off", "jump_out"])
 def test_the_rate_of_an_error_is_the_difference_of_the_rates_on_two_meshes(event, functional):

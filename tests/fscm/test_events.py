@@ -141,19 +141,6 @@ def test_many_random_problems_obey_what_all_obey(n: float, k: float, log_mu: flo
     _obeys_what_all_obey(n, k, log_mu)
 
 
-def test_no_hysteresis_quantities_for_a_stiff_solid() -> None:
-    for quantity in ("jump_in_gap", "jump_out_displacement", "hysteresis_energy"):
-        with pytest.raises(NoSuchEvent, match="no jump below the critical"):
-            solve(Problem(2, 0.4, 0.1), quantity)
-
-
-def test_unknown_quantity_is_refused() -> None:
-    with pytest.raises(ValueError, match="pull_off_force"):
-        solve(Problem(2, 0, 1), "pulloff")
-    with pytest.raises(ValueError, match=r"unknown quantity 'nonsense'; known are pull_off_force, .*hysteresis_energy"):
-        Analysis(Problem(2, 0, 1)).solution("nonsense")
-
-
 def test_edge_of_an_extreme_problem_is_resolved() -> None:
     """k = 0.8, mu = 2.5: the cohesive edge is 5e-6 wide, and the tension at it still reaches the strength."""
     state = Analysis(Problem(2, 0.8, 2.5)).event("pull_off").value

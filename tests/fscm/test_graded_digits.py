@@ -121,28 +121,3 @@ def test_the_series_has_25_digits(name, monkeypatch):
         monkeypatch.setattr(graded_digits, constant, finer)
     with mpmath.workdps(DIGITS):
         assert abs(value / graded_digits.relative_compliance(solid, xi) - 1) < mpmath.mpf(10) ** -25
-
-
-@pytest.mark.heavy
-@pytest.mark.parametrize("name", graded_digits.SOLIDS)
-def test_the_stored_responses_are_those_of_adaptive_quadrature(name):
-    """The integral to the end of the table by `mpmath.quad` between zeros, the same closed form, at two pairs."""
-    known = _stored()[name]
-    modes = np.array(known["modes"]).T
-    last = graded_digits.END + 4.2 * graded_digits.WIDTH
-    c = float(last * graded_digits.excess(modes, np.array([last]))[0])
-
-    def rest(x):
-        value = graded_digits.excess(modes, np.array([float(x)]))[0] - c * float(x) / (float(x) ** 2 + 1.0)
-        smooth = mpmath.erfc((x - graded_digits.END) / graded_digits.WIDTH) / 2
-        return value * smooth * mpmath.besselj(0, x * r) * mpmath.besselj(0, x * t)
-
-    for i in np.argsort(np.array(known["r"]) + np.array(known["t"]))[:2].tolist():
-        r, t = known["r"][i], known["t"][i]
-        zeros = np.arange(1.0, last * (r + t) / np.pi) * np.pi / (r + t)
-        # Up to the first of them D changes, by a power of xi at the start.
-        ends = [0.0, *np.geomspace(1e-10, zeros[0], 40).tolist(), *zeros[1:].tolist(), last]
-        total = mpmath.quad(rest, ends, method="gauss-legendre", maxdegree=4)
-        closed = c * mpmath.besseli(0, min(r, t)) * mpmath.besselk(0, max(r, t))
-        exact = t * (1 / mpmath.agm(r + t, abs(r - t)) + closed + total)
-        assert abs(known["G"][i] - exact) < 2e-12 * exact

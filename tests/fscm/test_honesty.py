@@ -12,55 +12,46 @@ import numpy as np
 import pytest
 
 from fscm import ACCURACIES, Analysis, NoSuchEvent, Problem, solve_together
-from fscm._meshes import Mesh, Meshes
+from fscm._meshes import Meshes
 from fscm.quantities import TABLE
+from tests.fscm.equilibria_on_finer_meshes import finer_analysis
+from tests.fscm.marks import heavy
 
-SAMPLE = 64
-REFERENCE_MESHES = Meshes(path=Mesh(10, 2e-5), check=Mesh(8, 1e-3), value=Mesh(18, 1e-9), end_height=1e7)
-NARROWEST_EDGE = 1e-6
 # The error of the reference, relative: the scatter between orders 16 to 24, tolerances 1e-8 to 1e-12.
 REFERENCE_ERROR = 1e-14
 
 
-def wide_sample(seed: int, count: int, narrowest: float) -> list[Problem]:
-    """Problems of the box 0.8 <= n <= 10, 0 <= k <= 0.9, 0.005 <= mu <= 20 with edges wider than `narrowest`."""
-    rng = np.random.default_rng(seed)
-    problems: list[Problem] = []
+def sample(seed: int, count: int, narrowest: float, n_range, shapes, share, largest_k, mu_range) -> list[Problem]:
+    """Random problems of a box with edges wider than `narrowest`; n is in its range for a share, else in `shapes`."""
+    rng, problems = np.random.default_rng(seed), []
     while len(problems) < count:
-        n = rng.uniform(0.8, 10) if rng.random() < 0.7 else rng.choice([1.0, 1.5, 2.0, 3.0, 5.0])
-        k = rng.uniform(0, 0.9) if rng.random() < 0.85 else 0.0
-        mu = math.exp(rng.uniform(math.log(0.005), math.log(20)))
-        problem = Problem(float(n), float(k), mu)
+        n = rng.uniform(*n_range) if rng.random() < share else rng.choice(shapes)
+        k = rng.uniform(0, largest_k) if rng.random() < 0.85 else 0.0
+        problem = Problem(float(n), float(k), math.exp(rng.uniform(*map(math.log, mu_range))))
         if (1.03 * problem.compliance) ** (-1 / (1 - k)) > narrowest:
             problems.append(problem)
     return problems
 
 
-def _sample() -> list[Problem]:
-    """Problems of the box 1 <= n <= 6, 0 <= k <= 0.8, 0.01 <= mu <= 10 with edges wider than 1e-6."""
-    rng = np.random.default_rng(20260101)
-    problems: list[Problem] = []
-    while len(problems) < SAMPLE:
-        n = rng.uniform(1, 6) if rng.random() < 0.6 else rng.choice([1.0, 1.5, 2.0, 5.0])
-        k = rng.uniform(0, 0.8) if rng.random() < 0.85 else 0.0
-        mu = math.exp(rng.uniform(math.log(0.01), math.log(10)))
-        problem = Problem(float(n), float(k), mu)
-        if (1.03 * problem.compliance) ** (-1 / (1 - k)) > NARROWEST_EDGE:
-            problems.append(problem)
-    return problems
+def wide_sample(seed: int, count: int, narrowest: float) -> list[Problem]:
+    """Problems of the box 0.8 <= n <= 10, 0 <= k <= 0.9, 0.005 <= mu <= 20."""
+    return sample(seed, count, narrowest, (0.8, 10), [1.0, 1.5, 2.0, 3.0, 5.0], 0.7, 0.9, (0.005, 20))
 
 
 @cache
+def _sample() -> list[Problem]:
+    """Problems of the box 1 <= n <= 6, 0 <= k <= 0.8, 0.01 <= mu <= 10."""
+    return sample(20260101, 64, 1e-6, (1, 6), [1.0, 1.5, 2.0, 5.0], 0.6, 0.8, (0.01, 10))
+
+
 def reference(problem: Problem, *quantities: str) -> list[float]:
-    """Values on the reference meshes; their check mesh is not used."""
-    model = Analysis(problem, REFERENCE_MESHES)
-    return [model.solution(q).value for q in quantities]
+    return [finer_analysis(problem).solution(quantity).value for quantity in quantities]
 
 
-@pytest.mark.parametrize("part", [0, *(pytest.param(part, marks=pytest.mark.heavy) for part in range(1, 8))])
-def test_pull_off_force_is_accurate_and_honest(part: int) -> None:
+@pytest.mark.parametrize("start", [0, *heavy(*range(1, 8))])
+def test_pull_off_force_is_accurate_and_honest(start: int) -> None:
     rows, ratios = [], []
-    for problem in _sample()[part::8]:
+    for problem in _sample()[start::8]:
         solution = Analysis(problem).solution("pull_off_force")
         (exact,) = reference(problem, "pull_off_force")
         error = abs(solution.value - exact)
@@ -79,14 +70,13 @@ MEDIAN, LARGEST = 1e3, 1e5
 WIDE = 12
 
 
-@pytest.mark.parametrize("part", [0, *(pytest.param(part, marks=pytest.mark.heavy) for part in (1, 2, 3))])
-def test_all_quantities_of_the_wide_box_are_honest(part: int) -> None:
+@pytest.mark.parametrize("start", [0, *heavy(1, 2, 3)])
+def test_all_quantities_of_the_wide_box_are_honest(start: int) -> None:
     """Against finer meshes, whose own bound (their rounding, mostly) is added."""
     rows, ratios = [], []
-    for problem in wide_sample(20260712, WIDE, 1e-3)[part::4]:
-        names = [name for name, row in TABLE.items() if row.needs]
-        model, finer = Analysis(problem), Analysis(problem, REFERENCE_MESHES)
-        for name in names:
+    for problem in wide_sample(20260712, WIDE, 1e-3)[start::4]:
+        model, finer = Analysis(problem), finer_analysis(problem)
+        for name in (name for name, row in TABLE.items() if row.needs):
             try:
                 solution = model.solution(name)
             except NoSuchEvent:
@@ -105,11 +95,8 @@ def test_all_quantities_of_the_wide_box_are_honest(part: int) -> None:
     ("n", "k", "mu"),
     [
         (2.0, 0.0, 0.72),
-        pytest.param(2.0, 0.4, 3.0, marks=pytest.mark.heavy),
-        pytest.param(1.5, 0.6, 2.0, marks=pytest.mark.heavy),
-        pytest.param(5.0, 0.2, 6.0, marks=pytest.mark.heavy),
-        # The nucleus of contact of a steep gradient: many small steps.
-        pytest.param(2.0, 0.9, 1.0, marks=pytest.mark.heavy),
+        # The last one has many small steps at contact initiation.
+        *heavy((2.0, 0.4, 3.0), (1.5, 0.6, 2.0), (5.0, 0.2, 6.0), (2.0, 0.9, 1.0)),
     ],
 )
 def test_every_event_is_honest(n: float, k: float, mu: float) -> None:
@@ -137,7 +124,7 @@ REACHED = 0.85
     [
         # The default accuracy is that of the tests above.
         (1e-5, 5 * EVERY),
-        *(pytest.param(accuracy, EVERY, marks=pytest.mark.heavy) for accuracy in (1e-5, *ACCURACIES)),
+        *heavy(*((accuracy, EVERY) for accuracy in (1e-5, *ACCURACIES))),
     ],
 )
 def test_an_accuracy_is_reached_and_honest(accuracy: float | str, every: int) -> None:

@@ -7,25 +7,12 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from fscm import (
-    Analysis,
-    LennardJones,
-    NoSuchEvent,
-    NotConverged,
-    Problem,
-    Solution,
-    equilibria,
-    profile,
-    solve,
-    solve_together,
-    trace,
-)
+from fscm import Analysis, LennardJones, NotConverged, Problem, equilibria, profile, solve, solve_together, trace
 from fscm._arc_length import parameter_of, rates_of
-from fscm._completeness import completed
 from fscm._continuation import equilibrium_path, moved
-from fscm._meshes import Mesh, Meshes
-from fscm._whole_path import path_end, path_until
-from fscm.experiment import displacement_cycle, load_controlled_retreat
+from fscm.experiment import displacement_cycle
+from tests.fscm.equilibria_on_finer_meshes import finer_analysis
+from tests.fscm.marks import heavy
 
 
 @pytest.mark.parametrize(
@@ -34,8 +21,7 @@ from fscm.experiment import displacement_cycle, load_controlled_retreat
         (2.0, 0.0, 0.3),
         (2.0, 0.4, 1.5),
         (5.0, 0.3, 1.2),
-        pytest.param(1.5, 0.6, 1.0, marks=pytest.mark.heavy),
-        pytest.param(1.0, 0.2, 0.5, marks=pytest.mark.heavy),
+        *heavy((1.5, 0.6, 1.0), (1.0, 0.2, 0.5)),
     ],
 )
 def test_work_equals_change_of_energy(n: float, k: float, mu: float) -> None:
@@ -91,19 +77,6 @@ def test_uncertainty_of_the_path_is_honest() -> None:
         assert abs(off) < path.u_load + abs(slope) * path.u_displacement + 1e-9
 
 
-def test_three_states_at_one_displacement() -> None:
-    problem = Problem(2, 0.4, 3.0)
-    states = equilibria(problem, "displacement", -4.0)
-    assert len(states) == 3
-    assert all(s.displacement == pytest.approx(-4.0, abs=1e-9) for s in states)
-    assert states[0].central_gap > states[1].central_gap > states[2].central_gap
-    for state in states:
-        (again,) = equilibria(problem, "central_gap", state.central_gap)
-        assert again.load == pytest.approx(state.load, abs=1e-6)
-    under_load = equilibria(problem, "load", states[2].load)
-    assert min(abs(s.displacement + 4.0) for s in under_load) < 1e-7
-
-
 @pytest.mark.parametrize(
     ("control", "value", "message"),
     [("gap", 1.0, "unknown"), ("load", float("nan"), "finite"), ("central_gap", -1.0, "singular")],
@@ -111,10 +84,6 @@ def test_three_states_at_one_displacement() -> None:
 def test_bad_control_is_refused(control: str, value: float, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         equilibria(Problem(2, 0.4, 1.0), control, value)
-
-
-def test_load_beyond_pull_off_has_no_state() -> None:
-    assert equilibria(Problem(2, 0.4, 1.0), "load", -3.0) == []
 
 
 def test_cycle_encloses_the_hysteresis_energy() -> None:
@@ -132,19 +101,6 @@ def test_cycle_encloses_the_hysteresis_energy() -> None:
     assert np.all(np.diff(cycle.unloading[0]) <= 0)
 
 
-def test_cycle_without_jumps_is_reversible() -> None:
-    cycle = displacement_cycle(trace(Problem(2, 0.4, 0.2)))
-    assert cycle.jump_in is None
-    np.testing.assert_array_equal(cycle.loading, cycle.unloading[:, ::-1])
-
-
-def test_load_controlled_retreat_ends_at_pull_off() -> None:
-    path = trace(Problem(2, 0.4, 1.0))
-    retreat = load_controlled_retreat(path)
-    assert retreat[1, -1] == path.load.min()
-    assert np.all(np.diff(retreat[1]) < 0)
-
-
 def test_profiles_at_pull_off() -> None:
     """Eq. 4 closes on the profiles; the contact is flat and the edge carries the strength (Fig. 5)."""
     surface = profile(Problem(2, 0.4, 1.0))
@@ -154,36 +110,18 @@ def test_profiles_at_pull_off() -> None:
     assert abs(surface.gap[0]) < 0.02
 
 
-def test_profiles_need_the_event() -> None:
-    with pytest.raises(NoSuchEvent):
-        profile(Problem(2, 0.4, 0.1), "jump_in")
-
-
-def _finer(problem: Problem, quantity: str) -> float:
-    """The quantity from finer meshes that end four times farther out, on a path of eight times smaller steps."""
-    meshes = Meshes(path=Mesh(12, 1e-5), check=Mesh(12, 3e-9), value=Mesh(15, 1e-9), end_height=4e6)
-    analysis = Analysis(problem, meshes)
-    end = path_end(problem, meshes.end_height)
-    points = path_until(problem, *meshes.path, end, "its end", 12000, 0.5 / 8.0, end_height=meshes.end_height)
-    points = completed(points, meshes.path.tolerance)
-    analysis.__dict__.update(_traced=points, points=points)
-    return analysis.solution(quantity).value
-
-
 @pytest.mark.parametrize(
     ("n", "k", "mu"),
     [
-        (300.0, 0.4, 1.0),
-        pytest.param(300.0, 0.2, 0.3, marks=pytest.mark.heavy),
-        pytest.param(50.0, 0.0, 3.0, marks=pytest.mark.heavy),
-        pytest.param(100.0, 0.4, 1.0, marks=pytest.mark.heavy),
+        *((300.0, 0.4, 1.0), (30.0, 0.4, 1.0), (30.0, 0.0, 0.05)),
+        *heavy((300.0, 0.0, 1.0), (300.0, 0.2, 0.3), (100.0, 0.4, 1.0), (50.0, 0.0, 3.0), (30.0, 0.0, 1.0)),
     ],
 )
 def test_steep_punches_are_solved(n: float, k: float, mu: float) -> None:
-    """The deformation of a steep punch is kept beside its heights, which would round it away."""
+    """The deformation of a steep punch is stored beside its heights, which would round it away."""
     problem = Problem(n, k, mu)
-    solution = solve(problem, "pull_off_force")
-    assert abs(solution.value - _finer(problem, "pull_off_force")) <= solution.u_num < 1e-9
+    solution, finer = solve(problem, "pull_off_force"), finer_analysis(problem).solution("pull_off_force")
+    assert abs(solution.value - finer.value) <= solution.u_num < 1e-9
 
 
 @pytest.mark.parametrize("n", [100.0, 300.0])
@@ -211,15 +149,8 @@ def test_a_punch_near_the_least_shape_index_is_followed_in_steps_of_its_load() -
     assert solution.u_num < 1e-8
 
 
-@pytest.mark.parametrize(
-    ("n", "k", "mu"),
-    [
-        pytest.param(2.0, 0.95, 1.0, marks=pytest.mark.heavy),
-        pytest.param(5.0, 0.95, 1.0, marks=pytest.mark.heavy),
-        pytest.param(2.0, 0.9, 2.0, marks=pytest.mark.heavy),
-        pytest.param(2.0, 0.98, 1.0, marks=pytest.mark.heavy),
-    ],
-)
+@pytest.mark.heavy
+@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.95, 1.0), (5.0, 0.95, 1.0), (2.0, 0.9, 2.0), (2.0, 0.98, 1.0)])
 def test_the_edge_of_a_small_nucleus_is_followed(n: float, k: float, mu: float) -> None:
     """It is up to 1e-16 wide and its own gap is above that of largest tension: the fixed mesh needed 1e3 steps."""
     analysis = Analysis(Problem(n, k, mu))
@@ -232,14 +163,6 @@ def test_the_edge_of_a_small_nucleus_is_followed(n: float, k: float, mu: float) 
     assert solution.u_num < 1e-7
 
 
-@pytest.mark.heavy
-def test_the_pull_off_with_an_edge_below_the_rounding_of_its_radius() -> None:
-    """The first solid of the next test, whose zero load is at the end of a long path."""
-    solution = solve(Problem(2.0, 0.0, 1e5), "pull_off_force")
-    assert solution.value == pytest.approx(1.5, rel=5e-7)
-    assert solution.u_num < 1e-6
-
-
 @pytest.mark.parametrize(
     ("k", "mu", "zero_load_displacement"), [(0.0, 1e5, 194888.854486038), (0.4, 1e3, 2017.03606843554)]
 )
@@ -248,7 +171,6 @@ def test_an_edge_below_the_rounding_of_its_radius(k: float, mu: float, zero_load
     """JKR-n-k: it is right to 5e-7 here.  A mesh that does not resolve the edge was wrong by 2e-3."""
     found = solve_together(Problem(2.0, k, mu), ("pull_off_force", "zero_load_displacement"))
     for solution, jkr in zip(found.values(), (0.5 * (3.0 + k), zero_load_displacement), strict=True):
-        assert isinstance(solution, Solution)
         assert solution.value == pytest.approx(jkr, rel=5e-7)
         assert solution.u_num < 1e-6 * jkr
 

@@ -1,8 +1,5 @@
 """The table of quantities, several quantities at once, and the accuracy of paths and fields."""
 
-import ast
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -27,17 +24,6 @@ def test_every_quantity_needs_known_events() -> None:
 
 def test_the_gibson_solid_has_the_same_quantities() -> None:
     assert set(GIBSON_QUANTITIES) == set(TABLE)
-
-
-def test_no_other_module_knows_a_quantity_by_name() -> None:
-    found = []
-    for path in sorted(Path(fscm.__file__).parent.rglob("*.py")):
-        if path.name not in DEFINING:
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-                if isinstance(node, ast.Constant) and node.value in fscm.QUANTITIES:
-                    found.append((path.name, node.value))
-    # `__all__` of the module with the function of that name.
-    assert found == [("critical.py", "critical_tabor_number")]
 
 
 def test_quantities_of_one_path_together_are_those_alone() -> None:
@@ -74,12 +60,6 @@ def test_unknown_events_are_refused_with_the_known_names() -> None:
             model.event(name)
     with pytest.raises(ValueError, match="unknown jump 'pull_off'; known are jump_in, jump_out"):
         model.landing("pull_off")
-
-
-def test_the_critical_tabor_number_by_an_analysis_is_that_by_solve() -> None:
-    by_analysis = Analysis(SOFT, "quick").solution("critical_tabor_number")
-    by_solve = solve(SOFT, "critical_tabor_number", "quick")
-    assert by_analysis.value == pytest.approx(by_solve.value, rel=1e-12)
 
 
 @pytest.mark.heavy

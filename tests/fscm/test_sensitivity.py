@@ -148,14 +148,6 @@ def test_every_quantity_of_a_coated_solid(quantity, name):
 
 
 @pytest.mark.heavy
-def test_the_limit_of_fitted_kernels_tells_a_poorer_difference():
-    found, name = sensitivity(coated(), "pull_off_displacement"), "pull_off_displacement"
-    slope = found.derivative(lambda x: coated(nu=x), 0.3, 0.3)
-    expected = difference(lambda x: all_quantities_of_a_coated_solid("nu", x)[name].value, 0.3)
-    assert not close(slope, expected, FITTED, scale=0.1)
-
-
-@pytest.mark.heavy
 def test_only_the_ratio_of_two_moduli_matters_at_a_fixed_tabor_number():
     found = sensitivity(exponential(), "pull_off_force")
     slopes = [
