@@ -309,10 +309,12 @@ def test_a_dimensionless_problem_takes_dimensionless_parts():
 
 
 BAD = [math.nan, math.inf, -1.0, "1", True, 1j, None]
+POSITIVE = ("E0", "c0", "Q", "n", "work_of_adhesion", "z0")
 
 
-@pytest.mark.parametrize("bad", BAD)
-@pytest.mark.parametrize("name", list(SPHERE))
+@pytest.mark.parametrize(
+    ("name", "bad"), [(name, bad) for name in SPHERE for bad in BAD] + [(name, 0.0) for name in POSITIVE]
+)
 def test_bad_input_is_refused_by_name(name, bad):
     with pytest.raises(ValueError, match=rf"^[\w ]*\b{name} = ") as caught:
         physical(**{name: bad})
