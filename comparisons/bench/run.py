@@ -20,16 +20,16 @@ from comparisons.bench.measuring import measured
 from comparisons.bench.part import Measurement, Part, key, table_of
 from comparisons.bench.two_workers import WORKERS
 from comparisons.bench.work_precision import WORK_PRECISION
-from comparisons.console.progress import counting, note
+from comparisons.console.progress import note
 from comparisons.output.style import save
 from comparisons.runs.atomic_files import atomic, prepare_folder, write_json
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.data_package import write_data_package
-from comparisons.runs.environment import environment, fingerprint
+from comparisons.runs.environment import environment
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.store import Store, alone_in
+from comparisons.runs.store import Form, Store
 
-__all__ = ["PARTS", "FinishedBench", "parts_of", "run_bench"]
+__all__ = ["FORM", "PARTS", "FinishedBench", "parts_of", "run_bench"]
 
 #: Parts by name, in the order in which they are measured: the shortest first.
 PARTS = {part.name: part for part in (GROWTH, COLD_STARTS, WORKERS, ELEMENTS, WORK_PRECISION)}
@@ -104,16 +104,15 @@ def run_bench(
     """
     parts = parts_of(only)
     prepare_folder(folder)
-    with alone_in(folder):
-        path = RunFolder(folder).measurements
-        if again:
-            path.unlink(missing_ok=True)
-        store: Store[Measurement] = Store(path, fingerprint(), dict, dict)
+    with Store(folder, FORM, anew=again) as store:
         if retry_failed:
             store.drop(lambda measurement: measurement["status"] != "ok")
-        with store.kept():
-            _measure(parts, full, store)
+        _measure(parts, full, store)
         return _written(folder, parts, store, {"only": only and list(only), "full": full})
+
+
+#: Measurements in the store of a folder.
+FORM: Form[Measurement] = Form("measurements", lambda row: [row["part"], key(row["settings"])], dict, dict)
 
 
 def _measure(parts: Sequence[Part], full: bool, store: Store[Measurement]) -> None:
@@ -123,10 +122,8 @@ def _measure(parts: Sequence[Part], full: bool, store: Store[Measurement]) -> No
         (part, settings) for part in parts for settings in part.plan(full) if (part.name, key(settings)) not in stored
     ]
     note(f"{len(missing)} measurements" + (f", {len(stored)} are stored" if stored else ""))
-    with counting("measurements", len(missing)) as count:
-        for part, settings in missing:
-            store.add(measured(part, settings))
-            count()
+    made = ((measured(part, settings), None, 1.0) for part, settings in missing)
+    store.complete("measurements", [1.0] * len(missing), made)
 
 
 def _written(

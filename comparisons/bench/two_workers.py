@@ -49,11 +49,6 @@ def _sweep(model: str, cases: int) -> list[Task]:
     return tasks[:cases]
 
 
-def _exponent(task: Task) -> float:
-    """Return what the tables of the solver depend on."""
-    return task.problem.k
-
-
 #: Whether this process has evaluated a task.
 _started = False
 
@@ -80,7 +75,7 @@ def measure(settings: Settings) -> Numbers:
         If a case fails.
     """
     tasks, begin = _sweep(settings["model"], settings["cases"]), time.time()
-    done = [timed for _, timed in processes(_timed, tasks, settings["workers"], alike=_exponent) if timed]
+    done = [timed for _, timed in processes(_timed, tasks, settings["workers"]) if timed]
     if lost := len(tasks) - sum(timed.status == "ok" for timed in done):
         raise RuntimeError(f"{lost} of {len(tasks)} cases have no value")
     first, last = min(timed.begin for timed in done), max(timed.end for timed in done)

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import errno
 import io
-import multiprocessing
 import os
 import shutil
 import signal
@@ -178,9 +177,6 @@ def _terminable() -> Iterator[None]:
 
 
 def _terminate(number: int, frame: object) -> None:
-    # Ctrl-C reaches the worker processes, too; SIGTERM only this one.
-    for child in multiprocessing.active_children():
-        child.terminate()
     raise Terminated
 
 

@@ -2,31 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext, suppress
 from contextvars import ContextVar
-from datetime import timedelta
-from math import ceil, inf
 
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    ProgressColumn,
-    Task,
-    TextColumn,
-    TimeElapsedColumn,
-)
-from rich.text import Text
+from rich.progress import BarColumn, Progress, ProgressColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from comparisons.console.safe_console import SafeConsole
 
-__all__ = ["EVIDENCE", "counting", "log", "note", "quiet", "waiting"]
+__all__ = ["counting", "log", "note", "quiet", "waiting"]
 
-
-#: Share of the computations of one kind that are finished before there is an estimate of the time left, at least one:
-#: the first may take longer than hundreds after it, since a process starts and a solver stores its tables.
-EVIDENCE = 0.05
 
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 
@@ -71,49 +56,32 @@ def waiting(description: str) -> Iterator[None]:
         yield
 
 
-class _TimeLeft(ProgressColumn):
-    """The time left, which only falls: by the seconds that the computation states, or by its number of steps.
-
-    Between two steps it falls with the clock.  A new estimate that is longer leaves the time as it is, until the work
-    catches up.
-    """
-
-    def __init__(self) -> None:
-        super().__init__()
-        self._shown: dict[int, float] = {}
-
-    def render(self, task: Task) -> Text:
-        since = task.get_time() - task.fields["counted"]
-        left = task.fields["left"]
-        if (
-            left is None
-            and task.total
-            and task.completed >= ceil(EVIDENCE * task.total)
-            and task.start_time is not None
-        ):
-            elapsed = task.fields["counted"] - task.start_time
-            left = elapsed / task.completed * (task.total - task.completed)
-        if left is None or left == inf:
-            return Text("-:--:--", style="progress.remaining")
-        shown = min(self._shown.get(task.id, float("inf")), max(left - since, 0.0))
-        self._shown[task.id] = shown
-        return Text(str(timedelta(seconds=ceil(shown))), style="progress.remaining")
-
-
 @contextmanager
-def counting(description: str, total: int) -> Iterator[Callable[..., None]]:
-    """Show how many of `total` computations are done.
+def counting(description: str, costs: Sequence[float]) -> Iterator[Callable[[float], None]]:
+    """Show how many computations are done, and the time left.
 
-    Call the returned function when one more is done, with the seconds left if they are estimated: infinite before there
-    is an estimate.
+    Parameters
+    ----------
+    description : str
+    costs : sequence of float
+        What the computations may take, in any unit; the time left follows from their sum.
+
+    Yields
+    ------
+    callable
+        Takes the cost of one more computation that is done.
     """
-    with _bar(MofNCompleteColumn(), TimeElapsedColumn(), _TimeLeft()) as bar:
-        task = bar.add_task(description, total=total, left=None, counted=bar.get_time())
+    done = 0
+    columns = (TextColumn("{task.fields[done]}/{task.fields[count]}"), TimeElapsedColumn(), TimeRemainingColumn())
+    with _bar(*columns) as bar:
+        task = bar.add_task(description, total=sum(costs), done=0, count=len(costs))
 
-        def count(left: float | None = None) -> None:
-            bar.update(task, advance=1, left=left, counted=bar.get_time())
+        def advance(cost: float) -> None:
+            nonlocal done
+            done += 1
+            bar.update(task, advance=cost, done=done)
 
-        yield count
+        yield advance
 
 
 @contextmanager

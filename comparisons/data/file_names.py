@@ -9,7 +9,6 @@ __all__ = [
     "BASELINE_FOLDER",
     "BENCH",
     "BENCH_SUMMARY",
-    "CALLS",
     "COMPARISON",
     "COMPARISON_FILES",
     "CURVES",
@@ -19,18 +18,16 @@ __all__ = [
     "GATES_TEXT",
     "GRID_TEXT",
     "INPUTS",
-    "JOURNAL",
     "JUNIT",
     "KAPPA",
     "KAPPA_FIGURE",
     "LARGEST_KAPPA",
-    "LOCK",
-    "MEASUREMENTS",
     "RECORD",
     "REFERENCES",
     "REPORT",
     "RESULTS",
     "RUN_FILES",
+    "STORE",
     "SUMMARY",
     "TABLES",
     "VERDICTS",
@@ -43,14 +40,14 @@ __all__ = [
 #: Type, unit and meaning of every column of the tables of a folder.
 DATA_PACKAGE = "datapackage.json"
 
-#: The record of the run, the journals of its rows and of the function calls of the paper, and the lock.
-RECORD, JOURNAL, CALLS, LOCK = "run.json", "journal.jsonl", "calls.jsonl", ".lock"
+#: The record of the run, and the store of finished computations.
+RECORD, STORE = "run.json", "store.sqlite"
 
 #: Folder of the committed results, in a clone of the repository.
 BASELINE_FOLDER = Path("results", "baseline")
 
-#: The record of a benchmark, the journal of its measurements, and its summary.
-BENCH, MEASUREMENTS, BENCH_SUMMARY = "bench.json", "bench.jsonl", "bench.txt"
+#: The record of a benchmark, and its summary.
+BENCH, BENCH_SUMMARY = "bench.json", "bench.txt"
 
 #: Copies of the gates and of the grids of the run, whose own files may change.
 GATES_TEXT, GRID_TEXT = "gates.toml", "grid.toml"

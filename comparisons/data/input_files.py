@@ -7,7 +7,7 @@ import os
 import stat
 from pathlib import Path
 
-__all__ = ["LARGEST_ROWS", "LARGEST_TABLE", "LARGEST_TEXT", "read_bytes", "read_text"]
+__all__ = ["LARGEST_ROWS", "LARGEST_TABLE", "LARGEST_TEXT", "check_regular", "read_bytes", "read_text"]
 
 #: Most bytes of a text in TOML: ninety times the standing gates, and read in seconds.
 LARGEST_TEXT = 4_000_000
@@ -50,13 +50,7 @@ def read_bytes(path: Path, largest: int) -> bytes:
         raise OSError(errno.EINVAL, str(error), str(path)) from None
     try:
         status = os.fstat(descriptor)
-        if stat.S_ISDIR(status.st_mode):
-            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
-        if not stat.S_ISREG(status.st_mode):
-            kind = _KINDS.get(stat.S_IFMT(status.st_mode), "no file")
-            raise ValueError(f"{path} is {kind}, which may have no end; give a regular file")
-        if status.st_size > largest:
-            raise ValueError(f"{path} has {status.st_size} bytes, more than {largest}; give a smaller file")
+        check_regular(path, status, largest)
         with os.fdopen(descriptor, "rb", closefd=False) as file:
             content = file.read(status.st_size + 1)
     finally:
@@ -64,6 +58,17 @@ def read_bytes(path: Path, largest: int) -> bytes:
     if len(content) > status.st_size:
         raise ValueError(f"{path} has more bytes than the system states; give a file that is not being written")
     return content
+
+
+def check_regular(path: Path, status: os.stat_result, largest: int) -> None:
+    """Refuse what is no regular file, or one that is too large, as `read_bytes`."""
+    if stat.S_ISDIR(status.st_mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    if not stat.S_ISREG(status.st_mode):
+        kind = _KINDS.get(stat.S_IFMT(status.st_mode), "no file")
+        raise ValueError(f"{path} is {kind}, which may have no end; give a regular file")
+    if status.st_size > largest:
+        raise ValueError(f"{path} has {status.st_size} bytes, more than {largest}; give a smaller file")
 
 
 def read_text(path: Path, what: str, largest: int = LARGEST_TEXT) -> str:

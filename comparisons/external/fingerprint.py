@@ -13,7 +13,7 @@ import stat
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 
-from comparisons.data.file_names import JOURNAL, RECORD
+from comparisons.data.file_names import RECORD, STORE
 from comparisons.external.cleaner import PREFIX
 from comparisons.external.text_rules import one_line
 
@@ -27,7 +27,7 @@ _MOST_DECLARED, _MOST_DECLARED_BYTES = 10_000, 2_000_000_000
 #: Folders of installed packages.
 SITES = ("site-packages", "dist-packages")
 #: A folder with one of them holds the results of a run, or is an environment, and is no part of a model.
-_OF_OTHERS = (RECORD, JOURNAL, "pyvenv.cfg")
+_OF_OTHERS = (RECORD, STORE, "pyvenv.cfg")
 _NOT_ENTERED = ("__pycache__", "results", "node_modules", *SITES)
 _NOT_READ_ENDINGS = (".pyc", ".log", "~", ".egg-info", ".dist-info")
 

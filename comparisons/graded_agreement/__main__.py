@@ -15,7 +15,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from comparisons.console.exit_status import guarded
-from comparisons.console.progress import counting
 from comparisons.data.file_names import BASELINE_FOLDER
 from comparisons.graded_agreement.cases import CASES
 from comparisons.graded_agreement.solving import (
@@ -25,17 +24,11 @@ from comparisons.graded_agreement.solving import (
     integral_equation_digest,
 )
 from comparisons.graded_agreement.table import TABLE, compared, worse_than_limits
-from comparisons.paper.cache import CachedCall, CallCache
+from comparisons.paper.cache import CachedCall, make_calls
 from comparisons.runs.atomic_files import atomic, prepare_folder
 from comparisons.runs.csv_format import csv_text
 
 __all__ = ["main"]
-
-
-def _solve(cache: CallCache, calls: list[CachedCall], description: str, jobs: int) -> None:
-    with counting(description, len(calls)) as count:
-        for _ in cache.work(calls, jobs):
-            count()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -51,14 +44,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.limit < 0 or options.jobs < 1:
         parser.error(f"limit = {options.limit} is below 0, or jobs = {options.jobs} below 1: both are counts")
     folder = prepare_folder(options.folder)
-    elements = CallCache(folder / "finite_elements.jsonl", finite_elements_digest())
-    calls = {case: CachedCall.of(finite_elements, case.solid, case.punch, case.mu) for case in CASES}
-    _solve(elements, elements.missing(calls.values())[: options.limit], "finite elements", options.jobs)
-    integral = CallCache(folder / "integral_equation.jsonl", integral_equation_digest())
-    done = [case for case, call in calls.items() if call in elements.results]
-    others = [CachedCall.of(integral_equation, case.solid, case.punch, case.mu) for case in done]
-    _solve(integral, integral.missing(others), "integral equation", options.jobs)
-    table = compared(elements.results, integral.results)
+    cases = CASES[: options.limit]
+    both = [
+        make_calls(
+            [CachedCall.of(solve, case.solid, case.punch, case.mu) for case in cases],
+            prepare_folder(folder / solve.__name__),
+            options.jobs,
+            code=digest,
+        ).results
+        for solve, digest in (
+            (finite_elements, finite_elements_digest()),
+            (integral_equation, integral_equation_digest()),
+        )
+    ]
+    table = compared(*both)
     targets = [folder / TABLE, *([BASELINE_FOLDER / TABLE] if options.renew else [])]
     for target in targets:
         with atomic(target) as file:

@@ -1,23 +1,24 @@
 """Cache of function calls: each is made once, on every core, and its result is kept on disk.
 
-An interrupted command loses no finished call: each is in a journal as soon as it ends, and the next command with the
+An interrupted command loses no finished call: each is in a store as soon as it ends, and the next command with the
 same folder continues.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Generator, Iterable
-from contextlib import AbstractContextManager, closing
 from dataclasses import asdict, dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from comparisons.model import ComputationFailed, NotApplicable
-from comparisons.runs.store import Store
+from comparisons.runs.computation import log_failures_used
+from comparisons.runs.store import Form, Store
 from comparisons.runs.workers import LOST, each
 
-__all__ = ["CachedCall", "CallCache", "Results"]
+__all__ = ["CachedCall", "MadeCalls", "Results", "make_calls"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,16 +88,12 @@ def _make(call: CachedCall) -> _Outcome:
 class Results:
     """Results of calls."""
 
-    def __init__(self) -> None:
-        self._outcomes: dict[CachedCall, _Outcome] = {}
+    def __init__(self, outcomes: Iterable[_Outcome] = ()) -> None:
+        self._outcomes = {outcome.call: outcome for outcome in outcomes}
 
-    def add(self, outcome: _Outcome) -> None:
-        """Keep one."""
-        self._outcomes[outcome.call] = outcome
-
-    def remove(self, call: CachedCall) -> None:
-        """Remove one."""
-        del self._outcomes[call]
+    def lost(self, call: CachedCall) -> bool:
+        """Whether the process of a call ended before its result."""
+        return self._outcomes[call].failure == LOST
 
     def failed(self, call: CachedCall) -> bool:
         """Whether the function raised `ComputationFailed`, or returned a dictionary with the status ``"failed"``."""
@@ -122,64 +119,75 @@ class Results:
         return outcome.result
 
 
-class CallCache:
-    """Function calls with their results in a journal.
+_FORM: Form[_Outcome] = Form("calls", lambda outcome: [outcome.call.function, *outcome.call.arguments], _read, _written)
+
+
+@dataclass(frozen=True, slots=True)
+class MadeCalls:
+    """Calls with their results.
+
+    Attributes
+    ----------
+    results : Results
+    made : int
+        How many of the calls were made now.
+    parts : list of dict
+        The commands that made the calls, as the record of a run holds them.
+    """
+
+    results: Results
+    made: int
+    parts: list[dict[str, Any]]
+
+    def failed(self, calls: Iterable[CachedCall]) -> list[CachedCall]:
+        """Return the calls that failed, each once, in their order."""
+        return [call for call in dict.fromkeys(calls) if self.results.failed(call)]
+
+
+def make_calls(
+    calls: Iterable[CachedCall],
+    folder: Path,
+    jobs: int = 1,
+    *,
+    retry_failed: bool = False,
+    code: str | None = None,
+    description: str = "paper",
+) -> MadeCalls:
+    """Make the calls that the store of a folder does not have, each once.
 
     Parameters
     ----------
-    path : Path
-        The journal; made when it does not exist.
-    fingerprint : str
-        Identifies the code.  A journal of other code is refused: its results may differ.
+    calls : iterable of CachedCall
+    folder : Path
+    jobs : int
+        Number of processes.
+    retry_failed : bool
+        Whether stored failures are made again.
+    code : str, optional
+        As of `comparisons.runs.store.Store`.
+    description : str
+        Of the progress bar.
 
     Raises
     ------
     ValueError
-        If the file is not a journal, or one of other code.
+        If the folder holds results of other code, or a result cannot be kept, as one that holds a NaN.
+    comparisons.model.ComputationFailed
+        If the workers cannot compute.
     """
+    planned = list(dict.fromkeys(calls))
+    with Store(folder, _FORM, code) as store:
+        stored = Results(store.items)
+        failed = [call for call in planned if call in stored and stored.failed(call)]
+        again = {call for call in failed if retry_failed or stored.lost(call)}
+        store.drop(lambda outcome: outcome.call in again)
+        log_failures_used(Counter(call.function.partition(":")[2] for call in failed if call not in again))
+        missing = [call for call in planned if call not in stored or call in again]
+        store.complete(description, [1.0] * len(missing), _outcomes(missing, jobs))
+        used = set(planned)
+        return MadeCalls(Results(store.items), len(missing), store.parts(lambda outcome: outcome.call in used))
 
-    def __init__(self, path: Path, fingerprint: str) -> None:
-        self._journal = Store(path, fingerprint, _read, _written)
-        self._journal.drop(lambda outcome: outcome.failure == LOST)
-        self.results = Results()
-        for outcome in self._journal.items:
-            self.results.add(outcome)
 
-    def kept(self) -> AbstractContextManager[None]:
-        """State what is safe if the work is interrupted, as `comparisons.runs.store.Store.kept`."""
-        return self._journal.kept()
-
-    def failed(self, calls: Iterable[CachedCall]) -> list[CachedCall]:
-        """Return the calls that are stored as failures, each once, in their order."""
-        return [call for call in dict.fromkeys(calls) if call in self.results and self.results.failed(call)]
-
-    def forget(self, calls: Iterable[CachedCall]) -> None:
-        """Remove stored results: the calls are made again."""
-        unwanted = set(calls)
-        self._journal.drop(lambda outcome: outcome.call in unwanted)
-        for call in unwanted:
-            self.results.remove(call)
-
-    def parts_of(self, calls: Iterable[CachedCall]) -> list[dict[str, Any]]:
-        """Return the parts that made calls, in order, as the record of a run holds them."""
-        used = set(calls)
-        return self._journal.parts(lambda outcome: outcome.call in used)
-
-    def missing(self, calls: Iterable[CachedCall]) -> list[CachedCall]:
-        """Return the calls that have no result yet, each once, in their order."""
-        return [call for call in dict.fromkeys(calls) if call not in self.results]
-
-    def work(self, calls: Iterable[CachedCall], jobs: int) -> Generator[CachedCall]:
-        """Make the calls that have no result yet, on `jobs` processes; yield each as soon as it ends.
-
-        Raises
-        ------
-        ValueError
-            If a result cannot be kept, as one that holds a NaN.
-        """
-        with closing(each(_make, self.missing(calls), jobs, lost=_lost)) as outcomes:
-            for outcome in outcomes:
-                self._journal.add(outcome)
-                # New results and stored results must be the same, so that a resumed run writes the same files.
-                self.results.add(outcome)
-                yield outcome.call
+def _outcomes(calls: list[CachedCall], jobs: int) -> Generator[tuple[_Outcome, None, float]]:
+    for outcome in each(_make, calls, jobs, lost=_lost):
+        yield outcome, None, 1.0

@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable
-from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
-from comparisons.console.progress import counting
 from comparisons.model import ComputationFailed
-from comparisons.paper.cache import CachedCall, CallCache
+from comparisons.paper.cache import Results, make_calls
 from comparisons.paper.paper_figure import PaperFigure, Tables, calls_of, given
 from comparisons.paper.registry import paper_figures
 from comparisons.pipeline.record_content import now, record_content
 from comparisons.runs.atomic_files import prepare_folder
-from comparisons.runs.computation import checked_jobs, log_failures_used
-from comparisons.runs.environment import fingerprint
+from comparisons.runs.computation import checked_jobs
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import write_record
-from comparisons.runs.store import alone_in
 
 __all__ = ["FinishedFigure", "FinishedPaper", "make_figures"]
 
@@ -89,18 +84,18 @@ def make_figures(
     target = RunFolder(prepare_folder(folder))
     started = now()
     calls = [call for figure in chosen for call in calls_of(figure.plan())]
-    cache, missing = _computed(calls, target, jobs, retry_failed)
-    finished = tuple(_finished(figure, cache, folder) for figure in chosen)
+    made = make_calls(calls, folder, jobs, retry_failed=retry_failed)
+    finished = tuple(_finished(figure, made.results, folder) for figure in chosen)
     distinct = dict.fromkeys(calls)
-    failed = len(cache.failed(calls))
+    failed = len(made.failed(calls))
     content = record_content(
         "paper",
         {"figure": wanted, "jobs": jobs, "out": str(folder)},
         started=started,
-        parts=cache.parts_of(calls),
+        parts=made.parts,
         rows={
             "all": len(distinct),
-            "resumed": len(distinct) - missing,
+            "resumed": len(distinct) - made.made,
             "ok": len(distinct) - failed,
             "failed": failed,
         },
@@ -111,25 +106,9 @@ def make_figures(
     return FinishedPaper(folder, finished)
 
 
-def _computed(calls: list[CachedCall], folder: RunFolder, jobs: int, retry_failed: bool) -> tuple[CallCache, int]:
-    """Make the calls that are missing; return the cache and the number of these calls."""
-    with alone_in(folder.path):
-        cache = CallCache(folder.calls, fingerprint())
-        failed = cache.failed(calls)
-        if retry_failed:
-            cache.forget(failed)
-        else:
-            log_failures_used(Counter(call.function.partition(":")[2] for call in failed))
-        missing = cache.missing(calls)
-        with cache.kept(), counting("paper", len(missing)) as advance, closing(cache.work(missing, jobs)) as done:
-            for _ in done:
-                advance()
-    return cache, len(missing)
-
-
-def _finished(figure: PaperFigure, cache: CallCache, folder: Path) -> FinishedFigure:
+def _finished(figure: PaperFigure, results: Results, folder: Path) -> FinishedFigure:
     try:
-        tables = given(figure.plan(), cache.results)
+        tables = given(figure.plan(), results)
         return FinishedFigure(figure, tables, tuple(figure.write(tables, folder)))
     except ComputationFailed as failure:
         return FinishedFigure(figure, {}, (), str(failure))

@@ -127,7 +127,7 @@ def kept_texts(folder: RunFolder, cases: Cases, gates: Gates | None) -> dict[Pat
         texts[folder.grid_text] = cases.text.encode()
         texts |= {path_inside(folder.path, f"{INPUTS}/{name}"): content for name, content in cases.files.items()}
     for path, content in texts.items():
-        if path.exists() and not folder.journal.exists() and read_bytes(path, LARGEST_TABLE) != content:
+        if path.exists() and not folder.store.exists() and read_bytes(path, LARGEST_TABLE) != content:
             raise ValueError(
                 f"{path} was not written by a run, and a run would replace it; choose another folder with --out"
             )

@@ -21,7 +21,7 @@ from comparisons.runs.atomic_files import atomic, prepare_folder
 from comparisons.runs.computation import Completed
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.rows import Row
-from comparisons.runs.store import alone_in, parts_of, rows_in
+from comparisons.runs.store import rows_in
 from comparisons.runs.tasks import Task
 
 __all__ = ["merge"]
@@ -59,12 +59,13 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
     target = RunFolder(prepare_folder(out))
     if target.grid_text.exists() and read_text(target.grid_text, "the sweep file") != inputs.cases.text:
         raise ValueError(f"{out} has other cases than {first}; choose another folder with --out")
-    with alone_in(out):
-        journal = rows_in(out)
+    with rows_in(out) as store:
         usable = partial(_usable, wanted=wanted)
         for folder in records:
-            take_rows(folder, journal, usable)
-        rows = usable(journal.items)
+            take_rows(folder, store, usable)
+        rows = usable(store.items)
+        used = {row.key for row in rows}
+        parts = store.parts(lambda row: row.key in used)
     with atomic(target.grid_text) as file:
         file.write(inputs.cases.text.encode())
     if missing := len(wanted) - len(rows):
@@ -72,7 +73,7 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
             f"{missing} of {len(wanted)} computations are in none of the folders; merge more of them, or compute what "
             f"is missing by {_command(target, inputs, records[first])}"
         )
-    completed = Completed(rows, len(rows), parts_of(journal, rows), None)
+    completed = Completed(rows, len(rows), parts, None)
     arguments = {"jobs": 1, "merged": [str(folder) for folder in records]}
     return write_run(target, inputs, completed, arguments, started)
 

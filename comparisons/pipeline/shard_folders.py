@@ -12,7 +12,7 @@ from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import read_record
 from comparisons.runs.reevaluation import same
 from comparisons.runs.rows import Row
-from comparisons.runs.store import Store, alone_in, rows_in
+from comparisons.runs.store import Store, rows_in
 
 __all__ = ["checked_records", "take_rows"]
 
@@ -35,7 +35,7 @@ def checked_records(
     Raises
     ------
     ValueError
-        One sentence: a folder is not that of a finished sweep, it has no journal, it is `out`, or it is of another
+        One sentence: a folder is not that of a finished sweep, it has no store, it is `out`, or it is of another
         sweep than the first.
     """
     records: dict[Path, dict[str, Any]] = {}
@@ -47,8 +47,8 @@ def checked_records(
         found = record["command_name"]
         if found != "sweep":
             raise ValueError(f"{folder} is the folder of fscm-bench {found}; only sweeps are merged")
-        if not files.journal.exists():
-            raise ValueError(f"{files.journal} does not exist: only folders with their journal are merged")
+        if not files.store.exists():
+            raise ValueError(f"{files.store} does not exist: only folders with their store are merged")
         if folder.resolve() == out.resolve():
             raise ValueError(f"{out} is one of the folders that are merged; choose another folder with --out")
         _check_models(record, files.record)
@@ -70,14 +70,14 @@ def _check_models(record: Mapping[str, Any], path: Path) -> None:
         known_name("model", name, described, str(path))
 
 
-def take_rows(folder: Path, journal: Store[Row], usable: Callable[[Iterable[Row]], list[Row]]) -> None:
-    """Add the rows of a folder that a journal does not have, or has as failures only.
+def take_rows(folder: Path, store: Store[Row], usable: Callable[[Iterable[Row]], list[Row]]) -> None:
+    """Add the rows of a folder that a store does not have, or has as failures only.
 
     Parameters
     ----------
     folder : Path
         Of a shard.
-    journal : Store of Row
+    store : Store of Row
         To which the rows are added.
     usable : callable
         The rows that belong to the sweep.
@@ -85,11 +85,10 @@ def take_rows(folder: Path, journal: Store[Row], usable: Callable[[Iterable[Row]
     Raises
     ------
     ValueError
-        If a row has another result than one of the journal.
+        If a row has another result than one of the store.
     """
-    with alone_in(folder):
-        given = rows_in(folder)
-        stored = {row.key: row for row in usable(journal.items)}
+    with rows_in(folder) as given:
+        stored = {row.key: row for row in usable(store.items)}
         taken = set()
         for row in usable(given.items):
             known = stored.get(row.key)
@@ -100,9 +99,9 @@ def take_rows(folder: Path, journal: Store[Row], usable: Callable[[Iterable[Row]
                     f"{folder} has another result than a folder before it for {_place(row)}: they differ by more than "
                     "both uncertainties"
                 )
-        journal.drop(lambda row: row.key in taken)
+        store.drop(lambda row: row.key in taken)
         chosen = {id(row) for row in usable(given.items) if row.key in taken}
-        journal.take(given, lambda row: id(row) in chosen)
+        store.take(given, lambda row: id(row) in chosen)
 
 
 def _place(row: Row) -> str:

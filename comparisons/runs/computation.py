@@ -3,30 +3,25 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Generator, Iterable, Mapping
 from contextlib import closing
 from dataclasses import dataclass
 from datetime import datetime
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from comparisons.console.progress import counting, log, note
+from comparisons.console.progress import log, note
 from comparisons.runs.atomic_files import prepare_folder
-from comparisons.runs.execution import compute, compute_with_environment
+from comparisons.runs.environment import computing_environment, differences, fingerprint
 from comparisons.runs.reevaluation import drop_changed
 from comparisons.runs.rows import Key, Row
-from comparisons.runs.store import alone_in, parts_of, rows_in
-from comparisons.runs.tasks import Task
-from comparisons.runs.time_left import TimeLeft
-from comparisons.runs.workers import LOST, Backend, Processes, processes
+from comparisons.runs.shards import cost
+from comparisons.runs.store import rows_in
+from comparisons.runs.tasks import Task, batches, evaluate_task, lost_row
+from comparisons.runs.workers import LOST, Backend, each, processes
 
-__all__ = [
-    "Completed",
-    "checked_jobs",
-    "complete",
-    "folder_for",
-    "log_failures_used",
-]
+__all__ = ["Completed", "checked_jobs", "complete", "compute", "folder_for", "is_row_of", "log_failures_used"]
 
 
 def checked_jobs(jobs: int) -> int:
@@ -62,6 +57,15 @@ class Completed:
     evaluated_again: dict[str, Any] | None
 
 
+def is_row_of(task: Task | None, row: Row) -> bool:
+    """Whether a stored row is that of a task: of the same problem, by the same version of an external model."""
+    return (
+        task is not None
+        and row.digest == task.digest
+        and (task.external is None or task.external.version == row.model_version)
+    )
+
+
 def complete(
     tasks: list[Task],
     folder: Path,
@@ -70,7 +74,7 @@ def complete(
     backend: Backend = processes,
     needed: Callable[[list[Row]], Collection[Key]] | None = None,
 ) -> Completed:
-    """Compute the tasks that the journal of a folder does not have.
+    """Compute the tasks that the store of a folder does not have.
 
     A stored row that failed because its process ended does not count.  A stored row of another version of an external
     model does not, nor does one that failed.  A few of the others are evaluated again; if one differs, all rows of its
@@ -99,54 +103,39 @@ def complete(
     comparisons.model.ComputationFailed
         If the workers cannot compute.
     """
-    wanted = {task.key: task for task in tasks}
-    versions = {task.model: task.external.version for task in tasks if task.external}
+    planned = {task.key: task for task in tasks}
 
-    def usable(row: Row) -> bool:
-        task = wanted.get(row.key)
-        same_problem = task is not None and row.digest == task.digest
-        return same_problem and versions.get(row.model, row.model_version) == row.model_version
+    def counts(row: Row) -> bool:
+        again = row.status == "failed" and (retry_failed or row.reason == LOST or bool(planned[row.key].external))
+        return is_row_of(planned.get(row.key), row) and not again
 
-    def again(row: Row) -> bool:
-        return row.status == "failed" and (retry_failed or row.model in versions or row.reason == LOST)
+    with rows_in(folder) as store, store.interruptible():
 
-    def chosen() -> list[Task]:
-        keys = wanted if needed is None else needed([row for row in journal.items if usable(row)])
-        return [task for task in tasks if task.key in keys]
+        def chosen() -> list[Task]:
+            keys = planned if needed is None else needed(list(rows.values()))
+            return [task for task in tasks if task.key in keys]
 
-    def missing_of(known: Collection[Key]) -> list[Task]:
-        return [task for task in chosen() if task.key not in known]
-
-    with alone_in(folder):
-        journal = rows_in(folder)
-        journal.drop(lambda row: usable(row) and again(row))
-        with journal.kept():
-            external = [(wanted[row.key], row) for row in journal.items if usable(row) and row.model in versions]
-            local = backend if isinstance(backend, Processes) else processes
-            evaluated_again = (
-                drop_changed(external, journal, lambda tasks: compute(tasks, jobs, local)) if external else None
-            )
-            stored = [row for row in journal.items if usable(row)]
-            log_failures_used(Counter(row.model for row in stored if row.status == "failed"))
-            known = {row.key for row in stored}
-            missing = missing_of(known)
-            workers = f"{jobs} processes" if isinstance(backend, Processes) else "a Dask cluster"
-            note(f"{len(missing)} computations on {workers}" + (f", {len(known)} are stored" if known else ""))
-            while missing:
-                left = TimeLeft(missing)
-                computing = closing(compute_with_environment(missing, jobs, backend))
-                with counting("computing", len(missing)) as count, computing as computed:
-                    for row, environment in computed:
-                        journal.add(row, environment)
-                        known.add(row.key)
-                        count(left.after(row))
-                missing = missing_of(known)
-                if missing:
-                    note(f"{len(missing)} computations more, with which these are compared")
-        used = {task.key for task in chosen()}
-        rows = [row for row in journal.items if usable(row) and row.key in used]
-        resumed = sum(row.key in used for row in stored)
-        return Completed(rows, resumed, parts_of(journal, rows), evaluated_again)
+        store.drop(lambda row: row.key in planned and not counts(row))
+        evaluated_again = drop_changed(planned, store)
+        rows = {row.key: row for row in store.items if row.key in planned}
+        stored = set(rows)
+        log_failures_used(Counter(row.model for row in rows.values() if row.status == "failed"))
+        missing = [task for task in chosen() if task.key not in rows]
+        workers = f"{jobs} processes" if backend is processes else "a Dask cluster"
+        note(f"{len(missing)} computations on {workers}" + (f", {len(stored)} are stored" if stored else ""))
+        while missing:
+            store.complete("computing", [cost(task.model) for task in missing], _rows(missing, jobs, backend))
+            rows = {row.key: row for row in store.items if row.key in planned}
+            missing = [task for task in chosen() if task.key not in rows]
+            if missing:
+                note(f"{len(missing)} computations more, with which these are compared")
+        keys = {task.key for task in chosen()}
+        return Completed(
+            [row for key, row in rows.items() if key in keys],
+            len(stored & keys),
+            store.parts(lambda row: row.key in keys),
+            evaluated_again,
+        )
 
 
 def log_failures_used(failures: Mapping[str, int]) -> None:
@@ -156,3 +145,63 @@ def log_failures_used(failures: Mapping[str, int]) -> None:
             f"{sum(failures.values())} stored failures of {', '.join(sorted(failures))} are used; "
             "--retry-failed computes them again"
         )
+
+
+@dataclass(frozen=True, slots=True)
+class _Computed:
+    rows: list[Row]
+    environment: dict[str, str]
+    code: str
+
+
+@lru_cache(maxsize=1)
+def _of_this_process() -> tuple[dict[str, str], str]:
+    return computing_environment(), fingerprint()
+
+
+def _evaluate_batch(batch: list[Task]) -> _Computed:
+    return _Computed([evaluate_task(task) for task in batch], *_of_this_process())
+
+
+def _lost_batch(batch: list[Task]) -> _Computed:
+    return _Computed([lost_row(task) for task in batch], *_of_this_process())
+
+
+def _single(batch: list[Task]) -> Iterable[list[Task]]:
+    return [[task] for task in batch]
+
+
+def _rows(tasks: list[Task], jobs: int, backend: Backend) -> Generator[tuple[Row, dict[str, str], float]]:
+    for row, environment in compute(tasks, jobs, backend):
+        yield row, environment, cost(row.model)
+
+
+def compute(tasks: list[Task], jobs: int, backend: Backend = processes) -> Generator[tuple[Row, dict[str, str]]]:
+    """Evaluate tasks and yield each row, as it is finished, with the environment of the process that computed it.
+
+    A task whose process ends is evaluated once more, alone; if that process ends too, its row has failed.
+
+    Raises
+    ------
+    ValueError
+        If a worker runs other code than this process.
+    concurrent.futures.BrokenExecutor
+        If the backend cannot work.
+
+    Examples
+    --------
+    >>> from comparisons.problem import Problem
+    >>> ((row, environment),) = compute([Task("bradley", "pull_off_force", Problem.dimensionless(2, 0, 1))], 1)
+    >>> row.value, "cpu" in environment
+    (2.0, True)
+    """
+    computed = each(_evaluate_batch, batches(tasks), jobs, lost=_lost_batch, split=_single, backend=backend)
+    with closing(computed) as batches_done:
+        for batch in batches_done:
+            if changed := differences(_of_this_process()[1], batch.code):
+                raise ValueError(
+                    "a worker runs another version of the code, of NumPy or of SciPy than this command "
+                    f"({changed}): install the same on every machine, and start the workers again"
+                )
+            for row in batch.rows:
+                yield row, batch.environment

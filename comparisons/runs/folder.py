@@ -34,14 +34,9 @@ class RunFolder:
         return self.path / file_names.DATA_PACKAGE
 
     @property
-    def journal(self) -> Path:
-        """The journal of finished rows."""
-        return self.path / file_names.JOURNAL
-
-    @property
-    def calls(self) -> Path:
-        """The journal of finished function calls of the figures of the paper."""
-        return self.path / file_names.CALLS
+    def store(self) -> Path:
+        """The store of finished computations."""
+        return self.path / file_names.STORE
 
     @property
     def bench(self) -> Path:
@@ -52,16 +47,6 @@ class RunFolder:
     def bench_summary(self) -> Path:
         """The ratios of a benchmark, as they are printed."""
         return self.path / file_names.BENCH_SUMMARY
-
-    @property
-    def measurements(self) -> Path:
-        """The journal of the finished measurements of a benchmark."""
-        return self.path / file_names.MEASUREMENTS
-
-    @property
-    def lock(self) -> Path:
-        """The file that keeps two processes from computing into the folder."""
-        return self.path / file_names.LOCK
 
     @property
     def gates_text(self) -> Path:

@@ -3,17 +3,29 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
 
 from comparisons.runs.tasks import Task
 
-__all__ = ["Shard"]
+__all__ = ["Shard", "cost"]
 
 #: Seconds of one evaluation, averaged over the standing cases on one core of a server of 2023; of a model that is not
 #: here, as a closed form, `_OTHER`.
 _SECONDS = {"fem": 6.0, "fscm": 0.4, "fscm-stieltjes": 3.0}
 _OTHER = 0.01
+
+
+def cost(model: str) -> float:
+    """Return about how many seconds an evaluation of a model takes.
+
+    Examples
+    --------
+    >>> cost("fem") > cost("fscm") > cost("jkr")
+    True
+    """
+    return _SECONDS.get(model, _OTHER)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,19 +91,13 @@ class Shard:
 
 def _spread(tasks: Iterable[Task], total: int) -> dict[Hashable, int]:
     """Return the index of the shard of every problem of every model, the same in every process."""
-    costs: dict[str, dict[Hashable, float]] = {}
+    costs: Counter[Hashable] = Counter()
     for task in tasks:
-        of_model = costs.setdefault(task.model, {})
-        of_model[task.problem_key] = of_model.get(task.problem_key, 0.0) + _SECONDS.get(task.model, _OTHER)
-    shard_of: dict[Hashable, int] = {}
+        costs[task.problem_key] += cost(task.model)  # type: ignore[assignment]
     loads = [0.0] * total
-    # The most expensive model first: the cheaper ones even out what it leaves.
-    for model in sorted(costs, key=lambda name: (-max(costs[name].values()), name)):
-        # Neighbours in the order of a plan cost about the same: each shard gets one of every `total`.
-        problems = list(costs[model])
-        for start in range(0, len(problems), total):
-            least_first = sorted(range(total), key=lambda index: (loads[index], index))
-            for problem, index in zip(problems[start : start + total], least_first, strict=False):
-                shard_of[problem] = index
-                loads[index] += costs[model][problem]
+    shard_of = {}
+    # The most expensive problem first: the cheaper ones even out what it leaves.
+    for problem, seconds in costs.most_common():
+        shard_of[problem] = loads.index(min(loads))
+        loads[shard_of[problem]] += seconds
     return shard_of

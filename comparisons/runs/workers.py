@@ -5,29 +5,26 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections.abc import Callable, Generator, Hashable, Iterable, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, ProcessPoolExecutor, wait
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from contextlib import closing
-from functools import partial
 from importlib import import_module
-from multiprocessing import get_context, parent_process
+from multiprocessing import active_children, get_context, parent_process, resource_tracker
 from multiprocessing.process import BaseProcess
 from typing import Any, TypeVar
 
 from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import log
-from comparisons.runs.interrupts import blocked, handled_later, unblock
-from comparisons.runs.waiting import Waiting
 
 __all__ = [
+    "BACKENDS",
     "LOST",
     "Backend",
-    "Processes",
+    "backend_of",
     "each",
     "one_thread",
     "processes",
-    "start_worker",
     "usable_cores",
 ]
 
@@ -41,8 +38,11 @@ LOST = "its worker process ended twice before it was finished, perhaps for lack 
 #: output is None if the process that worked on the item ended.
 Backend = Callable[[Callable[[Any], Any], Sequence[Any], int], Generator[tuple[Any, Any]]]
 
-#: Processes that may end one after the other without an output between them.  More are no fault of single items: the
-#: processes cannot start, or the machine has no memory for any of them.
+#: Names of the backends; the first is the default.
+BACKENDS = ("processes", "dask")
+
+#: Items in sequence whose process ends.  More are no fault of single items: the processes cannot start, or the machine
+#: has no memory for any of them.
 _DEATHS_IN_SEQUENCE = 10
 
 
@@ -51,115 +51,115 @@ def usable_cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _whole(item: Item) -> Iterable[Item]:
-    return [item]
+def backend_of(name: str, scheduler: str | None = None) -> Backend:
+    """Return the backend of a name: processes of this machine, or a Dask cluster.
+
+    Parameters
+    ----------
+    name : str
+        One of `BACKENDS`.
+    scheduler : str, optional
+        The address of the scheduler of a Dask cluster.
+
+    Raises
+    ------
+    ValueError
+        If there is no such backend, it has no scheduler, or its package is not installed.
+
+    Examples
+    --------
+    >>> backend_of("processes") is processes
+    True
+    """
+    if name == "dask":
+        from comparisons.runs.dask_cluster import dask_cluster
+
+        return dask_cluster(scheduler)
+    if name not in BACKENDS:
+        raise ValueError(f"unknown backend {name!r}: the backends are {', '.join(BACKENDS)}")
+    if scheduler is not None:
+        raise ValueError(f"the scheduler {scheduler} belongs to the backend 'dask', and the backend is {name!r}")
+    return processes
 
 
-def _all_alike(item: Any) -> Hashable:
-    return None
+def processes(
+    function: Callable[[Item], Output], items: Sequence[Item], jobs: int
+) -> Generator[tuple[Item, Output | None]]:
+    """Call a function on processes of this machine, as `Backend` states; with one job in this process."""
+    if jobs == 1:
+        for item in items:
+            yield item, function(item)
+        return
+    workers = _Workers(min(jobs, len(items)))
+    finished = 0
+    try:
+        for future in workers.submit(function, items):
+            finished += 1
+            yield future.result()
+    finally:
+        workers.end(at_once=finished < len(items))
 
 
-class Processes:
-    """Processes of this machine: a `Backend`.
+class _Workers:
+    """Threads that have a process each.
 
-    A process that ends is replaced.  With one job the function is called in this process.  In a block
-    ``with Processes() as backend:`` one call after the other works on the same processes, which end with the block;
-    without a block they end with each call.
+    If a process ends, its thread tells on which item it worked and starts another one; the others go on.  The threads
+    start the processes, so that Ctrl-C, which Python handles in the main thread, does not interrupt a start.
     """
 
-    def __init__(self) -> None:
-        # An executor for each process: if the process ends, that tells on which item it worked, and the others go on.
-        self._kept: list[ProcessPoolExecutor] | None = None
+    def __init__(self, count: int) -> None:
+        # Its start changes the mask of signals of the thread that starts it.
+        resource_tracker.ensure_running()
+        self._threads = ThreadPoolExecutor(count, initializer=_block_interrupts)
+        self._own = threading.local()
+        self._pools: list[ProcessPoolExecutor] = []
+        self._lock = threading.Lock()
+        self._ended = False
 
-    def __enter__(self) -> Processes:
-        self._kept = []
-        return self
+    def submit(
+        self, function: Callable[[Item], Output], items: Iterable[Item]
+    ) -> Iterator[Future[tuple[Item, Output | None]]]:
+        """Yield a future for each item as it is finished."""
+        yield from as_completed([self._threads.submit(self._call, function, item) for item in items])
 
-    def __exit__(self, *_: object) -> None:
-        pools, self._kept = self._kept or [], None
-        _end(pools)
-
-    def __call__(
-        self,
-        function: Callable[[Item], Output],
-        items: Sequence[Item],
-        jobs: int,
-        alike: Callable[[Item], Hashable] = _all_alike,
-    ) -> Generator[tuple[Item, Output | None]]:
-        """Yield each item with its output, as `Backend` states; items that are `alike` go to one process.
-
-        Raises
-        ------
-        concurrent.futures.BrokenExecutor
-            If many processes end one after the other.
-        """
-        if jobs == 1:
-            for item in items:
-                yield item, function(item)
-            return
-        count = min(jobs, len(items))
-        kept, self._kept = self._kept, None if self._kept is None else []
-        pools = [*(kept or [])]
-        pools.extend(_pool() for _ in range(count - len(pools)))
-        finished = False
+    def _call(self, function: Callable[[Item], Output], item: Item) -> tuple[Item, Output | None]:
         try:
-            yield from _outputs(function, Waiting(items, alike), pools, count)
-            finished = True
-        finally:
-            # What has not finished may still be at work.
-            if finished and self._kept is not None:
-                self._kept.extend(pools)
-            else:
-                _end(pools)
+            with self._lock:
+                future = self._pool().submit(function, item)
+            return item, future.result()
+        except BrokenExecutor:
+            self._own.pool = None
+            return item, None
+
+    def _pool(self) -> ProcessPoolExecutor:
+        """Return the process of this thread."""
+        if self._ended:
+            raise BrokenExecutor
+        pool: ProcessPoolExecutor | None = getattr(self._own, "pool", None)
+        if pool is None:
+            # "spawn": a fresh interpreter, the same on every platform, and safe beside threads.
+            pool = self._own.pool = ProcessPoolExecutor(1, get_context("spawn"), initializer=_start_worker)
+            self._pools.append(pool)
+        return pool
+
+    def end(self, at_once: bool) -> None:
+        """End the processes, also those that are at work if `at_once`."""
+        with self._lock:
+            self._ended = True
+            for process in active_children() if at_once else ():
+                process.terminate()
+        self._threads.shutdown(cancel_futures=True)
+        for pool in self._pools:
+            pool.shutdown()
 
 
-#: Processes that end with each call.
-processes = Processes()
+def _block_interrupts() -> None:
+    # The processes that a thread starts inherit its mask: Ctrl-C is left to their parent, which ends them.
+    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
 
 
-def _outputs(
-    function: Callable[[Item], Output], waiting: Waiting[Item], pools: list[ProcessPoolExecutor], count: int
-) -> Generator[tuple[Item, Output | None]]:
-    """Work on the items by the first pools; a pool whose process ends is replaced in the list."""
-    running: dict[Future[Output], tuple[int, Item]] = {}
-
-    def begin(slot: int) -> None:
-        item = waiting.take(slot)
-        try:
-            future = _submitted(pools[slot], function, item)
-        except BrokenExecutor:  # the process ended between two items
-            waiting.forget(slot)
-            pools[slot] = _pool()
-            future = _submitted(pools[slot], function, item)
-        running[future] = slot, item
-
-    deaths = 0
-    for slot in range(count):
-        begin(slot)
-    while running:
-        for future in wait(running, return_when=FIRST_COMPLETED).done:
-            slot, item = running.pop(future)
-            try:
-                output = future.result()
-                deaths = 0
-            except BrokenExecutor:
-                output = None
-                deaths += 1
-                if deaths > _DEATHS_IN_SEQUENCE:
-                    raise BrokenExecutor(
-                        f"{deaths} worker processes one after the other ended early, perhaps for lack of memory"
-                    ) from None
-                pools[slot].shutdown(wait=False)
-                waiting.forget(slot)
-                pools[slot] = _pool()
-            if waiting:
-                begin(slot)
-            yield item, output
-
-
-def _end(pools: Sequence[ProcessPoolExecutor]) -> None:
-    for pool in pools:
-        pool.shutdown(cancel_futures=True)
+def _whole(item: Item) -> Iterable[Item]:
+    return [item]
 
 
 def each(
@@ -169,7 +169,6 @@ def each(
     *,
     lost: Callable[[Item], Output],
     split: Callable[[Item], Iterable[Item]] = _whole,
-    alike: Callable[[Item], Hashable] = _all_alike,
     backend: Backend = processes,
 ) -> Generator[Output]:
     """Yield `function(item)` for every item, as each is finished.
@@ -189,9 +188,6 @@ def each(
         Returns the output for an item that has ended its process twice.
     split : callable
         Returns the items that are tried in place of one whose process ended.
-    alike : callable
-        Returns the same for items whose work shares tables: of the next items, a process of this machine gets those
-        that are like its earlier ones.
     backend : Backend
         Where the function is called.
 
@@ -206,16 +202,22 @@ def each(
     [1, 2]
     """
     again: list[Item] = []
-    called = partial(backend, alike=alike) if isinstance(backend, Processes) else backend
-    with closing(called(function, items, jobs)) as outputs:
+    deaths = 0
+    with closing(backend(function, items, jobs)) as outputs:
         for item, output in outputs:
-            if output is None:
-                again.extend(split(item))
-            else:
+            if output is not None:
+                deaths = 0
                 yield output
+                continue
+            again.extend(split(item))
+            deaths += 1
+            if deaths > _DEATHS_IN_SEQUENCE:
+                raise BrokenExecutor(
+                    f"{deaths} worker processes one after the other ended early, perhaps for lack of memory"
+                )
     if again:
         log(f"worker processes ended early: what they worked on ({len(again)}) is tried once more")
-        with closing(called(function, again, jobs)) as outputs:
+        with closing(backend(function, again, jobs)) as outputs:
             for item, output in outputs:
                 yield lost(item) if output is None else output
 
@@ -227,30 +229,10 @@ def one_thread() -> None:
     threadpool_limits(1)
 
 
-def _pool() -> ProcessPoolExecutor:
-    # "spawn": a fresh interpreter, the same on every platform, and safe beside the threads of a progress bar.
-    return ProcessPoolExecutor(1, get_context("spawn"), initializer=_start_interruptible_worker)
-
-
-def _submitted(pool: ProcessPoolExecutor, function: Callable[[Item], Output], item: Item) -> Future[Output]:
-    # This may start the process.  Ctrl-C while it imports would be a traceback: the process receives it afterwards.
-    with handled_later(signal.SIGINT, signal.SIGTERM), blocked(signal.SIGINT):
-        return pool.submit(function, item)
-
-
-def _start_interruptible_worker() -> None:
-    start_worker()
-    unblock(signal.SIGINT)
-
-
-def start_worker() -> None:
+def _start_worker() -> None:
     """Prepare a worker process: one thread, and an end as soon as the parent ends."""
     one_thread()
-    # Ctrl-C reaches the whole process group: end at once, without a traceback; the parent writes the message.
-    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
-    parent = parent_process()
-    if parent is not None:
+    if parent := parent_process():
         threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
 
 

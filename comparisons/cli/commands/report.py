@@ -8,7 +8,7 @@ from pathlib import Path
 from comparisons.cli.options import file
 from comparisons.console.exit_status import OK
 from comparisons.console.progress import log
-from comparisons.data.file_names import CALLS, JOURNAL, LOCK, RECORD, RUN_FILES
+from comparisons.data.file_names import RECORD, RUN_FILES, STORE
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
@@ -40,7 +40,7 @@ def call(args: argparse.Namespace) -> int:
 def _page_path(folder: Path, out: Path | None) -> Path:
     """Return where the page goes, which is no other file of the run."""
     path = writable_file(out or RunFolder(folder).report)
-    for name in (RECORD, JOURNAL, CALLS, LOCK, *RUN_FILES, *read_record(RunFolder(folder).record)["files"]):
+    for name in (RECORD, STORE, *RUN_FILES, *read_record(RunFolder(folder).record)["files"]):
         if path.resolve() == (folder / name).resolve():
             raise ValueError(f"--out {path} is a file of the run, which the page would replace; choose another file")
     return path

@@ -13,7 +13,7 @@ from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.pipeline.run import run
 from comparisons.registry import identify
-from comparisons.runs.backends import BACKENDS
+from comparisons.runs.workers import BACKENDS
 
 __all__ = ["call", "show"]
 

@@ -15,6 +15,8 @@ import pytest
 from comparisons.bench import adhesion_package, cold_starts, elements, growth, pull_off, two_workers
 from comparisons.bench.measuring import ENDED, cpu_seconds, measured, memory, reset_peak
 from comparisons.bench.part import Part
+from comparisons.bench.run import FORM
+from comparisons.runs.store import Store
 from fscm import Problem
 
 needs_proc = pytest.mark.skipif(not Path("/proc/self/status").is_file(), reason="the system has no /proc")
@@ -152,8 +154,8 @@ def test_a_stopped_run_keeps_what_is_finished_and_leaves_no_process(end, status,
     command = [sys.executable, "-m", "comparisons", "bench", "--only", "growth", "--out", str(tmp_path), "--quiet"]
     # A group of its own, as a shell makes it: Ctrl-C goes to all its processes.
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, process_group=0)
-    journal = tmp_path / "bench.jsonl"
-    while process.poll() is None and (not journal.exists() or journal.read_bytes().count(b"\n") < 2):
+    log = tmp_path / "store.sqlite-wal"
+    while process.poll() is None and (not log.exists() or log.stat().st_size < 25_000):
         time.sleep(0.05)
     (os.killpg if end == signal.SIGINT else os.kill)(process.pid, end)
     # The end of the pipe: no process of the run is left that could write to it.
@@ -162,4 +164,5 @@ def test_a_stopped_run_keeps_what_is_finished_and_leaves_no_process(end, status,
     if end == signal.SIGINT:
         assert messages.splitlines()[-1] == "python -m comparisons: interrupted"
         assert f"--out {tmp_path}" in messages
-    assert 2 <= len(journal.read_text().splitlines()) < 26
+    with Store(tmp_path, FORM) as store:
+        assert 1 <= len(store.items) < 25

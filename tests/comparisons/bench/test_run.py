@@ -65,7 +65,7 @@ def test_again_drops_what_is_stored_also_by_another_version(tiny, tmp_path, monk
     sizes = []
     tiny(measure=measuring_sizes(sizes))
     run_bench(tmp_path)
-    monkeypatch.setattr("comparisons.bench.run.fingerprint", lambda: "code 1, NumPy 2, SciPy 3")
+    monkeypatch.setattr("comparisons.runs.store.fingerprint", lambda: "code 1, NumPy 2, SciPy 3")
     with pytest.raises(ValueError, match="another version of the code"):
         run_bench(tmp_path)
     run_bench(tmp_path, again=True)
@@ -87,7 +87,7 @@ def test_a_failure_costs_one_measurement_and_is_retried_on_request(tiny, tmp_pat
 
 
 def test_two_commands_cannot_use_one_folder(tiny, tmp_path):
-    with store.alone_in(tmp_path), pytest.raises(ValueError, match="another process is computing into"):
+    with store.rows_in(tmp_path), pytest.raises(ValueError, match="another process is computing into"):
         run_bench(tmp_path)
 
 

@@ -243,8 +243,8 @@ def flipped(content, chosen):
 def test_no_flipped_bit_of_any_stored_file_is_judged_in_silence(folder, capsys):
     chosen = random.Random(SEED)
     whole = {path.name: path.read_bytes() for path in folder.iterdir() if path.stat().st_size}
-    assert whole.keys() - {"journal.jsonl", "run.json"} == set(read_record(folder / "run.json")["files"])
-    not_read = {name for name in whole if name == "journal.jsonl" or name in VERDICT_FILES}
+    assert whole.keys() - {"store.sqlite", "run.json"} == set(read_record(folder / "run.json")["files"])
+    not_read = {name for name in whole if name == "store.sqlite" or name in VERDICT_FILES}
     for name in sorted(whole.keys() - not_read):
         for _ in range(FLIPS):
             (folder / name).write_bytes(flipped(whole[name], chosen))
@@ -260,7 +260,7 @@ def test_no_flipped_bit_of_any_stored_file_is_judged_in_silence(folder, capsys):
     assert (main(["judge", str(folder)]), main(["report", str(folder)])) == (0, 0)
     # Neither command reads the journal, and the judge writes the others again.
     for name in damaged:
-        assert (folder / name).read_bytes() == (damaged if name == "journal.jsonl" else whole)[name], name
+        assert (folder / name).read_bytes() == (damaged if name == "store.sqlite" else whole)[name], name
 
 
 @pytest.mark.parametrize("name", [name for name in VERDICT_FILES if name in RUN_FILES])
@@ -303,7 +303,7 @@ def test_a_folder_that_is_no_finished_run_is_wrong_input(folder, lost, capsys):
     assert re.search(r"not the folder of a finished run", capsys.readouterr().err)
 
 
-@pytest.mark.parametrize("name", ["run.json", "journal.jsonl", "results.csv", "gates.toml", "link.html"])
+@pytest.mark.parametrize("name", ["run.json", "store.sqlite", "results.csv", "gates.toml", "link.html"])
 def test_a_report_replaces_no_file_of_the_run(folder, capsys, name):
     (folder / "link.html").symlink_to("run.json")
     before = {path.name: path.read_bytes() for path in folder.iterdir()}

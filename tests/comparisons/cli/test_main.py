@@ -135,7 +135,7 @@ def test_input_a_model_refuses_has_status_2(toys, capsys):
     ],
 )
 def test_an_output_that_cannot_be_written_is_refused_before_computing(tmp_path, capsys, arguments, monkeypatch):
-    monkeypatch.setattr("comparisons.runs.computation.compute_with_environment", None)
+    monkeypatch.setattr("comparisons.runs.computation.compute", None)
     (tmp_path / "file").touch()
     assert main([argument.format(file=tmp_path / "file") for argument in arguments]) == 2
     assert "cannot be written" in capsys.readouterr().err

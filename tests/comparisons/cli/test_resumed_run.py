@@ -1,16 +1,16 @@
 """A run that is resumed: stored failures, and the parts of the computations in its record."""
 
-import random
+import sqlite3
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import closing
 
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.model import ComputationFailed
-from comparisons.paper.cache import CachedCall, CallCache
+from comparisons.data.file_names import STORE
 from comparisons.runs import computation as computing
-from comparisons.runs import execution, store
-from comparisons.runs.execution import compute_with_environment
+from comparisons.runs import store
+from comparisons.runs.computation import compute
 from comparisons.runs.record import read_record
 from comparisons.runs.tables import read_table
 
@@ -32,9 +32,9 @@ def test_stored_failures_are_computed_again_when_it_is_asked_for(small_grid, tmp
 
     def counted(tasks, jobs, backend):
         computed.extend(task.model for task in tasks)
-        return compute_with_environment(tasks, jobs, backend)
+        return compute(tasks, jobs, backend)
 
-    monkeypatch.setattr(computing, "compute_with_environment", counted)
+    monkeypatch.setattr(computing, "compute", counted)
     assert run(tmp_path, "--model", "ten-percent", "fails", "--retry-failed") == 4
     assert computed == ["fails"] * 4
     message = capsys.readouterr().err
@@ -57,25 +57,12 @@ def test_a_sweep_retries_too(toys, tmp_path, capsys):
     assert "2 computations" in capsys.readouterr().err
 
 
-def fail(x):
-    raise ComputationFailed("not enough iterations")
-
-
-def test_a_cache_knows_its_failures_and_forgets_them(tmp_path):
-    calls = [CachedCall.of(fail, 1), CachedCall.of(abs, -2)]
-    list(CallCache(tmp_path / "calls", "x").work(calls, 1))
-    stored = CallCache(tmp_path / "calls", "x")
-    assert stored.failed(calls) == calls[:1]
-    stored.forget(calls[:1])
-    assert stored.missing(calls) == CallCache(tmp_path / "calls", "x").missing(calls) == calls[:1]
-
-
 def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):
-    here, code = execution._of_this_process()
+    here, code = computing._of_this_process()
     there = here | {"python": "3.99.0", "cpu": "another"}
     with monkeypatch.context() as patch:
-        patch.setattr(computing, "compute_with_environment", interrupt_after(5, BrokenProcessPool))
-        patch.setattr(execution, "_of_this_process", lambda: (there, code))
+        patch.setattr(computing, "compute", interrupt_after(5, BrokenProcessPool))
+        patch.setattr(computing, "_of_this_process", lambda: (there, code))
         assert run(tmp_path) == 4
     assert run(tmp_path) == 0
     record = read_record(tmp_path / "run.json")
@@ -94,18 +81,18 @@ def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path
     assert again["seconds"]["run"] == record["seconds"]["run"]
 
 
-def test_a_row_whose_line_is_damaged_is_computed_again(small_grid, tmp_path, capsys):
+def test_a_row_that_is_damaged_is_computed_again(small_grid, tmp_path, capsys):
     assert run(tmp_path) == 0
     whole = (tmp_path / "results.csv").read_bytes()
-    journal = tmp_path / "journal.jsonl"
-    lines = journal.read_text().splitlines(keepends=True)
-    chosen = random.Random(1).randrange(1, len(lines))
-    lines[chosen] = lines[chosen].replace('"n": 2', '"n": 3')
-    journal.write_text("".join(lines))
+    with closing(sqlite3.connect(tmp_path / STORE)) as database, database:
+        database.execute(
+            "UPDATE items SET content = replace(content, '\"value\": 2.2', '\"value\": 2.3') "
+            "WHERE key IN (SELECT max(key) FROM items)"
+        )
     capsys.readouterr()
     assert run(tmp_path) == 0
     message = capsys.readouterr().err
-    assert "damaged lines (1)" in message
+    assert "is damaged" in message
     assert "1 computations on 1 processes, 11 are stored" in message
     assert (tmp_path / "results.csv").read_bytes() == whole
 

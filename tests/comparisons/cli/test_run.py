@@ -9,15 +9,14 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.data.file_names import VERDICT_FILES
-from comparisons.problem import Problem
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import load_grids
-from comparisons.runs.execution import compute, compute_with_environment
-from comparisons.runs.store import Store
+from comparisons.runs.computation import compute
+from comparisons.runs.store import rows_in
 from comparisons.runs.tasks import Task, evaluate_task, plan
 
 FILES = {
-    "journal.jsonl",
+    "store.sqlite",
     "results.csv",
     "results.parquet",
     "kappa.csv",
@@ -56,7 +55,7 @@ def read(folder, name="results.csv"):
 
 def test_a_run_leaves_its_tables_and_record(small_grid, tmp_path, capsys):
     assert run(tmp_path / "out") == 0
-    assert {path.name for path in (tmp_path / "out").iterdir()} == {*FILES, ".lock"}
+    assert {path.name for path in (tmp_path / "out").iterdir()} == FILES
     shown = capsys.readouterr()
     assert "ten-percent" in shown.out
     assert "10.000(5)" in shown.out
@@ -135,7 +134,7 @@ def test_two_runs_give_the_same_bytes(small_grid, tmp_path):
     run(tmp_path / "a")
     run(tmp_path / "b")
     # These have times.
-    for name in FILES - {"run.json", "journal.jsonl", "results.parquet", "junit.xml"}:
+    for name in FILES - {"run.json", "store.sqlite", "results.parquet", "junit.xml"}:
         assert read(tmp_path / "a", name) == read(tmp_path / "b", name), name
     without_times = [re.sub(rb' time="[\d.]+"', b"", read(tmp_path / folder, "junit.xml")) for folder in "ab"]
     assert without_times[0] == without_times[1]
@@ -143,7 +142,7 @@ def test_two_runs_give_the_same_bytes(small_grid, tmp_path):
 
 def interrupt_after(count, error=KeyboardInterrupt):
     def interrupted(tasks, jobs, backend):
-        for number, row in enumerate(compute_with_environment(tasks, jobs, backend)):
+        for number, row in enumerate(compute(tasks, jobs, backend)):
             if number == count:
                 raise error
             yield row
@@ -154,7 +153,7 @@ def interrupt_after(count, error=KeyboardInterrupt):
 def test_an_interrupted_run_goes_on_where_it_was(small_grid, tmp_path, monkeypatch, capsys):
     run(tmp_path / "whole")
     with monkeypatch.context() as patch:
-        patch.setattr(computing, "compute_with_environment", interrupt_after(5))
+        patch.setattr(computing, "compute", interrupt_after(5))
         assert run(tmp_path / "cut") == 130
     assert "5 finished computations are safe" in capsys.readouterr().err
     assert run(tmp_path / "cut") == 0
@@ -164,7 +163,7 @@ def test_an_interrupted_run_goes_on_where_it_was(small_grid, tmp_path, monkeypat
 
 
 def test_a_worker_that_dies_loses_nothing_that_was_finished(small_grid, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(computing, "compute_with_environment", interrupt_after(3, BrokenProcessPool))
+    monkeypatch.setattr(computing, "compute", interrupt_after(3, BrokenProcessPool))
     assert run(tmp_path) == 4
     assert "3 finished computations are safe" in capsys.readouterr().err
 
@@ -187,8 +186,11 @@ def test_a_failed_computation_costs_its_own_rows_and_the_exit_status(small_grid,
     assert "more computations failed" in shown.err
 
 
-def test_results_of_other_code_in_the_folder_are_refused(small_grid, tmp_path, capsys):
-    Store(tmp_path / "journal.jsonl", "other code", dict, dict)
+def test_results_of_other_code_in_the_folder_are_refused(small_grid, tmp_path, monkeypatch, capsys):
+    with monkeypatch.context() as patch:
+        patch.setattr("comparisons.runs.store.fingerprint", lambda: "other code")
+        with rows_in(tmp_path) as store:
+            store.add(evaluate_task(Task("exact", "pull_off_force", Problem.dimensionless(2, 0.4, 1))))
     assert run(tmp_path) == 2
     assert "another version of the code" in capsys.readouterr().err
 
@@ -213,8 +215,8 @@ def test_candidates_can_be_chosen_and_the_reference_stays():
 def test_processes_give_the_rows_of_one_process():
     tasks = plan(load_grids(STANDING))
 
-    def values(rows):
-        return sorted((row.key, row.value, row.u_num) for row in rows)
+    def values(computed):
+        return sorted((row.key, row.value, row.u_num) for row, _ in computed)
 
     assert values(compute(tasks, 2)) == values(compute(tasks, 1))
 

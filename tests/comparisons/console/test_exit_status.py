@@ -7,7 +7,6 @@ import signal
 import subprocess
 import sys
 import threading
-from functools import partial
 from pathlib import Path
 
 import pandas as pd
@@ -16,10 +15,10 @@ from matplotlib.figure import Figure
 
 from comparisons.cli.main import main
 from comparisons.console.exit_status import FAILED, TRACEBACK, WRONG_INPUT, Terminated, guarded
+from comparisons.data.file_names import STORE
 from comparisons.output.markdown import to_step_summary
 from comparisons.output.style import FORMATS, save
 from comparisons.runs.atomic_files import write_json
-from comparisons.runs.store import Store, alone_in
 from comparisons.runs.tables import write_table
 
 SOLVE = '["solve", "--model", "jkr", "--quantity", "pull_off_force", "--n", "2", "--k", "0.4", "--mu", "1"]'
@@ -241,18 +240,6 @@ def test_a_full_disk_while_results_are_written_has_status_4(toys, full_disk, tmp
     assert capsys.readouterr().err == f"fscm-bench: the file {csv} cannot be written ({os.strerror(errno.ENOSPC)})\n"
 
 
-@needs_full_device
-def test_a_full_disk_while_the_journal_is_written(tmp_path, monkeypatch):
-    journal = Store(tmp_path / "journal.jsonl", "x", dict, dict)
-    journal.add({"n": 1})
-    full = partial(open, "/dev/full", "a", encoding="utf-8")
-    with monkeypatch.context() as patched:
-        patched.setattr(Path, "open", lambda path, *mode, **more: full())
-        with pytest.raises(OSError, match=r"journal\.jsonl cannot be written"):
-            journal.add({"n": 2})
-    assert Store(tmp_path / "journal.jsonl", "x", dict, dict).items == [{"n": 1}]
-
-
 @pytest.mark.parametrize("arguments", [["run", "--jobs", "1"], ["judge"]])
 def test_a_summary_page_that_cannot_be_written_is_found_before_computing(
     small_grid, tmp_path, monkeypatch, capsys, arguments
@@ -289,24 +276,12 @@ def test_a_summary_page_without_room_loses_no_result_and_no_verdict(small_grid, 
         assert (folder / "junit.xml").is_file()
 
 
-def test_a_lock_of_another_user(tmp_path, monkeypatch):
-    def acquire(lock):
-        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(tmp_path / ".lock"))
-
-    monkeypatch.setattr("comparisons.runs.store.FileLock.acquire", acquire)
-    with (
-        pytest.raises(OSError, match=rf"\.lock.*\({os.strerror(errno.EACCES)}\); choose another folder"),
-        alone_in(tmp_path),
-    ):
-        pass
-
-
-def test_a_lock_that_cannot_be_opened_has_status_4(small_grid, tmp_path, capsys):
-    (tmp_path / ".lock").mkdir()
+def test_a_store_that_cannot_be_opened_has_status_4(small_grid, tmp_path, capsys):
+    (tmp_path / STORE).mkdir()
     assert main(["run", "--jobs", "1", "--out", str(tmp_path)]) == FAILED
     shown = capsys.readouterr().err
     assert shown.count("\n") == 1
-    assert f"the file {tmp_path / '.lock'}, which keeps two processes" in shown
+    assert STORE in shown
 
 
 def loop(path):

@@ -9,7 +9,7 @@ from comparisons.data.file_names import BASELINE_FOLDER
 from comparisons.graded_agreement.cases import CASES, MU, PUNCHES, QUANTITIES, SOLIDS
 from comparisons.graded_agreement.solving import finite_elements, integral_equation
 from comparisons.graded_agreement.table import TABLE, compared, worse_than_limits
-from comparisons.paper.cache import CachedCall, CallCache
+from comparisons.paper.cache import CachedCall, Results
 
 ROOT = Path(__file__).resolve().parents[3]
 #: Of a bound of the finite elements, relative to the value (measured: 2.0e-6).
@@ -33,11 +33,9 @@ def test_committed_values_agree_within_both_bounds_and_their_limits():
     assert worse_than_limits(table) == []
 
 
-def _journal(path, function, event):
-    cache = CallCache(path, "code")
+def _results(function, event):
     call = CachedCall.of(function, CASES[0].solid, CASES[0].punch, CASES[0].mu)
-    cache.results.add(type("Outcome", (), {"call": call, "result": event, "failure": None, "refused": False})())
-    return cache.results
+    return Results([type("Outcome", (), {"call": call, "result": event, "failure": None, "refused": False})()])
 
 
 @pytest.mark.parametrize(
@@ -49,10 +47,10 @@ def _journal(path, function, event):
         ("no such event", "solved by the FSCM, no event by the finite elements"),
     ],
 )
-def test_a_difference_is_named(tmp_path, force, message):
+def test_a_difference_is_named(force, message):
     absent = dict.fromkeys(QUANTITIES[1:], "the displacement rises")
-    ours = _journal(tmp_path / "a", integral_equation, {QUANTITIES[0]: [1.0, 1e-9], **absent})
-    theirs = _journal(tmp_path / "b", finite_elements, {QUANTITIES[0]: force, **absent})
+    ours = _results(integral_equation, {QUANTITIES[0]: [1.0, 1e-9], **absent})
+    theirs = _results(finite_elements, {QUANTITIES[0]: force, **absent})
     found = worse_than_limits(compared(theirs, ours))
     assert (len(found), message is None or message in found[0]) == (message is not None, True)
 

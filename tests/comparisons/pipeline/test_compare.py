@@ -208,7 +208,7 @@ def test_what_cannot_be_compared_is_one_sentence(tmp_path, capsys, arguments, se
     shown = capsys.readouterr().err
     assert sentence in shown
     assert shown.count("\n") == 1
-    assert not (tmp_path / "out" / "journal.jsonl").exists()
+    assert not (tmp_path / "out" / "store.sqlite").exists()
 
 
 def test_a_failed_computation_is_the_exit_status(toys, tmp_path, capsys):

@@ -58,7 +58,7 @@ def refused(folder, capsys):
     return error
 
 
-NAMES = ["../evil.sh", "{folder}/mine/precious.txt", "inputs/../../evil.sh", "..", "journal.jsonl", ""]
+NAMES = ["../evil.sh", "{folder}/mine/precious.txt", "inputs/../../evil.sh", "..", "store.sqlite", ""]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -95,7 +95,7 @@ def test_copies_are_not_written_through_a_link(shard, tmp_path, capsys):
     assert list((tmp_path / "mine" / "elsewhere").iterdir()) == []
 
 
-@pytest.mark.parametrize("name", [".lock", "journal.jsonl"])
+@pytest.mark.parametrize("name", ["store.sqlite", "store.sqlite-wal"])
 def test_a_file_that_is_written_in_place_is_no_link(name, shard, tmp_path, capsys):
     precious = tmp_path / "mine" / "precious.txt"
     (shard / name).unlink(missing_ok=True)
@@ -105,7 +105,7 @@ def test_a_file_that_is_written_in_place_is_no_link(name, shard, tmp_path, capsy
     assert precious.read_text() == "precious"
 
 
-@pytest.mark.parametrize("name", ["run.json", "journal.jsonl", "results.parquet"])
+@pytest.mark.parametrize("name", ["run.json", "store.sqlite", "results.parquet"])
 def test_a_pipe_in_a_folder_is_not_waited_for(name, shard, tmp_path, capsys):
     (shard / name).unlink()
     (shard / name).symlink_to("/dev/null")
@@ -166,9 +166,9 @@ def test_code_that_a_record_names_as_a_model_is_not_run(tmp_path, capsys):
     options = ("--model", "jkr", "--jobs", "1", "--quiet")
     assert main(["sweep", str(tmp_path / "grid.toml"), *options, "--out", str(shard)]) == 0
     spec = f"{tmp_path / 'evil.py'}:Model"
-    journal = rows_in(shard)
-    (row,) = (row for row in journal.items if row.model == "jkr")
-    journal.add(replace(row, model=spec))
+    with rows_in(shard) as store:
+        (row,) = (row for row in store.items if row.model == "jkr")
+        store.add(replace(row, model=spec))
     forge(shard, lambda record: record["arguments"].update(model=[spec]))
     assert main(["merge", str(shard), "--out", str(tmp_path / "out")]) == 2
     assert "unknown model" in capsys.readouterr().err

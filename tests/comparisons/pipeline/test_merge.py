@@ -10,7 +10,7 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.registry import create
-from comparisons.runs import execution
+from comparisons.runs import computation
 from comparisons.runs.cases import load_grids
 from comparisons.runs.record import read_record
 from comparisons.runs.shards import Shard
@@ -102,10 +102,10 @@ def test_merged_shards_are_the_whole_sweep(sweep, tmp_path, capsys):
 
 
 def test_every_part_keeps_its_machine(sweep, tmp_path, monkeypatch):
-    here, code = execution._of_this_process()
+    here, code = computation._of_this_process()
     for number, host in ((1, "first"), (2, "second")):
         there = here | {"host": host}
-        monkeypatch.setattr(execution, "_of_this_process", lambda there=there: (there, code))
+        monkeypatch.setattr(computation, "_of_this_process", lambda there=there: (there, code))
         sweep(host, "--shard", f"{number}/2")
     main(["merge", "second", "first", "--out", "merged", "--quiet"])
     parts = read_record(tmp_path / "merged" / "run.json")["parts"]
@@ -127,7 +127,6 @@ def test_what_no_shard_has_is_computed_by_one_command(sweep, tmp_path, capsys):
 def test_a_failure_gives_way_to_a_value(sweep, tmp_path, monkeypatch):
     sweep("whole", "--model", "ten-percent")
     sweep("good", "--model", "ten-percent")
-    lines = (tmp_path / "good" / "journal.jsonl").read_text()
     with monkeypatch.context() as patch:
         patch.setattr("comparisons.runs.tasks._evaluate", failing)
         sweep("bad", "--model", "ten-percent")
@@ -135,7 +134,6 @@ def test_a_failure_gives_way_to_a_value(sweep, tmp_path, monkeypatch):
         merged = "-".join(order)
         assert main(["merge", *order, "--out", merged, "--quiet"]) == 0
         assert tables(tmp_path / merged) == tables(tmp_path / "whole")
-    assert (tmp_path / "good" / "journal.jsonl").read_text() == lines
 
 
 def failing(model, quantity, case):
@@ -207,7 +205,7 @@ def test_a_shard_needs_its_own_folder(sweep, capsys):
 
 def test_a_journal_that_is_gone_is_missed(sweep, tmp_path, capsys):
     sweep("part")
-    (tmp_path / "part" / "journal.jsonl").unlink()
+    (tmp_path / "part" / "store.sqlite").unlink()
     assert main(["merge", "part", "--out", "merged"]) == 2
-    assert "only folders with their journal are merged" in capsys.readouterr().err
+    assert "only folders with their store are merged" in capsys.readouterr().err
     assert json.loads((tmp_path / "part" / "run.json").read_text())["command_name"] == "sweep"

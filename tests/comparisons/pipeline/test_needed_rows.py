@@ -1,9 +1,8 @@
 """The results that a run computes: those that its gates need."""
 
-import json
-
 from comparisons.cli.main import main
 from comparisons.pipeline.run import run
+from comparisons.runs.store import rows_in
 from tests.comparisons.conftest import GATES, GRID
 
 #: Two of four cases, for a candidate that has a value and for one that has none.
@@ -16,8 +15,8 @@ HALF = GATES.replace("mu = [0.1, 1]", "mu = [1, 1]").replace("min_cases = 4", "m
 
 def computed(folder):
     """The model and the parameters of each row that a run has computed."""
-    lines = (folder / "journal.jsonl").read_text().splitlines()[1:]
-    return [json.loads(line)["entry"]["item"] for line in lines]
+    with rows_in(folder) as store:
+        return store.items
 
 
 def test_a_run_of_models_has_the_rows_that_its_gates_need(small_grid, tmp_path):

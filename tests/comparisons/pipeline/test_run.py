@@ -71,7 +71,7 @@ def test_a_sweep_has_the_record_of_a_run_and_no_verdicts(toys, tmp_path):
     assert (out / "grid.toml").read_text() == GRID
     assert record["verdicts"] == {}
     assert record["parts"][0]["computations"] == 12
-    assert names(out) == {*record["files"], "run.json", "journal.jsonl", ".lock"}
+    assert names(out) == {*record["files"], "run.json", "store.sqlite"}
     assert not names(out) & {*VERDICT_FILES, "gates.toml"}
     check_files(record, out)
     assert main(["report", str(out)]) == 0

@@ -157,10 +157,10 @@ def test_a_gate_that_cannot_be_used_is_one_sentence(small_grid, pytester):
 
 def test_a_run_that_cannot_compute_fails_every_test_with_its_sentence(small_grid, pytester):
     pytester.mkdir("kept")
-    (pytester.path / "kept" / "journal.jsonl").write_text("no journal\n")
+    (pytester.path / "kept" / "store.sqlite").write_text(500 * "no store\n")
     result = run(pytester, gate("PASSES", "given", 0.05, 0.15), "--fscm-bench-out=kept")
     result.assert_outcomes(failed=5)
-    result.stdout.fnmatch_lines(["*kept/journal.jsonl is not a journal*"])
+    result.stdout.fnmatch_lines(["*kept/store.sqlite is not a store*"])
 
 
 def test_it_costs_nothing_in_other_projects(pytester):

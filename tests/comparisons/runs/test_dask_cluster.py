@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.runs.backends import backend_of
+from comparisons.runs.workers import backend_of
 
 pytest.importorskip("distributed")
 
@@ -58,8 +58,7 @@ def lost(item):
 """
 CALLER = """
 import sys
-from comparisons.runs.backends import backend_of
-from comparisons.runs.workers import each
+from comparisons.runs.workers import backend_of, each
 from items import lost, work
 
 if __name__ == "__main__":
@@ -184,13 +183,13 @@ def test_without_dask_it_is_said_what_to_install(monkeypatch):
 
 @pytest.mark.heavy
 def test_an_interrupt_ends_the_cluster_without_a_word_of_it(tmp_path):
-    path, journal = tmp_path / "long.toml", tmp_path / "out" / "journal.jsonl"
+    path, journal = tmp_path / "long.toml", tmp_path / "out" / "store.sqlite-wal"
     path.write_text(GRID.replace("md-improved", "fscm").replace("mu = [1, 3]", "mu = [1, 1.5, 2, 2.5, 3]"))
     command = [sys.executable, "-m", "comparisons", "sweep", path, "--jobs", "2", "--backend", "dask"]
     process = subprocess.Popen(
         [*command, "--out", tmp_path / "out"], stderr=subprocess.PIPE, text=True, start_new_session=True
     )
-    while process.poll() is None and not (journal.exists() and journal.read_bytes().count(b"\n") > 1):
+    while process.poll() is None and not (journal.exists() and journal.stat().st_size > 30_000):
         time.sleep(0.05)
     os.killpg(process.pid, signal.SIGINT)
     _, message = process.communicate()

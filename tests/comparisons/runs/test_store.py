@@ -1,155 +1,150 @@
-"""Store: stored entries, torn lines, and refused files."""
+"""Store: stored items, damage, refused files, other processes and full disks."""
 
-import os
 import random
+import sqlite3
 import subprocess
 import sys
+from contextlib import closing
 
 import pytest
 
-from comparisons.runs.store import Store, alone_in
+from comparisons.data.file_names import STORE
+from comparisons.runs.store import Form, Store
+
+FORM = Form("entries", lambda entry: entry["id"], dict, dict)
+ENTRIES = [{"id": number, "value": value} for number, value in enumerate((1.0 / 3.0, "line\nbreak", None, [1, -2e-9]))]
 
 
-def journal(path, fingerprint="x"):
-    return Store(path, fingerprint, lambda line: line["entry"], lambda entry: {"entry": entry})
+def opened(folder, code="x"):
+    return Store(folder, FORM, code)
+
+
+def stored(folder, code="x"):
+    with opened(folder, code) as store:
+        return store.items
 
 
 @pytest.fixture
-def path(tmp_path):
-    return tmp_path / "journal.jsonl"
+def folder(tmp_path):
+    """A folder whose store has all entries."""
+    with opened(tmp_path) as store:
+        for entry in ENTRIES:
+            store.add(entry)
+    return tmp_path
 
 
-def test_it_gives_back_what_was_added(path):
-    first = journal(path)
-    for entry in (1.0 / 3.0, "line\nbreak", None, {"list": [1, 2]}):
-        first.add(entry)
-    assert journal(path).items == first.items
+def test_it_gives_back_what_was_added(folder):
+    assert stored(folder) == ENTRIES
+    assert [path.name for path in folder.iterdir()] == [STORE]
 
 
-@pytest.mark.parametrize("cut", range(1, 30, 7))
-def test_a_line_cut_by_a_crash_is_forgotten_and_the_rest_kept(path, cut):
-    first = journal(path)
-    first.add("the first")
-    first.add("the second, which is longer than that")
-    os.truncate(path, path.stat().st_size - cut)
-    again = journal(path)
-    assert again.items == ["the first"]
-    again.add("the third")
-    assert journal(path).items == ["the first", "the third"]
+def test_a_new_item_replaces_that_of_its_key_and_dropped_ones_are_gone(folder):
+    with opened(folder) as store:
+        store.add({"id": 1, "value": 2})
+        assert store.drop(lambda entry: entry["id"] > 1) == 2
+        assert sum(part["computations"] for part in store.parts()) == 2
+    assert stored(folder) == [ENTRIES[0], {"id": 1, "value": 2}]
 
 
-@pytest.mark.parametrize("text", ["", '{"finger', '{"fingerprint": "of other code"}'])
-def test_one_cut_in_its_first_line_starts_again(path, text):
-    path.write_text(text)
-    assert journal(path).items == []
-    journal(path).add(1)
-    assert journal(path).items == [1]
+def test_items_of_another_form_are_apart(folder):
+    with Store(folder, Form("others", FORM.key, dict, dict), "x") as others:
+        others.add({"id": 1, "value": "another"})
+    assert stored(folder) == ENTRIES
+    with Store(folder, FORM, "y", anew=True) as store:
+        assert store.items == []
 
 
-def test_entries_of_other_code_are_not_mixed_in(path):
-    journal(path).add(1)
-    with pytest.raises(ValueError, match="another version of the code"):
-        journal(path, "y")
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        *("\n", "hello\n", "[1, 2]\n", "{}\n", '{"fingerprint": "x"}\n{"other": 1}\n', '{"fingerprint": "x"}\n[1]\n'),
-        *("\ud800\n", "[" * 100_000 + "\n"),
-    ],
-)
-def test_another_file_is_not_taken_for_a_journal(path, text):
-    content = text.encode(errors="surrogatepass")
-    path.write_bytes(content)
-    with pytest.raises(ValueError, match="not a journal"):
-        journal(path)
-    assert path.read_bytes() == content
-
-
-ENTRIES = [{"value": 1.0 / 3.0, "model": "jkr"}, {"value": -2e-9, "model": "fem"}, {"value": None, "model": "fscm"}]
-#: Bits that are flipped, one at a time; chosen by this seed.
-FLIPS, SEED = 300, 20261
-
-
-def test_a_flipped_bit_never_changes_an_entry(path, capsys):
-    first = journal(path)
-    for entry in ENTRIES:
-        first.add(entry)
-    whole, chosen, messages = path.read_bytes(), random.Random(SEED), 0
-    for _ in range(FLIPS):
-        damaged = bytearray(whole)
-        damaged[chosen.randrange(len(whole))] ^= 1 << chosen.randrange(8)
-        path.write_bytes(damaged)
-        entries = journal(path).items
-        # In the order of the file; what is missing is computed again.
-        assert entries == [entry for entry in ENTRIES if entry in entries]
-        assert len(entries) >= len(ENTRIES) - 2
-        message = "damaged lines" in capsys.readouterr().err
-        # The end of the last line is that of a line that was cut.
-        assert message or entries == ENTRIES or damaged[-1] != whole[-1]
-        messages += message
-        assert journal(path).items == entries
-        assert capsys.readouterr().err == ""
-    assert messages > 0.9 * FLIPS
-
-
-def test_damage_to_the_first_line_alone_loses_no_entry(path, capsys):
-    journal(path).add("one")
-    _, *lines = path.read_text().splitlines(keepends=True)
-    path.write_text("".join(['{"fingerprint": "y"}\n', *lines]))
-    assert journal(path).items == ["one"]
-    assert "damaged lines (1)" in capsys.readouterr().err
-
-
-def test_a_line_of_other_code_is_not_taken(path, tmp_path):
-    journal(path).add(1)
-    other = tmp_path / "other.jsonl"
-    journal(other, "y").add(2)
-    path.write_text(path.read_text() + other.read_text().splitlines(keepends=True)[1])
-    assert journal(path).items == [1]
-
-
-def test_what_differs_from_the_code_is_said(path):
-    journal(path, "code a, NumPy 2.2").add(1)
+def test_results_of_other_code_are_refused_and_the_difference_is_said(tmp_path):
+    with opened(tmp_path, "code a, NumPy 2.2") as store:
+        store.add(ENTRIES[0])
     with pytest.raises(ValueError, match=r"\(NumPy 2.2, now NumPy 2.3\); choose another --out"):
-        journal(path, "code a, NumPy 2.3")
+        opened(tmp_path, "code a, NumPy 2.3")
 
 
-def test_entries_that_are_dropped_are_gone_from_the_file(path):
-    first = journal(path)
-    for entry in range(5):
-        first.add(entry)
-    assert first.drop(lambda entry: entry % 2) == 2
-    first.add(5)
-    assert first.items == journal(path).items == [0, 2, 4, 5]
+@pytest.mark.parametrize("content", [b"hello\n" * 999, b"[" * 100_000, b"SQLite format 3\0" + bytes(5000)])
+def test_another_file_is_refused_and_stays(tmp_path, content):
+    (tmp_path / STORE).write_bytes(content)
+    with pytest.raises(ValueError, match=STORE):
+        opened(tmp_path)
+    assert (tmp_path / STORE).read_bytes() == content
 
 
-def test_a_nan_is_refused_and_not_kept(path):
-    first = journal(path)
-    with pytest.raises(ValueError, match="JSON"):
-        first.add(float("nan"))
-    assert first.items == journal(path).items == []
+def test_a_database_of_another_program_is_refused(tmp_path):
+    with closing(sqlite3.connect(tmp_path / STORE)) as other:
+        other.execute("CREATE TABLE items (a)")
+    with pytest.raises(ValueError, match=STORE):
+        opened(tmp_path)
+
+
+#: Bits that are flipped or places at which the file is cut, one at a time; chosen by this seed.
+DAMAGES, SEED = 300, 20261
+
+
+def test_damage_never_changes_an_entry(folder, capsys):
+    whole, chosen, lost = (folder / STORE).read_bytes(), random.Random(SEED), 0
+    for number in range(DAMAGES):
+        damaged = bytearray(whole)
+        if number % 3:
+            damaged[chosen.randrange(len(whole))] ^= 1 << chosen.randrange(8)
+        else:
+            del damaged[chosen.randrange(len(whole)) :]
+        (folder / STORE).write_bytes(damaged)
+        try:
+            entries = stored(folder)
+        except ValueError:  # refused in one sentence
+            continue
+        assert entries == [entry for entry in ENTRIES if entry in entries]
+        if entries != ENTRIES:
+            lost += 1
+            assert "is damaged" in capsys.readouterr().err or not damaged
+        assert stored(folder) == entries
+    assert lost > 0
+
+
+def test_the_code_that_computed_an_entry_cannot_be_changed(folder):
+    with closing(sqlite3.connect(folder / STORE)) as database, database:
+        database.execute("UPDATE environments SET content = replace(content, '\"x\"', '\"y\"')")
+    assert stored(folder) == []
+
+
+def test_a_nan_is_refused_and_not_stored(tmp_path):
+    with opened(tmp_path) as store, pytest.raises(ValueError, match="JSON"):
+        store.add({"id": 1, "value": float("nan")})
+    assert stored(tmp_path) == []
 
 
 OTHER = """
 import sys
+from contextlib import closing
 from pathlib import Path
-from comparisons.runs.store import alone_in
-with alone_in(Path(sys.argv[1])):
-    print("alone", flush=True)
-    sys.stdin.read()
+from comparisons.runs.store import Form, Store
+store = Store(Path(sys.argv[1]), Form("entries", lambda entry: entry["id"], dict, dict), "x")
+store.add({"id": 5})
+print("alone", flush=True)
+sys.stdin.read()
 """
 
 
-def test_two_processes_do_not_compute_into_one_folder(tmp_path):
-    with subprocess.Popen(
-        [sys.executable, "-c", OTHER, tmp_path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    ) as other:
+def test_two_processes_do_not_compute_into_one_folder_and_a_kill_loses_nothing(folder):
+    command = [sys.executable, "-c", OTHER, folder]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as other:
         assert other.stdout.readline() == "alone\n"
-        with pytest.raises(ValueError, match="another process"), alone_in(tmp_path):
-            pass
+        with pytest.raises(ValueError, match="another process"):
+            opened(folder)
         other.kill()
-    # What a process that was killed held is free.
-    with alone_in(tmp_path):
-        pass
+    assert stored(folder) == [*ENTRIES, {"id": 5}]
+
+
+def test_a_store_that_cannot_be_opened_is_named(tmp_path):
+    (tmp_path / STORE).mkdir()
+    with pytest.raises(OSError, match=STORE):
+        opened(tmp_path)
+
+
+def test_a_full_disk_loses_nothing_that_was_stored(folder):
+    with opened(folder) as store:
+        store._connection.execute("PRAGMA max_page_count = 1")
+        with pytest.raises(OSError, match=rf"{STORE} cannot be written \(database or disk is full\)"):
+            store.add({"id": 9, "value": "x" * 100_000})
+        assert store.items == ENTRIES
+    assert stored(folder) == ENTRIES

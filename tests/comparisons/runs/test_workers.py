@@ -1,15 +1,21 @@
-"""Work on every core: each item once, in processes of one thread."""
+"""Work on every core: each item once, in processes of one thread, and the rows of tasks with their origin."""
 
 import os
 import signal
-from concurrent.futures import BrokenExecutor, Future
+import subprocess
+import sys
+from concurrent.futures import BrokenExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 import threadpoolctl
 
-from comparisons.runs import workers
-from comparisons.runs.workers import Processes, each, processes
+from comparisons.problem import Problem
+from comparisons.runs import computation, workers
+from comparisons.runs.computation import compute
+from comparisons.runs.tasks import Task, evaluate_task
+from comparisons.runs.workers import LOST, each, processes
 
 
 def threads(_):
@@ -21,6 +27,15 @@ def threads(_):
 
 def fail(item):
     raise ValueError(f"{item} is refused")
+
+
+def end(item):
+    """End this process as the system does when there is no memory: always, or the first time for a path."""
+    path = Path(item)
+    if item == "always" or (path.is_absolute() and not path.exists()):
+        path.is_absolute() and path.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return f"finished {item}"
 
 
 def test_the_linear_algebra_of_a_worker_has_one_thread():
@@ -39,24 +54,11 @@ def test_an_exception_of_the_function_is_raised():
         list(each(fail, [1, 2], 2, lost=str))
 
 
-def end(item):
-    """End this process as the system does when there is no memory: always, or the first time for a path."""
-    path = Path(item)
-    if item == "always" or (path.is_absolute() and not path.exists()):
-        path.is_absolute() and path.touch()
-        os.kill(os.getpid(), signal.SIGKILL)
-    return f"finished {item}"
-
-
 def test_an_item_whose_process_ends_is_tried_once_more_and_the_others_go_on(tmp_path, capsys):
     once = str(tmp_path / "once")
     outputs = list(each(end, ["a", "always", once, "b", "c"], 2, lost=lambda item: f"lost {item}"))
     assert sorted(outputs) == sorted(["finished a", "lost always", f"finished {once}", "finished b", "finished c"])
     assert "what they worked on (2) is tried once more" in capsys.readouterr().err
-
-
-def test_a_single_item_that_ends_its_process_does_not_end_this_one():
-    assert list(each(end, ["always"], 2, lost=str.upper)) == ["ALWAYS"]
 
 
 def test_what_is_tried_again_can_be_parts_of_an_item():
@@ -66,9 +68,8 @@ def test_what_is_tried_again_can_be_parts_of_an_item():
         tried.append(list(items))
         yield from ((item, None if len(item) > 1 or item == "x" else item) for item in items)
 
-    assert list(each(str, ["ax", "b"], 2, lost=lambda item: f"lost {item}", split=list, backend=backend)) == [
-        *("b", "a", "lost x"),
-    ]
+    outputs = each(str, ["ax", "b"], 2, lost=lambda item: f"lost {item}", split=list, backend=backend)
+    assert list(outputs) == ["b", "a", "lost x"]
     assert tried == [["ax", "b"], ["a", "x"]]
 
 
@@ -78,100 +79,77 @@ def test_processes_that_cannot_work_are_given_up(monkeypatch):
         list(each(end, ["always"] * 5, 2, lost=str))
 
 
-def test_a_process_that_ended_between_two_items_is_replaced(monkeypatch):
-    class Ended:
-        def submit(self, *_):
-            raise BrokenExecutor
-
-    class Sound:
-        def submit(self, function, item):
-            future = Future()
-            future.set_result(function(item))
-            return future
-
-        def shutdown(self, **_):
-            pass
-
-    pools = iter([Ended(), Sound(), Sound()])
-    monkeypatch.setattr(workers, "_pool", lambda: next(pools))
-    assert sorted(output for _, output in processes(str, [1, 2, 3], 2)) == ["1", "2", "3"]
+def test_processes_end_with_the_call_also_those_at_work():
+    outputs = processes(threads, range(100), 2)
+    _, (process, _) = next(outputs)
+    outputs.close()
+    with pytest.raises(ProcessLookupError):
+        os.kill(process, 0)
 
 
-class InThisProcess:
-    """An executor without a process, which counts how many were started and ended."""
-
-    started, ended = 0, 0
-
-    def __init__(self):
-        InThisProcess.started += 1
-
-    def submit(self, function, item):
-        future = Future()
-        try:
-            future.set_result(function(item))
-        except ValueError as error:
-            future.set_exception(error)
-        return future
-
-    def shutdown(self, wait=True, **_):
-        InThisProcess.ended += wait
+INTERRUPTED = """
+import os, signal, threading
+from comparisons.runs.workers import each
+threading.Timer({seconds}, os.killpg, (0, signal.SIGINT)).start()
+try:
+    list(each(abs, [1, 2], 2, lost=abs))
+    list(each(abs, range(10**6), 2, lost=abs))
+except KeyboardInterrupt:
+    pass
+"""
 
 
-@pytest.fixture
-def counted(monkeypatch):
-    monkeypatch.setattr(workers, "_pool", InThisProcess)
-    monkeypatch.setattr(InThisProcess, "started", 0)
-    monkeypatch.setattr(InThisProcess, "ended", 0)
-    return InThisProcess
+@pytest.mark.parametrize("seconds", [0.05, 0.3, pytest.param(1.5, marks=pytest.mark.heavy)])
+def test_ctrl_c_leaves_no_traceback(seconds):
+    command = [sys.executable, "-c", INTERRUPTED.format(seconds=seconds)]
+    ended = subprocess.run(command, process_group=0, capture_output=True, text=True, timeout=600)
+    assert (ended.returncode, ended.stderr) == (0, "")
 
 
-def test_one_call_after_the_other_works_on_the_same_processes(counted):
-    with Processes() as backend:
-        assert len(list(backend(str, [1, 2, 3], 2))) == 3
-        assert list(backend(str, [4], 2)) == [(4, "4")]
-        assert counted.started == 2
-        assert len(list(backend(str, [1, 2, 3], 3))) == 3
-        assert (counted.started, counted.ended) == (3, 0)
-    assert (counted.started, counted.ended) == (3, 3)
+TASKS = [
+    Task("bradley", quantity, Problem.dimensionless(2, 0, mu))
+    for mu in (2, 1)
+    for quantity in ("pull_off_force", "jump_in_gap")
+]
 
 
-def test_processes_that_may_still_be_at_work_are_not_kept(counted):
-    with Processes() as backend:
-        with pytest.raises(ValueError, match="is refused"):
-            list(backend(fail, [1, 2], 2))
-        assert (counted.started, counted.ended) == (2, 2)
-        assert len(list(backend(str, [1, 2], 2))) == 2
-        outputs = backend(str, [1, 2, 3], 2)
-        next(outputs)
-        outputs.close()
-        assert (counted.started, counted.ended) == (4, 4)
+def elsewhere(environment, code):
+    """A backend whose worker has another environment and perhaps other code."""
+
+    def backend(function, items, jobs):
+        for item in items:
+            yield item, computation._Computed(function(item).rows, environment, code)
+
+    return backend
 
 
-def test_without_a_block_processes_end_with_each_call(counted):
-    for calls in (1, 2):
-        assert len(list(processes(str, [1, 2], 2))) == 2
-        assert (counted.started, counted.ended) == (2 * calls, 2 * calls)
+def test_a_row_has_the_environment_of_its_worker():
+    _, here = computation._of_this_process()
+    computed = list(compute(TASKS, 1, elsewhere({"cpu": "another"}, here)))
+    assert [row.key for row, _ in computed] == [task.key for task in TASKS]
+    assert all(environment == {"cpu": "another"} for _, environment in computed)
 
 
-def test_processes_are_the_same_and_end_with_the_block():
-    with Processes() as backend:
-        first, second = ({process for _, (process, _) in backend(threads, [1, 2], 2)} for _ in range(2))
-    assert first == second
-    for process in first:
-        with pytest.raises(ProcessLookupError):
-            os.kill(process, 0)
+def test_a_worker_of_other_code_is_refused():
+    _, here = computation._of_this_process()
+    with pytest.raises(ValueError, match=r"NumPy .*, now NumPy 0\..* install the same"):
+        list(compute(TASKS, 1, elsewhere({}, here.replace("NumPy ", "NumPy 0."))))
 
 
-def test_a_process_works_on_items_that_are_alike(monkeypatch):
-    """In the plain order each of the two would work on both kinds."""
-    taken = {}
+def test_a_task_that_ends_its_process_costs_its_own_row():
+    def backend(function, items, jobs):
+        for item in items:
+            yield item, None if TASKS[0] in item else function(item)
 
-    class Numbered(InThisProcess):
-        def submit(self, function, item):
-            taken.setdefault(id(self), []).append(item)
-            return super().submit(function, item)
+    rows = {row.key: row for row, _ in compute(TASKS, 1, backend)}
+    assert [rows[task.key].status for task in TASKS] == ["failed", "not-applicable", "ok", "not-applicable"]
+    assert rows[TASKS[0].key].reason == LOST
 
-    monkeypatch.setattr(workers, "_pool", Numbered)
-    items = ["a1", "b1", "b2", "a2", "a3", "b3"]
-    assert sorted(each(str, items, 2, lost=str, alike=lambda item: item[0])) == sorted(items)
-    assert sorted(map(sorted, taken.values())) == [["a1", "a2", "a3"], ["b1", "b2", "b3"]]
+
+def test_a_row_does_not_depend_on_what_its_process_computed_before():
+    """Of the solver, which keeps meshes and paths: in one process, and each alone in the other order."""
+    quantities = ("pull_off_force", "jump_out_displacement")
+    tasks = [Task("fscm", quantity, Problem.dimensionless(2, 0.4, mu)) for mu in (1.5, 1) for quantity in quantities]
+    together = {row.key: replace(row, seconds=0) for row, _ in compute(tasks, 1)}
+    alone = {row.key: replace(row, seconds=0) for _, row in processes(evaluate_task, tasks[::-1], 2)}
+    assert alone == together
