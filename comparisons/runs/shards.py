@@ -91,13 +91,17 @@ class Shard:
 
 def _spread(tasks: Iterable[Task], total: int) -> dict[Hashable, int]:
     """Return the index of the shard of every problem of every model, the same in every process."""
-    costs: Counter[Hashable] = Counter()
+    problems: dict[str, Counter[Hashable]] = {}
     for task in tasks:
-        costs[task.problem_key] += cost(task.model)  # type: ignore[assignment]
+        problems.setdefault(task.model, Counter())[task.problem_key] += 1
+    shard_of: dict[Hashable, int] = {}
     loads = [0.0] * total
-    shard_of = {}
-    # The most expensive problem first: the cheaper ones even out what it leaves.
-    for problem, seconds in costs.most_common():
-        shard_of[problem] = loads.index(min(loads))
-        loads[shard_of[problem]] += seconds
+    # The most expensive model first: the cheaper ones even out what it leaves.
+    for model in sorted(problems, key=lambda name: (-cost(name), name)):
+        # Neighbours in the order of a plan cost about the same: each shard gets one of every `total`.
+        for index, (problem, count) in enumerate(problems[model].items()):
+            if index % total == 0:
+                least_first = sorted(range(total), key=loads.__getitem__)
+            shard_of[problem] = least_first[index % total]
+            loads[shard_of[problem]] += count * cost(model)
     return shard_of

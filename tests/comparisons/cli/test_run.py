@@ -9,6 +9,7 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.data.file_names import VERDICT_FILES
+from comparisons.problem import Problem
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import load_grids
 from comparisons.runs.computation import compute

@@ -2,7 +2,7 @@
 
 import pytest
 
-from comparisons.paper.cache import CallCache
+from comparisons.paper.cache import make_calls
 from comparisons.paper.paper_figure import calls_of, given
 
 
@@ -11,8 +11,6 @@ def made_of(tmp_path_factory):
     """Make the calls of a plan and return what it makes of their results."""
 
     def made(plan):
-        cache = CallCache(tmp_path_factory.mktemp("paper") / "calls", "test")
-        list(cache.work(calls_of(plan()), 1))
-        return given(plan(), cache.results)
+        return given(plan(), make_calls(calls_of(plan()), tmp_path_factory.mktemp("paper")).results)
 
     return made
