@@ -95,8 +95,13 @@ def result_of(line: bytes) -> Result:
     """
     reply = _parsed(line)
     _check("evaluate", reply)
-    counts = {name: int(reply.get(name, 0)) for name in ("size", "iterations")}
-    return Result(float(reply["value"]), float(reply["u_num"]), residual=float(reply.get("residual", 0.0)), **counts)
+    return Result(
+        float(reply["value"]),
+        float(reply["u_num"]),
+        size=int(reply.get("size", 0)),
+        iterations=int(reply.get("iterations", 0)),
+        residual=float(reply.get("residual", 0.0)),
+    )
 
 
 def curve_of(line: bytes) -> Curve:

@@ -157,19 +157,23 @@ def _check_methods(model: Any, physical: bool) -> None:
     """Refuse a model without a method that is called, or with one that takes other arguments."""
     called = {"evaluate_physical" if physical else "evaluate": ("problem", "quantity"), "curve": ("problem",)}
     for name, arguments in called.items():
-        method = getattr(model, name, None)
-        call = f"{name}({', '.join(arguments)})"
-        if not callable(method) and name != "curve":
+        method, call = getattr(model, name, None), f"{name}({', '.join(arguments)})"
+        if callable(method):
+            _check_arguments(method, arguments, call)
+        elif name != "curve":
             raise ComputationFailed(f"the model has no method {call}")
-        with suppress(ValueError):  # of a compiled method nothing is known
-            signature = inspect.signature(method) if callable(method) else None
-            try:
-                _ = signature and signature.bind(*arguments)
-            except TypeError:
-                code = getattr(inspect.unwrap(method), "__code__", None)
-                line = f" in line {code.co_firstlineno} of {Path(code.co_filename).name}" if code else ""
-                title = one_line(f"{getattr(method, '__qualname__', name)}{signature}", 120)
-                raise ComputationFailed(f"{title}{line} is called as {call}: let it take these arguments") from None
+
+
+def _check_arguments(method: Callable[..., Any], arguments: tuple[str, ...], call: str) -> None:
+    with suppress(ValueError):  # of a compiled method nothing is known
+        signature = inspect.signature(method)
+        try:
+            signature.bind(*arguments)
+        except TypeError:
+            code = getattr(inspect.unwrap(method), "__code__", None)
+            line = f" in line {code.co_firstlineno} of {Path(code.co_filename).name}" if code else ""
+            title = one_line(f"{getattr(method, '__qualname__', method)}{signature}", 120)
+            raise ComputationFailed(f"{title}{line} is called as {call}: let it take these arguments") from None
 
 
 def _evaluated(model: Any, request: dict[str, Any], source: dict[str, Any]) -> dict[str, Any]:
@@ -214,8 +218,8 @@ def _explain(error: BaseException, megabytes: float, loading: bool) -> str:
     if isinstance(error, SystemExit):
         return f"SystemExit: the model called sys.exit({one_line(_text_of(error.code, repr), 60)})"
     # The place in the author's code, where for instance a Result was made of a text.
-    frames = traceback.extract_tb(error.__traceback__)
-    frames = [frame for frame in frames if _is_of_model(frame.filename)] or frames
+    every = traceback.extract_tb(error.__traceback__)
+    frames = [frame for frame in every if _is_of_model(frame.filename)] or every
     place = f" in {frames[-1].name}, line {frames[-1].lineno} of {Path(frames[-1].filename).name}" if frames else ""
     # Loading a model involves no case.
     hint = " (a case outside the domain is NotApplicable)" if isinstance(error, ValueError) and not loading else ""

@@ -66,10 +66,10 @@ def card_gates(judged: pd.DataFrame) -> list[Gate]:
     >>> [gate.id for gate in card_gates(pd.DataFrame({"gate": ["MINE", "CARD-DIFFERS"]}))]
     ['CARD-DIFFERS']
     """
-    entries = {"quantity": "pull_off_force", "candidate": GIVEN, "reference": GIVEN, "cases": {}, "metric": "abs"}
-    limits = {"lower": 0.0, "upper": 0.0, "max_reference_uncertainty": math.inf, "min_cases": 1}
+    entries: dict[str, Any] = {"quantity": "pull_off_force", "candidate": GIVEN, "reference": GIVEN, "cases": {}}
+    entries |= {"metric": "abs", "lower": 0.0, "upper": 0.0, "max_reference_uncertainty": math.inf, "min_cases": 1}
     return [
-        Gate(id=id, requirement=requirement, grounds=grounds, basis="derived", tier="quick", **entries, **limits)
+        Gate(id=id, requirement=requirement, grounds=grounds, basis="derived", tier="quick", **entries)
         for id, (requirement, grounds) in _REQUIREMENTS.items()
         if id in set(judged["gate"])
     ]

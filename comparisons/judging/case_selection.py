@@ -63,7 +63,7 @@ def _units() -> dict[str, str | list[str]]:
     for section in SECTIONS:
         units[f"{section}.kind"] = list(kinds(section))
         for kind in kinds(section).values():
-            units |= {f"{section}.{key.name}": key.dimension.unit for key in kind.keys}
+            units |= {f"{section}.{key.name}": key.dimension.unit or "" for key in kind.keys}
     return units
 
 

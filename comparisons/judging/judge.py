@@ -234,5 +234,5 @@ def _too_uncertain(gate: Gate, case: CaseError) -> str:
 
 def _whole(gate: Gate, reason: str) -> Judged:
     """Return an ERROR of the gate as a whole, which is also the blank form of a case."""
-    limits = {"lower": float(gate.lower), "upper": float(gate.upper)}
-    return Judged(gate.id, gate.quantity, gate.candidate, gate.reference, **limits, reason=reason)
+    names = gate.id, gate.quantity, gate.candidate, gate.reference
+    return Judged(*names, lower=float(gate.lower), upper=float(gate.upper), reason=reason)

@@ -161,7 +161,7 @@ def test_the_program_of_the_document_has_the_values_of_jkr_and_keeps_the_contrac
     model = create(str(PROGRAM))
     assert abs(row_of(model).value - row_of(create("jkr")).value) <= 1e-15
     assert str(model.applies_to) == "pull_off_force for n = 2, 0 <= k <= 0.9, mu >= 0.01"
-    assert row_of(model, n=1, k=0).reason == "the model is for n = 2"
+    assert row_of(model, n=1, k=0).status == "not-applicable"
     assert not isinstance(model, HasCurve)
     assert main(["check-model", str(PROGRAM)]) == 0
     assert "hashed: all files in program" in " ".join(capsys.readouterr().out.split())
