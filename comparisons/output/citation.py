@@ -5,9 +5,8 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from importlib.resources import files
-from typing import Any
+from typing import Any, NamedTuple
 
 from comparisons.output.latex import escaped
 
@@ -16,55 +15,48 @@ __all__ = ["Work", "as_bibtex", "as_text", "methods", "works"]
 #: Commit and digest are shortened to this many characters, as Git does.
 _SHORT = 12
 
+#: Entries of a work, in the order of BibTeX.
+_ENTRIES = ("author", "title", "journal", "volume", "pages", "year", "doi", "url", "note")
 
-@dataclass(frozen=True, slots=True)
-class Work:
-    """A work to cite.
+#: Distributions of the libraries, and their names in a text.
+_LIBRARIES = {"numpy": "NumPy", "scipy": "SciPy", "scikit-fem": "scikit-fem", "pyamg": "pyamg"}
 
-    Attributes
-    ----------
-    key : str
-        Of the BibTeX entry.
-    kind : str
-        "article" or "misc".
-    entries : mapping of str to str
-        The fields of the entry, in plain text; `author` has its names separated by " and ".
+
+class Work(NamedTuple):
+    """A work to cite: its key, and its entries in plain text; `author` has names separated by " and ".
 
     Examples
     --------
-    >>> Work("jkr", "misc", {"title": "JKR", "note": "version 1"}).text()
+    >>> Work("jkr", {"title": "JKR", "note": "version 1"}).text()
     'JKR. version 1.'
     """
 
     key: str
-    kind: str
-    entries: Mapping[str, str] = field(default_factory=dict)
+    entries: Mapping[str, str]
 
     def text(self) -> str:
         """The work in one line."""
-        entries = self.entries
-        authors = entries.get("author", "").strip("{}").replace(" and others", " et al.").replace(" and ", "; ")
-        where = " ".join(entries[name] for name in ("journal", "volume") if name in entries)
-        when = f"({entries['year']})" if "year" in entries else ""
-        place = " ".join(part for part in (where, when, entries.get("pages", "").replace("--", "-")) if part)
-        doi = f"doi:{entries['doi']}" if "doi" in entries else ""
-        rest = [entries.get(name, "") for name in ("note", "url")]
-        parts = [authors, entries.get("title", ""), place, doi, *rest]
+        entry = {name: self.entries.get(name, "") for name in _ENTRIES}
+        authors = entry["author"].strip("{}").replace(" and others", " et al.").replace(" and ", "; ")
+        year = f"({entry['year']})" if entry["year"] else ""
+        where = " ".join(filter(None, [entry["journal"], entry["volume"], year, entry["pages"].replace("--", "-")]))
+        doi = f"doi:{entry['doi']}" if entry["doi"] else ""
+        parts = [authors, entry["title"], where, doi, entry["note"], entry["url"]]
         return " ".join(f"{part.rstrip('.')}." for part in parts if part)
 
     def bibtex(self) -> str:
         """The work as an entry of BibTeX, in ASCII."""
+        kind = "article" if "journal" in self.entries else "misc"
         lines = [f"  {name} = {{{_field(name, value)}}}," for name, value in self.entries.items()]
-        return "\n".join([f"@{self.kind}{{{self.key},", *lines, "}"])
+        return "\n".join([f"@{kind}{{{self.key},", *lines, "}"])
 
 
 def _field(name: str, value: str) -> str:
     if name in ("doi", "url", "pages"):
         return value
-    # An institution is one name: its braces stay.
-    inner = escaped(value.strip("{}"))
-    # A second pair of braces keeps the capitals of a title.
-    return f"{{{inner}}}" if name == "title" or value.startswith("{") else inner
+    # An institution is one name: its braces stay.  A second pair of braces keeps the capitals of a title.
+    text = escaped(value.strip("{}"))
+    return f"{{{text}}}" if name == "title" or value.startswith("{") else text
 
 
 def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
@@ -82,18 +74,33 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
     >>> [work.key for work in works("0.1.0")]
     ['fscm-bench', 'zhu-adhesion']
     """
-    cff = json.loads(_data("citation.json"))
+    cff, software = (
+        json.loads(files("comparisons.data").joinpath(name).read_text(encoding="utf-8"))
+        for name in ("citation.json", "software_references.json")
+    )
     note = f"version {_version(record['package']) if record else version}"
-    own = {"author": _names(cff["authors"]), "title": cff["title"], "note": note}
-    found = [Work("fscm-bench", "misc", own | _some(cff, "year", "doi", "url"))]
-    found += [_article(reference) for reference in cff["references"]]
-    if record:
-        models = record.get("models") or {}
-        found += [_of_model(name, model) for name, model in models.items()]
-        found += [
-            _of_software(one, record) for one in json.loads(_data("software_references.json")) if _used(one, models)
-        ]
-    return found
+    cited = [_work("fscm-bench", cff | {"author": _names(cff["authors"]), "note": note})]
+    for paper in cff["references"]:
+        key = f"{paper['authors'][0].get('family-names', '')}-{paper['title'].split()[0]}".lower()
+        pages = "--".join(str(paper[name]) for name in ("start", "end") if name in paper)
+        cited.append(_work(key, paper | {"author": _names(paper["authors"]), "pages": pages}))
+    models = (record or {}).get("models") or {}
+    for name, model in models.items():
+        title = f"Model {name}, version {model['version']}"
+        cited.append(_work("model-" + re.sub("[^A-Za-z0-9-]", "-", name), {"title": title, "note": model["citation"]}))
+    for library in software if record else ():
+        if library["models"] is None or not models.keys().isdisjoint(library["models"]):
+            facts = {"author": " and ".join(library["authors"]), "note": f"version {_of(record, library['package'])}"}
+            cited.append(_work(library["package"], library | facts))
+    return cited
+
+
+def _of(record: Mapping[str, Any] | None, package: str) -> str:
+    return str((record or {})["dependencies"][package])
+
+
+def _work(key: str, facts: Mapping[str, Any]) -> Work:
+    return Work(key, {name: str(facts[name]) for name in _ENTRIES if facts.get(name)})
 
 
 def methods(record: Mapping[str, Any], references: Mapping[str, float]) -> str:
@@ -106,62 +113,56 @@ def methods(record: Mapping[str, Any], references: Mapping[str, float]) -> str:
     references : mapping of str to float
         Model that was a reference -> largest bound on its numerical error, relative to its value.
     """
-    models = record.get("models") or {}
-    judged = [f"{name} (version {model['version']})" for name, model in models.items() if name not in references]
+    models, package = record.get("models") or {}, record["package"]
+    named = {name: f"{name} (version {model['version']})" for name, model in models.items()}
+    judged = [text for name, text in named.items() if name not in references]
     bounds = [
-        f"{name} (version {models[name]['version']}), whose numerical error is at most {bound:.1g} of its value"
+        f"{named[name]}, whose numerical error is at most {bound:.1g} of its value"
         for name, bound in references.items()
-        if name in models
+        if name in named
     ]
-    rows = record["rows"]
-    dependencies = record["dependencies"]
-    libraries = ", ".join(
-        f"{name} {dependencies[package]}"
-        for package, name in (("numpy", "NumPy"), ("scipy", "SciPy"), ("scikit-fem", "scikit-fem"), ("pyamg", "pyamg"))
-        if package in dependencies and (package in ("numpy", "scipy") or "fem" in models)
-    )
+    used = [name for name in _LIBRARIES if name in record["dependencies"]]
+    used = [name for name in used if name in ("numpy", "scipy") or "fem" in models]
+    libraries = ", ".join(f"{_LIBRARIES[name]} {_of(record, name)}" for name in used)
+    digest = f", code with the SHA-256 {package['code_sha256'][:_SHORT]}" if "code_sha256" in package else ""
     verdict = record["verdicts"].get("overall")
     sentences = [
-        f"The errors of {_listed(judged)} were computed with {_named(record['package'])}." if judged else "",
+        f"The errors of {_listed(judged)} were computed with fscm-bench {_version(package)}{digest}." if judged else "",
         f"The reference is {_listed(bounds)}." if bounds else "",
         "Errors are kappa = (model - reference) / |reference|; the bounds on the numerical errors of model and "
         "reference add to the bound on kappa.",
-        f"There are {rows['all']} results.",
+        f"There are {record['rows']['all']} results.",
         f"The verdict over all gates is {verdict}." if verdict else "",
         f"The run began on {record['started'][:10]} and used Python {record['python']}, {libraries}.",
     ]
-    return " ".join(sentence for sentence in sentences if sentence)
+    return " ".join(filter(None, sentences))
 
 
-def as_text(found: Sequence[Work], paragraph: str = "") -> str:
+def as_text(cited: Sequence[Work], paragraph: str = "") -> str:
     """Return the paragraph, if there is one, and the works, one a line.
 
     Examples
     --------
-    >>> print(as_text([Work("a", "misc", {"title": "A"})], "We used A."), end="")
+    >>> print(as_text([Work("a", {"title": "A"})], "We used A."), end="")
     We used A.
     <BLANKLINE>
     [1] A.
     """
-    lines = [f"[{number}] {work.text()}" for number, work in enumerate(found, start=1)]
+    lines = [f"[{number}] {work.text()}" for number, work in enumerate(cited, start=1)]
     return "\n".join([*([paragraph, ""] if paragraph else []), *lines]) + "\n"
 
 
-def as_bibtex(found: Sequence[Work]) -> str:
+def as_bibtex(cited: Sequence[Work]) -> str:
     r"""Return the works as BibTeX.
 
     Examples
     --------
-    >>> print(as_bibtex([Work("a", "misc", {"title": "A & B"})]), end="")
+    >>> print(as_bibtex([Work("a", {"title": "A & B"})]), end="")
     @misc{a,
       title = {{A \& B}},
     }
     """
-    return "\n\n".join(work.bibtex() for work in found) + "\n"
-
-
-def _data(name: str) -> str:
-    return files("comparisons.data").joinpath(name).read_text(encoding="utf-8")
+    return "\n\n".join(work.bibtex() for work in cited) + "\n"
 
 
 def _names(authors: Sequence[Mapping[str, str]]) -> str:
@@ -172,46 +173,11 @@ def _names(authors: Sequence[Mapping[str, str]]) -> str:
     )
 
 
-def _some(source: Mapping[str, Any], *names: str) -> dict[str, str]:
-    return {name: str(source[name]) for name in names if source.get(name)}
-
-
-def _article(reference: Mapping[str, Any]) -> Work:
-    (first, *_), title = reference["authors"], reference["title"]
-    key = f"{first.get('family-names', first.get('name', ''))}-{title.split()[0]}".lower()
-    pages = "--".join(str(reference[name]) for name in ("start", "end") if name in reference)
-    entries = {"author": _names(reference["authors"]), "title": title}
-    entries |= _some(reference, "journal", "volume") | ({"pages": pages} if pages else {})
-    entries |= _some(reference, "year", "doi", "url")
-    return Work(key, "article" if "journal" in reference else "misc", entries)
-
-
-def _of_model(name: str, model: Mapping[str, Any]) -> Work:
-    """The model of a run, by the citation that it states."""
-    key = "model-" + re.sub(r"[^A-Za-z0-9-]", "-", name)
-    return Work(key, "misc", {"title": f"Model {name}, version {model['version']}", "note": model["citation"]})
-
-
-def _of_software(one: Mapping[str, Any], record: Mapping[str, Any]) -> Work:
-    entries = {"author": " and ".join(one["authors"]), "title": one["title"]}
-    entries |= _some(one, "journal", "volume", "pages", "year", "doi")
-    return Work(one["package"], "article", entries | {"note": f"version {record['dependencies'][one['package']]}"})
-
-
-def _used(one: Mapping[str, Any], models: Mapping[str, Any]) -> bool:
-    return one["models"] is None or not models.keys().isdisjoint(one["models"])
-
-
 def _version(package: Mapping[str, Any]) -> str:
     if not package.get("commit"):
         return str(package["version"])
     changed = " with changes" if package.get("dirty") else ""
     return f"{package['version']} (commit {package['commit'][:_SHORT]}{changed})"
-
-
-def _named(package: Mapping[str, Any]) -> str:
-    digest = f", code with the SHA-256 {package['code_sha256'][:_SHORT]}" if "code_sha256" in package else ""
-    return f"fscm-bench {_version(package)}{digest}"
 
 
 def _listed(items: Sequence[str]) -> str:

@@ -9,7 +9,7 @@ import pandas as pd
 
 from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA
 from comparisons.output.errors import agreement, largest, relative_error
-from comparisons.output.figures.registry import figures_of
+from comparisons.output.figures.of_run import figures_of
 from comparisons.output.style import save
 from comparisons.pipeline.inputs import Cases
 from comparisons.quantities import CURVES as CURVE_QUANTITIES

@@ -11,9 +11,7 @@ from comparisons.quantities import title_of
 from comparisons.runs.rows import CASE
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from matplotlib.lines import Line2D
 
 __all__ = ["draw"]
 
@@ -24,10 +22,9 @@ _COLUMNS = 4
 #: Room of one entry of the legend in inches: that of the longest label of our models, and of one line.
 _LEGEND_WIDTH, _LEGEND_HEIGHT = 2.3, 0.17
 
+_LETTERS = {"mu": r"\mu", "k": "k", "n": "n"}
 _LABELS = {"mu": r"Tabor number $\mu$", "k": r"gradient exponent $k$", "n": r"shape index $n$"}
-
-#: Column and label where problems of files are among the cases.
-_CASE, _CASE_LABEL = "case", "case, in the order of the table"
+_LABELS |= {"case": "case, in the order of the table"}
 
 
 def draw(table: pd.DataFrame) -> Figure:
@@ -44,79 +41,53 @@ def draw(table: pd.DataFrame) -> Figure:
         Over mu, k or n, whichever has most values (the first of those with equally many); over the number of the case
         if one is the problem of a file.
     """
-    known = table[table["kappa"].notna()]
-    of_files = "problem" in known
+    rows = table[table["kappa"].notna()]
+    of_files = "problem" in rows
     if of_files:
-        known = known.assign(**{_CASE: 1 + known.groupby([*CASE], sort=False, dropna=False).ngroup()})
-    x = _CASE if of_files else max(_LABELS, key=lambda name: known[name].nunique())
+        rows = rows.assign(case=1 + rows.groupby([*CASE], sort=False, dropna=False).ngroup())
+    x = "case" if of_files else max(_LETTERS, key=lambda name: rows[name].nunique())
     others = [name for name in ("n", "k", "mu") if name != x]
-    groups = list(known.groupby(["quantity", "reference"], sort=False))
-    panels = {key: list(group.groupby(others)) for key, group in groups}
-    # A panel of points for cases that are no product of lists.
+    groups = dict(list(rows.groupby(["quantity", "reference"], sort=False)))
+    panels = {key: list(group.groupby(others)) for key, group in groups.items()}
     lines = not of_files and all(len(of_group) <= _MOST_PANELS for of_group in panels.values())
     if not lines:
-        panels = {key: [((), group)] for key, group in groups}
-    columns = min(_COLUMNS, max((len(of_group) for of_group in panels.values()), default=1))
-    rows = sum(-(-len(of_group) // columns) for of_group in panels.values())
-    styles = model_styles(known["model"])
-    width = max(4.8, 2.5 * columns)
+        panels = {key: [((), group)] for key, group in groups.items()}
+    columns = min(_COLUMNS, max(map(len, panels.values()), default=1))
+    # Each quantity begins a row of its own.
+    places = [
+        place
+        for key, of_group in panels.items()
+        for place in [(*key, *panel) for panel in of_group] + [None] * (-len(of_group) % columns)
+    ]
+    styles = model_styles(rows["model"])
+    width, height = max(4.8, 2.5 * columns), max(len(places) // columns, 1)
     in_legend = max(1, int(width // _LEGEND_WIDTH))
     with styled():
-        figure = new_figure(width, 0.7 + 2.4 * max(rows, 1) + _LEGEND_HEIGHT * (len(styles) // in_legend))
-        every = iter(figure.subplots(max(rows, 1), columns, squeeze=False, sharex=True).ravel().tolist())
-        for (quantity, reference), of_group in panels.items():
-            for index in range(-(-len(of_group) // columns) * columns):
-                axes = next(every)
-                if index >= len(of_group):
-                    axes.set_visible(False)
-                    continue
-                values, rows_of_panel = of_group[index]
-                for name, style in styles.items():
-                    _plot(axes, rows_of_panel[rows_of_panel["model"] == name], x, style, lines)
-                axes.set_title(", ".join(f"${_letter(name)}$ = {v:g}" for name, v in zip(others, values, strict=False)))
-                if index % columns == 0:
-                    axes.set_ylabel(f"{title_of(quantity)}\n$\\kappa$ against {reference} (%)")
-        _finish(figure, x, known)
-        handles = [_handle(style, lines) for style in styles.values()]
-        figure.legend(handles=handles, loc="outside lower center", ncols=in_legend)
+        figure = new_figure(width, 0.7 + 2.4 * height + _LEGEND_HEIGHT * (len(styles) // in_legend))
+        lattice = figure.subplots(height, columns, squeeze=False, sharex=True).ravel().tolist()
+        for index, (axes, place) in enumerate(zip(lattice, places, strict=False)):
+            axes.set_visible(place is not None)
+            if place is None:
+                continue
+            quantity, reference, held, drawn = place
+            for name, style in styles.items():
+                _plot(axes, drawn[drawn["model"] == name].sort_values(x), x, style, lines)
+            axes.axhline(0, color="0.4", lw=0.8)
+            axes.set_title(", ".join(f"${_LETTERS[name]}$ = {v:g}" for name, v in zip(others, held, strict=False)))
+            axes.set_xscale("log" if x == "mu" and rows["mu"].nunique() > 1 else "linear")
+            if index % columns == 0:
+                axes.set_ylabel(f"{title_of(quantity)}\n$\\kappa$ against {reference} (%)")
+            if index + columns >= len(places) or places[index + columns] is None:
+                axes.set_xlabel(_LABELS[x])
+                axes.tick_params(labelbottom=True)
+        bars = {bar.get_label(): bar[0] for axes in lattice for bar in axes.containers}
+        figure.legend([*bars.values()], [*bars], loc="outside lower center", ncols=in_legend)
     return figure
 
 
-def _letter(name: str) -> str:
-    return r"\mu" if name == "mu" else name
-
-
-def _finish(figure: Figure, x: str, known: pd.DataFrame) -> None:
-    """Draw zero, scale the parameter, and write its name below the last panel of each column."""
-    last: dict[int, Axes] = {}
-    for axes in figure.axes:
-        place = axes.get_subplotspec()
-        if not axes.get_visible() or place is None:
-            continue
-        axes.axhline(0, color="0.4", lw=0.8)
-        if x == "mu" and known["mu"].nunique() > 1:
-            axes.set_xscale("log")
-        if x == _CASE:
-            axes.locator_params(axis="x", integer=True)
-        last[place.colspan.start] = axes
-    for axes in last.values():
-        axes.set_xlabel(_LABELS.get(x, _CASE_LABEL))
-        axes.tick_params(labelbottom=True)
-
-
-def _arguments(style: ModelStyle, lines: bool) -> dict[str, Any]:
-    dashes = style.line if lines else "none"
-    return {"color": style.colour, "ls": dashes, "marker": style.symbol, "ms": 3.5}
-
-
-def _plot(axes: Axes, rows: pd.DataFrame, x: str, style: ModelStyle, lines: bool) -> None:
+def _plot(axes: Any, rows: pd.DataFrame, x: str, style: ModelStyle, lines: bool) -> None:
     """Draw one model's errors and, where it can be seen, their uncertainty."""
-    rows = rows.sort_values(x)
-    arguments = _arguments(style, lines)
-    axes.errorbar(rows[x], 100 * rows["kappa"], yerr=100 * rows["u_kappa"], elinewidth=0.8, capsize=2, **arguments)
-
-
-def _handle(style: ModelStyle, lines: bool) -> Line2D:
-    from matplotlib.lines import Line2D
-
-    return Line2D([], [], label=style.label, **_arguments(style, lines))
+    if len(rows):
+        drawn: Any = {"color": style.colour, "ls": style.line if lines else "none", "marker": style.symbol, "ms": 3.5}
+        error, u = 100 * rows["kappa"], 100 * rows["u_kappa"]
+        axes.errorbar(rows[x], error, yerr=u, elinewidth=0.8, capsize=2, label=style.label, **drawn)

@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from scipy.interpolate import CubicSpline
 
 from comparisons.output.errors import relative_error
-from comparisons.output.figures import kappa as kappa_figure
+from comparisons.output.figures.of_run import kappa_handles, kappa_panels
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, by_model, dashed, gradient, held, legend_below, of_model, panels
@@ -179,14 +179,14 @@ def _by_soft(figure: Figure, tables: Tables) -> None:
     _log_forces(axes, tables[""]["ratio"].min() / 1.2, tables[""]["ratio"].max() * 1.2)
     above.legend(handles=handles, loc="outside right center")
     whole, enlarged = below.subplots(1, 2)
-    kappa_figure.panels(whole, enlarged, tables["kappa"])
+    kappa_panels(whole, enlarged, tables["kappa"])
     for panel, letter, words in (
         (axes, "a", f"scaled by the soft limit, {held(k=_K)}"),
         (whole, "b", f"relative error, {held(k=_K)}"),
         (enlarged, "c", "enlarged"),
     ):
         lettered(panel, letter, words)
-    below.legend(handles=kappa_figure.handles(_SHAPES), loc="outside lower center", ncols=6, columnspacing=1.2)
+    below.legend(handles=kappa_handles(_SHAPES), loc="outside lower center", ncols=6, columnspacing=1.2)
 
 
 @paper_figure(_by_soft, size=(7.2, 6.6))

@@ -11,9 +11,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
 
-from comparisons.output.figures.contour_labels import label_lines
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, held, panels
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure
@@ -98,8 +98,10 @@ def _finish(figure: Figure, name: str, more: str = "") -> None:
         rf"$|\kappa|$ of the {name} (%); lines: $\kappa$, full where the model is above the FSCM, dashed below{more}"
     )
     figure.draw_without_rendering()
-    for axes in maps:
-        label_lines(axes)
+    for lines in (
+        part for axes in maps for part in axes.collections if isinstance(part, ContourSet) and not part.filled
+    ):
+        lines.axes.clabel(lines, fmt=lambda level: f"{level:+g} %", fontsize=7)
 
 
 def _draw_pull_off(figure: Figure, table: pd.DataFrame, across: str, fixed: str, values: Sequence[float]) -> None:

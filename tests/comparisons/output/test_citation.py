@@ -83,8 +83,6 @@ def test_changes_after_the_commit_are_stated():
 
 
 def test_a_paper_with_journal_year_and_doi():
-    work = Work(
-        "a", "article", {"author": "A, B. and others", "title": "T", "journal": "J", "year": "2022", "doi": "10.1/x_y"}
-    )
+    work = Work("a", {"author": "A, B. and others", "title": "T", "journal": "J", "year": "2022", "doi": "10.1/x_y"})
     assert work.text() == "A, B. et al. T. J (2022). doi:10.1/x_y."
     assert "doi = {10.1/x_y}" in work.bibtex()

@@ -5,8 +5,8 @@ import pandas as pd
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from comparisons.output.figures import comparison, curves, kappa
-from comparisons.output.figures.registry import figures_of
+from comparisons.output.figures import comparison, curves
+from comparisons.output.figures.of_run import draw_kappa, figures_of
 from comparisons.output.style import FORMATS, save
 from comparisons.quantities import CURVES, Points
 from comparisons.registry import MODELS
@@ -25,7 +25,7 @@ def errors():
 
 
 def test_fig_16b_shows_both_models_for_every_shape_at_one_k():
-    figure = kappa.draw(errors(), k=0.4)
+    ((_, figure),) = figures_of({"kappa": errors()})
     axes = figure.axes[0]
     assert axes.get_xscale() == "log"
     lines = {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
@@ -34,10 +34,6 @@ def test_fig_16b_shows_both_models_for_every_shape_at_one_k():
     np.testing.assert_allclose(lines[improved].get_xdata(), [0.1, 1, 2])
     np.testing.assert_allclose(lines[improved].get_ydata(), [0.2, 2, 4])
     assert lines[improved].get_linestyle() != lines["$n$ = 2, original M-D-$n$-$k$"].get_linestyle()
-
-
-def test_fig_16b_of_nothing_is_empty():
-    assert len(kappa.draw(errors().iloc[:0]).axes) == 2
 
 
 def drawn(**curves_of):
@@ -78,13 +74,13 @@ def test_force_curves_are_shown_where_the_surfaces_pull():
 @pytest.mark.parametrize("suffix", FORMATS)
 def test_the_same_data_give_the_same_bytes(tmp_path, suffix):
     for name in "ab":
-        save(kappa.draw(errors()), tmp_path / f"{name}{suffix}")
+        save(draw_kappa(errors()), tmp_path / f"{name}{suffix}")
     assert (tmp_path / f"a{suffix}").read_bytes() == (tmp_path / f"b{suffix}").read_bytes()
 
 
 def test_an_unknown_format_is_refused(tmp_path):
     with pytest.raises(ValueError, match=r"\.png, \.pdf, \.svg"):
-        save(kappa.draw(errors()), tmp_path / "a.gif")
+        save(draw_kappa(errors()), tmp_path / "a.gif")
 
 
 def test_the_legend_of_a_comparison_of_many_models_is_inside_the_figure():
