@@ -6,7 +6,6 @@ from contextlib import closing
 
 import pytest
 
-from comparisons.cli.main import main
 from comparisons.data.file_names import STORE
 from comparisons.runs import computation as computing
 from comparisons.runs import store
@@ -42,19 +41,6 @@ def test_stored_failures_are_computed_again_when_it_is_asked_for(small_grid, tmp
     assert "stored failures" not in message
     table = read_table(tmp_path / "results.parquet")
     assert not table.duplicated(["model", "quantity", "n", "k", "mu"]).any()
-
-
-def test_a_sweep_retries_too(toys, tmp_path, capsys):
-    (tmp_path / "grid.toml").write_text(
-        '[[grid]]\nid = "mine"\ntitle = "Mine"\nreference = "exact"\nmodels = ["fails"]\n'
-        'quantities = ["pull_off_force"]\nn = [2]\nk = [0]\nmu = [1, 2]\n'
-    )
-    arguments = ["sweep", str(tmp_path / "grid.toml"), "--jobs", "1", "--out", str(tmp_path / "out")]
-    assert main(arguments) == 4
-    assert main(arguments) == 4
-    assert "2 stored failures of fails are used" in capsys.readouterr().err
-    assert main([*arguments, "--retry-failed"]) == 4
-    assert "2 computations" in capsys.readouterr().err
 
 
 def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):

@@ -13,7 +13,6 @@ from comparisons.problem import Problem
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import load_grids
 from comparisons.runs.computation import compute
-from comparisons.runs.store import rows_in
 from comparisons.runs.tasks import Task, evaluate_task, plan
 
 FILES = {
@@ -101,36 +100,6 @@ def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_
     assert "beside that of the paper" in capsys.readouterr().out
 
 
-GATE = """
-[[gate]]
-id = "ABOVE-BRADLEY"
-requirement = "The improved model is not twice the Bradley force."
-quantity = "pull_off_force"
-candidate = "md-improved"
-reference = "bradley"
-cases = { n = [2, 2] }
-metric = "rel"
-lower = -1
-upper = 1
-max_reference_uncertainty = 1e-4
-basis = "derived"
-grounds = "a test"
-min_cases = 1
-tier = "quick"
-"""
-
-
-def test_the_numbers_of_the_paper_are_not_shown_beside_gates_of_ones_own(tmp_path, monkeypatch, capsys):
-    grid = STANDING.replace('"jkr"', '"md-improved"').replace("1.5, 2", "2")
-    monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(grid))
-    (tmp_path / "gates.toml").write_text(GATE, encoding="utf-8")
-    monkeypatch.setattr("comparisons.pipeline.tables.save", lambda figure, path: path.touch())
-    assert run(tmp_path / "out", "--gates", str(tmp_path / "gates.toml")) == 0
-    shown = capsys.readouterr().out
-    assert "1 of 1 gate passes" in shown
-    assert "the paper" not in shown
-
-
 def test_two_runs_give_the_same_bytes(small_grid, tmp_path):
     run(tmp_path / "a")
     run(tmp_path / "b")
@@ -187,15 +156,6 @@ def test_a_failed_computation_costs_its_own_rows_and_the_exit_status(small_grid,
     assert "more computations failed" in shown.err
 
 
-def test_results_of_other_code_in_the_folder_are_refused(small_grid, tmp_path, monkeypatch, capsys):
-    with monkeypatch.context() as patch:
-        patch.setattr("comparisons.runs.store.fingerprint", lambda: "other code")
-        with rows_in(tmp_path) as store:
-            store.add(evaluate_task(Task("exact", "pull_off_force", Problem.dimensionless(2, 0.4, 1))))
-    assert run(tmp_path) == 2
-    assert "another version of the code" in capsys.readouterr().err
-
-
 def test_without_a_gate_nothing_is_shown_and_that_is_an_error(small_grid, tmp_path, capsys):
     assert run(tmp_path, "--model", "refuses") == 4
     assert "no gate was evaluated" in capsys.readouterr().err
@@ -211,15 +171,6 @@ def test_every_question_is_planned_once_and_the_longest_first():
 
 def test_candidates_can_be_chosen_and_the_reference_stays():
     assert {task.model for task in plan(load_grids(STANDING), ["dmt"])} == {"bradley", "dmt"}
-
-
-def test_processes_give_the_rows_of_one_process():
-    tasks = plan(load_grids(STANDING))
-
-    def values(computed):
-        return sorted((row.key, row.value, row.u_num) for row, _ in computed)
-
-    assert values(compute(tasks, 2)) == values(compute(tasks, 1))
 
 
 def test_a_row_names_the_case_and_the_work(toys):

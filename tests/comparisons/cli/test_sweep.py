@@ -38,13 +38,6 @@ def test_the_errors_of_every_model(tmp_path, capsys):
     assert "largest abs(kappa) in percent" in "\n".join(lines)
 
 
-def test_it_goes_on_where_it_stopped(tmp_path, capsys):
-    sweep(tmp_path)
-    capsys.readouterr()
-    assert sweep(tmp_path) == 0
-    assert "0 computations" in capsys.readouterr().err
-
-
 def test_quiet_prints_failures_alone(toys, tmp_path, capsys):
     assert sweep(tmp_path, GRID, "--quiet") == 0
     shown = capsys.readouterr()
@@ -54,25 +47,6 @@ def test_quiet_prints_failures_alone(toys, tmp_path, capsys):
     assert shown.out == ""
     assert shown.err.count("100 iterations were not enough") == 3
     assert shown.err.endswith("5 more computations failed; the tables have their reasons\n")
-
-
-def test_the_summary_fits_a_terminal(tmp_path, capsys):
-    text = (
-        GRID.replace(
-            "jump_in_displacement",
-            'pull_off_displacement", "jump_out_gap", "jump_out_displacement", "zero_load_displacement',
-        )
-        .replace('"jkr", "bradley"', '"jkr", "bradley", "dmt", "md-original", "semi-rigid", "md-improved"')
-        .replace("[2]", "[1, 1.25, 1.5, 2]")
-    )
-    assert sweep(tmp_path, text) == 0
-    shown = capsys.readouterr()
-    lines = [*shown.out.splitlines(), *shown.err.splitlines()]
-    assert len(lines) <= 30
-    assert max(map(len, shown.out.splitlines())) <= 80
-    kappa = read_table(tmp_path / "out" / "kappa.parquet")
-    assert len(kappa) > 60
-    assert "the first 10 of" in shown.out
 
 
 def test_a_latin_hypercube_of_one_model(tmp_path):
