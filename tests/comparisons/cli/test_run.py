@@ -97,7 +97,7 @@ def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_
     assert "the paper prints 1 maximum, for k = 0.4" in capsys.readouterr().out
     monkeypatch.setattr("comparisons.pipeline.tables.save", lambda figure, path: path.touch())
     run(tmp_path, "--verbose")
-    assert "beside that of the paper" in capsys.readouterr().out
+    assert "paper_percent" in capsys.readouterr().out
 
 
 def test_two_runs_give_the_same_bytes(small_grid, tmp_path):
