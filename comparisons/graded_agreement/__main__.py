@@ -17,12 +17,7 @@ from pathlib import Path
 from comparisons.console.exit_status import guarded
 from comparisons.data.file_names import BASELINE_FOLDER
 from comparisons.graded_agreement.cases import CASES
-from comparisons.graded_agreement.solving import (
-    finite_elements,
-    finite_elements_digest,
-    integral_equation,
-    integral_equation_digest,
-)
+from comparisons.graded_agreement.solving import finite_elements, integral_equation
 from comparisons.graded_agreement.table import TABLE, compared, worse_than_limits
 from comparisons.paper.cache import CachedCall, make_calls
 from comparisons.runs.atomic_files import atomic, prepare_folder
@@ -47,15 +42,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     cases = CASES[: options.limit]
     both = [
         make_calls(
-            [CachedCall.of(solve, case.solid, case.punch, case.mu) for case in cases],
-            prepare_folder(folder / solve.__name__),
-            options.jobs,
-            code=digest,
+            [CachedCall.of(solve, case.solid, case.punch, case.mu) for case in cases], folder, options.jobs
         ).results
-        for solve, digest in (
-            (finite_elements, finite_elements_digest()),
-            (integral_equation, integral_equation_digest()),
-        )
+        for solve in (finite_elements, integral_equation)
     ]
     table = compared(*both)
     targets = [folder / TABLE, *([BASELINE_FOLDER / TABLE] if options.renew else [])]

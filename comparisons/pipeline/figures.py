@@ -10,11 +10,10 @@ from comparisons.model import ComputationFailed
 from comparisons.paper.cache import Results, make_calls
 from comparisons.paper.paper_figure import PaperFigure, Tables, calls_of, given
 from comparisons.paper.registry import paper_figures
-from comparisons.pipeline.record_content import now, record_content
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import checked_jobs
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.record import write_record
+from comparisons.runs.record import now, record_content, write_record
 
 __all__ = ["FinishedFigure", "FinishedPaper", "make_figures"]
 

@@ -14,14 +14,13 @@ from comparisons.data.input_files import LARGEST_TABLE, read_bytes
 from comparisons.judging.decision import Verdict
 from comparisons.pipeline.inputs import Cases, Gates, RunInputs, names_of_inputs
 from comparisons.pipeline.judgement import Judgement, judge_and_write
-from comparisons.pipeline.record_content import record_content
 from comparisons.pipeline.report_cards import make_cards
 from comparisons.pipeline.tables import RunTables, make_tables, write_pictures, write_tables
 from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.computation import Completed
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.record import read_record, write_record
+from comparisons.runs.record import read_record, record_content, write_record
 from comparisons.runs.rows import Row
 
 __all__ = ["FinishedRun", "described", "kept_texts", "write_run"]

@@ -14,12 +14,12 @@ from comparisons.domain import Domain
 from comparisons.model import ComputationFailed
 from comparisons.pipeline.finished_run import FinishedRun, write_run
 from comparisons.pipeline.inputs import RunInputs, stored_cases
-from comparisons.pipeline.record_content import now
 from comparisons.pipeline.shard_folders import checked_records, take_rows
 from comparisons.registry import ExternalIdentity
 from comparisons.runs.atomic_files import atomic, prepare_folder
 from comparisons.runs.computation import Completed
 from comparisons.runs.folder import RunFolder
+from comparisons.runs.record import now
 from comparisons.runs.rows import Row
 from comparisons.runs.store import rows_in
 from comparisons.runs.tasks import Task

@@ -12,10 +12,10 @@ from comparisons.domain import Domain
 from comparisons.judging.fresh_cases import FreshCases, draw
 from comparisons.pipeline.finished_run import FinishedRun, kept_texts, write_run
 from comparisons.pipeline.inputs import Cases, Gates, RunInputs, domains_of, load_cases, read_gates
-from comparisons.pipeline.record_content import now
 from comparisons.registry import identify
 from comparisons.runs.computation import checked_jobs, complete, folder_for
 from comparisons.runs.folder import RunFolder
+from comparisons.runs.record import now
 from comparisons.runs.shards import Shard
 from comparisons.runs.workers import backend_of
 

@@ -5,16 +5,14 @@ The format is Frictionless Data Package (https://datapackage.org), which program
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterable, Sequence
-from contextlib import suppress
+from collections.abc import Iterable
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 import pyarrow as pa
-import pyarrow.parquet as pq
+from pandas.io.json import build_table_schema
 
 from comparisons.data.columns import column, title
 from comparisons.data.file_names import DATA_PACKAGE
@@ -107,42 +105,13 @@ def _resource(path: Path) -> dict[str, Any]:
 
 
 def _fields(path: Path) -> list[dict[str, str]]:
-    with path.open(encoding="utf-8", newline="") as file:
-        names = next(csv.reader(file), [])
-    types = _types(path, names)
+    """Return name, type, unit and meaning of each column; one without a cell has the type that its unit suggests."""
+    table = pd.read_csv(path)
     fields = []
-    for name in names:
-        known = column(path.stem, name)
-        # Cells that are all empty have no type of their own.
-        kind = types[name] or ("number" if known and known.unit else "string")
-        fields.append({"name": name, "type": kind, **(known._asdict() if known else {})})
+    for field in build_table_schema(table, index=False)["fields"]:
+        described = column(path.stem, field["name"])
+        kind = field["type"]
+        if table[field["name"]].isna().all():
+            kind = "number" if described and described.unit else "string"
+        fields.append({"name": field["name"], "type": kind} | (described._asdict() if described else {}))
     return fields
-
-
-def _types(path: Path, names: Sequence[str]) -> dict[str, str | None]:
-    """Return the type of each column, None if all cells are empty: that of the Parquet file, or else of the cells."""
-    stored = path.with_suffix(".parquet")
-    with suppress(OSError, pa.ArrowException):
-        schema = pq.read_schema(stored)
-        return {name: _type(schema.field(name).type) if name in schema.names else "string" for name in names}
-    cells = pd.read_csv(path, dtype=str, keep_default_na=False)
-    return {name: _type_of_cells(cells[name]) for name in names}
-
-
-def _type(stored: pa.DataType) -> str | None:
-    if pa.types.is_null(stored):
-        return None
-    if pa.types.is_boolean(stored):
-        return "boolean"
-    if pa.types.is_integer(stored):
-        return "integer"
-    return "number" if pa.types.is_floating(stored) else "string"
-
-
-def _type_of_cells(cells: pd.Series) -> str | None:
-    filled = cells[cells != ""]
-    if filled.empty:
-        return None
-    if filled.isin(["True", "False"]).all():
-        return "boolean"
-    return "number" if pd.to_numeric(filled, errors="coerce").notna().all() else "string"

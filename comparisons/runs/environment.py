@@ -1,22 +1,18 @@
 """Origin of the numbers: versions, commit, machine.
 
-The commit is only stated when the code that runs is, byte for byte, the code in a git work tree: beside the
-packages (an editable install or a clone) or where pip installed them from.  If pip installed them from a git address,
-the commit is the one that pip recorded.
+The commit is that of the clone that runs, of the clone from which pip installed the same code, or the one that pip
+recorded of an install from a git address.
 """
 
 from __future__ import annotations
 
-import base64
 import hashlib
 import json
 import os
 import platform
 import re
 import subprocess
-import sys
-from collections.abc import Iterator
-from importlib.metadata import Distribution, PackageNotFoundError, distribution, requires, version
+from importlib.metadata import PackageNotFoundError, distribution, requires, version
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -24,9 +20,8 @@ from urllib.request import url2pathname
 
 from threadpoolctl import threadpool_info
 
-from comparisons.runs.code_files import NOT_INSTALLED, code_in, files_digest
-
 __all__ = [
+    "NOT_INSTALLED",
     "code_digest",
     "computing_environment",
     "differences",
@@ -39,8 +34,14 @@ __all__ = [
 DISTRIBUTION = "fscm-bench"
 _PACKAGES = ("fscm", "fem_reference", "comparisons")
 
+#: Suffixes of the files that numbers depend on.
+_CODE = {".py", ".toml"}
+
+#: Folders that are not installed, or elsewhere.
+NOT_INSTALLED = tuple(Path("comparisons", name) for name in ("build_step", "pytest_entry", "start_entry"))
+
 #: Digits of a commit in the text of the version.
-_SHOWN = 12
+_DIGITS = 12
 
 
 def package_version() -> str:
@@ -52,33 +53,33 @@ def package_version() -> str:
 
 
 def version_text() -> str:
-    """Return the version, and the commit where it is known: by ``git describe`` in a clone, or as pip recorded it."""
-    digest = code_digest()
-    found = _commit(digest)
-    if found["commit"] is None:
+    """Return the version, and the commit where it is known."""
+    commit = _commit()
+    if commit["commit"] is None:
         return package_version()
-    described = (_git(root, "describe", "--tags", "--always", f"--abbrev={_SHOWN}") for root in _clones(digest))
-    name = next(filter(None, described), found["commit"][:_SHOWN])
-    return f"{package_version()} (commit {name}{', with changes' if found['dirty'] else ''})"
+    changes = ", with changes" if commit["dirty"] else ""
+    return f"{package_version()} (commit {commit['commit'][:_DIGITS]}{changes})"
 
 
 def code_digest(root: Path | None = None) -> str:
     """Return the SHA-256 of the packages' Python and TOML files under `root` (by default, those that run).
 
     The same code has the same digest in a clone and where pip installed it.
-
-    Raises
-    ------
-    RuntimeError
-        If the packages that run are not there: the digest would be that of no file, and equal for every version.
     """
-    if root is None:
-        root = _running_root()
-        if missing := [package for package in _PACKAGES if not (root / package / "__init__.py").is_file()]:
-            raise RuntimeError(f"the code of {', '.join(missing)} is not in {root}, so that its digest is unknown")
+    root = root or _running_root()
     not_installed = {root / folder for folder in NOT_INSTALLED}
-    paths = [path for package in _PACKAGES for path in code_in(root / package)]
-    return files_digest(root, [path for path in paths if not_installed.isdisjoint(path.parents)])
+    digest = hashlib.sha256()
+    # Not `rglob`, which makes a path of every file that Python compiled.
+    for path in sorted(
+        Path(folder, name)
+        for package in _PACKAGES
+        for folder, _, names in os.walk(root / package)
+        for name in names
+        if os.path.splitext(name)[1] in _CODE
+    ):
+        if not_installed.isdisjoint(path.parents):
+            digest.update(f"{path.relative_to(root).as_posix()}\0".encode() + path.read_bytes())
+    return digest.hexdigest()
 
 
 def fingerprint(digest: str | None = None) -> str:
@@ -105,22 +106,16 @@ def differences(stored: str, now: str) -> str:
     >>> differences("code 123, NumPy 2.2, SciPy 1.16", "code 123, NumPy 2.3, SciPy 1.16")
     'NumPy 2.2, now NumPy 2.3'
     """
-    then, today = stored.split(", "), now.split(", ")
-    if len(then) != len(today):
-        return f"{stored}, now {now}"
-    apart = [f"{_short(a)}, now {_short(b)}" for a, b in zip(then, today, strict=True) if a != b]
-    return "; ".join(apart)
-
-
-def _short(text: str) -> str:
-    """Keep what tells two digests apart."""
-    return re.sub(r"\b([0-9a-f]{12})[0-9a-f]{52}\b", r"\1", text)
+    then, today = (re.sub(r"\b([0-9a-f]{12})[0-9a-f]{52}\b", r"\1", text).split(", ") for text in (stored, now))
+    if stored == now or len(then) != len(today):
+        return "" if stored == now else f"{stored}, now {now}"
+    return "; ".join(f"{a}, now {b}" for a, b in zip(then, today, strict=True) if a != b)
 
 
 def computing_environment() -> dict[str, str]:
     """Return what the numbers of a computation may depend on besides its code, ready for JSON."""
     return {
-        "python": sys.version.split()[0],
+        "python": platform.python_version(),
         "numpy": version("numpy"),
         "scipy": version("scipy"),
         "system": platform.platform(),
@@ -138,19 +133,15 @@ def environment() -> dict[str, Any]:
             "version": package_version(),
             "code_sha256": digest,
             "fingerprint": fingerprint(digest),
-            **_commit(digest),
+            **_commit(),
         },
-        "python": sys.version.split()[0],
+        "python": platform.python_version(),
         "dependencies": _dependencies(),
         "machine": {"system": platform.platform(), "cpu": _cpu(), "cores": os.cpu_count()},
         "blas": [
-            {
-                "library": library["internal_api"],
-                "version": library["version"],
-                "threads": library["num_threads"],
-            }
-            for library in threadpool_info()
-            if library["user_api"] == "blas"
+            {"library": blas["internal_api"], "version": blas["version"], "threads": blas["num_threads"]}
+            for blas in threadpool_info()
+            if blas["user_api"] == "blas"
         ],
     }
 
@@ -159,57 +150,24 @@ def _running_root() -> Path:
     return Path(__file__).resolve().parents[2]
 
 
-def _clones(digest: str) -> Iterator[Path]:
-    """Yield the git work trees whose code has a digest, which is that of the code that runs."""
+def _commit() -> dict[str, Any]:
+    """Return the commit of the code that runs, and whether a file was changed after it (None: not known)."""
     running = _running_root()
-    for root in filter(None, (running, _installed_from())):
-        if (root / ".git").exists() and (root == running or code_digest(root) == digest):
-            yield root
-
-
-def _commit(digest: str) -> dict[str, Any]:
-    """Return the commit of the code of a digest, which is that of the code that runs."""
-    for root in _clones(digest):
-        commit, status = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain", *_PACKAGES)
-        if commit is not None and status is not None:
-            return {"commit": commit, "dirty": bool(status)}
-    return _installed_commit() or {"commit": None, "dirty": None}
-
-
-def _distribution() -> Distribution | None:
-    try:
-        return distribution(DISTRIBUTION)
-    except PackageNotFoundError:
-        return None
+    recorded = _direct_url()
+    source = Path(url2pathname(urlsplit(recorded.get("url", "")).path))
+    for root in (running, source):
+        if (root / ".git").exists() and (root == running or code_digest(root) == code_digest()):
+            commit, status = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain", *_PACKAGES)
+            return {"commit": commit, "dirty": None if status is None else bool(status)}
+    return {"commit": recorded.get("vcs_info", {}).get("commit_id"), "dirty": None}
 
 
 def _direct_url() -> dict[str, Any]:
     """Return what pip recorded of where it installed the packages from; empty for a package index."""
-    installed = _distribution()
-    record = installed.read_text("direct_url.json") if installed else None
-    return dict(json.loads(record)) if record else {}
-
-
-def _installed_from() -> Path | None:
-    url = urlsplit(_direct_url().get("url", ""))
-    return Path(url2pathname(url.path)) if url.scheme == "file" else None
-
-
-def _installed_commit() -> dict[str, Any] | None:
-    """Return the commit that pip installed from a git address, and whether a file was changed after that."""
-    source = _direct_url().get("vcs_info", {})
-    installed, root = _distribution(), _running_root()
-    if source.get("vcs") != "git" or installed is None or Path(str(installed.locate_file(""))).resolve() != root:
-        return None
-    recorded = {file.as_posix(): file.hash for file in installed.files or []}
-    running = [path for package in _PACKAGES for path in code_in(root / package)]
-    unchanged = all(_is_recorded(path, recorded.get(path.relative_to(root).as_posix())) for path in running)
-    return {"commit": source.get("commit_id"), "dirty": not unchanged}
-
-
-def _is_recorded(path: Path, stored: Any) -> bool:
-    digest = base64.urlsafe_b64encode(hashlib.sha256(path.read_bytes()).digest()).decode().rstrip("=")
-    return stored is not None and stored.mode == "sha256" and bool(stored.value == digest)
+    try:
+        return dict(json.loads(distribution(DISTRIBUTION).read_text("direct_url.json") or "{}"))
+    except PackageNotFoundError:
+        return {}
 
 
 def _git(root: Path, *arguments: str) -> str | None:
@@ -231,8 +189,8 @@ def _dependencies() -> dict[str, str]:
 
 def _cpu() -> str:
     try:
-        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+        text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
     except OSError:
-        return platform.processor() or platform.machine()
-    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return models[0] if models else platform.machine()
+        text = ""
+    model = re.search(r"^model name\s*: (.+)$", text, re.MULTILINE)
+    return model[1] if model else platform.processor() or platform.machine()

@@ -5,14 +5,26 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from comparisons.data import file_names
+from comparisons.data import file_names as names
 
 __all__ = ["RunFolder"]
 
 
-@dataclass(frozen=True, slots=True)
+class _File:
+    """Attribute of a folder: the path of the file, or of the stem of a table and its picture, of that name."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __get__(self, folder: RunFolder, owner: type) -> Path:
+        return folder.path / self._name
+
+
+@dataclass(frozen=True)
 class RunFolder:
     """The folder of a run, of a sweep or of the figures of the paper.
+
+    `comparisons.data.file_names` describes its files.
 
     Examples
     --------
@@ -23,110 +35,26 @@ class RunFolder:
 
     path: Path
 
-    @property
-    def record(self) -> Path:
-        """The record: where the numbers come from."""
-        return self.path / file_names.RECORD
-
-    @property
-    def data_package(self) -> Path:
-        """The data package: type, unit and meaning of every column of the tables."""
-        return self.path / file_names.DATA_PACKAGE
-
-    @property
-    def store(self) -> Path:
-        """The store of finished computations."""
-        return self.path / file_names.STORE
-
-    @property
-    def bench(self) -> Path:
-        """The record of a benchmark: code and machine."""
-        return self.path / file_names.BENCH
-
-    @property
-    def bench_summary(self) -> Path:
-        """The ratios of a benchmark, as they are printed."""
-        return self.path / file_names.BENCH_SUMMARY
-
-    @property
-    def gates_text(self) -> Path:
-        """The copy of the gates that the run was made with."""
-        return self.path / file_names.GATES_TEXT
-
-    @property
-    def grid_text(self) -> Path:
-        """The copy of the grids, if they are not the standing cases."""
-        return self.path / file_names.GRID_TEXT
-
-    @property
-    def inputs(self) -> Path:
-        """The copies of a problem file and of its tables."""
-        return self.path / file_names.INPUTS
-
-    @property
-    def results(self) -> Path:
-        """Stem of the table of results: without its suffix, as of every table below."""
-        return self.path / file_names.RESULTS
-
-    @property
-    def curves(self) -> Path:
-        """Stem of the table of curves."""
-        return self.path / file_names.CURVES
-
-    @property
-    def kappa(self) -> Path:
-        """Stem of the table of relative errors."""
-        return self.path / file_names.KAPPA
-
-    @property
-    def largest_kappa(self) -> Path:
-        """Stem of the table of the largest relative errors."""
-        return self.path / file_names.LARGEST_KAPPA
-
-    @property
-    def agreement(self) -> Path:
-        """Stem of the table of differences of the two references, and of its picture."""
-        return self.path / file_names.AGREEMENT
-
-    @property
-    def comparison(self) -> Path:
-        """Stem of the table of a comparison, and of its picture."""
-        return self.path / file_names.COMPARISON
-
-    @property
-    def verdicts(self) -> Path:
-        """Stem of the table of verdicts: a row for each gate and case."""
-        return self.path / file_names.VERDICTS
-
-    @property
-    def gates(self) -> Path:
-        """Stem of the table of what the gates required."""
-        return self.path / file_names.GATES
-
-    @property
-    def summary(self) -> Path:
-        """Stem of the summary of verdicts: a row for each gate and candidate."""
-        return self.path / file_names.SUMMARY
-
-    @property
-    def verdicts_markdown(self) -> Path:
-        """The verdicts as Markdown."""
-        return self.path / file_names.VERDICTS_MARKDOWN
-
-    @property
-    def verdicts_latex(self) -> Path:
-        """The verdicts as a table in LaTeX."""
-        return self.path / file_names.VERDICTS_LATEX
-
-    @property
-    def junit(self) -> Path:
-        """The verdicts as JUnit XML."""
-        return self.path / file_names.JUNIT
-
-    @property
-    def report(self) -> Path:
-        """The report, unless the user chooses another place."""
-        return self.path / file_names.REPORT
+    record = _File(names.RECORD)
+    store = _File(names.STORE)
+    bench = _File(names.BENCH)
+    bench_summary = _File(names.BENCH_SUMMARY)
+    gates_text = _File(names.GATES_TEXT)
+    grid_text = _File(names.GRID_TEXT)
+    inputs = _File(names.INPUTS)
+    results = _File(names.RESULTS)
+    curves = _File(names.CURVES)
+    kappa = _File(names.KAPPA)
+    largest_kappa = _File(names.LARGEST_KAPPA)
+    agreement = _File(names.AGREEMENT)
+    comparison = _File(names.COMPARISON)
+    verdicts = _File(names.VERDICTS)
+    gates = _File(names.GATES)
+    summary = _File(names.SUMMARY)
+    verdicts_markdown = _File(names.VERDICTS_MARKDOWN)
+    verdicts_latex = _File(names.VERDICTS_LATEX)
+    junit = _File(names.JUNIT)
+    report = _File(names.REPORT)
 
     def parquet(self, stem: Path) -> Path:
         """Return the Parquet file of a table."""

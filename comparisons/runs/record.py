@@ -7,7 +7,9 @@ record is written and not years later.  The record has a checksum of its own.
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Mapping
+import sys
+from collections.abc import Collection, Mapping, Sequence
+from datetime import UTC, datetime
 from functools import lru_cache
 from hashlib import sha256
 from importlib.resources import files as package_files
@@ -24,12 +26,14 @@ from comparisons.data.file_names import DATA_PACKAGE, RECORD, RUN_FILES
 from comparisons.data.input_files import LARGEST_ROWS, LARGEST_TABLE, read_bytes
 from comparisons.runs.atomic_files import write_json
 from comparisons.runs.data_package import write_data_package
-from comparisons.runs.environment import differences, fingerprint
+from comparisons.runs.environment import differences, environment, fingerprint
 
 __all__ = [
     "FORMAT",
     "check_files",
+    "now",
     "read_record",
+    "record_content",
     "warn_of_other_code",
     "write_record",
 ]
@@ -48,6 +52,55 @@ def _validator() -> Draft202012Validator:
 def _problem(content: object) -> str | None:
     error = best_match(_validator().iter_errors(content))
     return None if error is None else f"{error.json_path}: {error.message}"
+
+
+def now() -> str:
+    """Return the time as a record has it."""
+    return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+def record_content(
+    command_name: str,
+    arguments: Mapping[str, Any],
+    *,
+    started: str,
+    parts: Sequence[Mapping[str, Any]],
+    rows: Mapping[str, int],
+    seconds: Mapping[str, float],
+    verdicts: Mapping[str, str | int],
+) -> dict[str, Any]:
+    """Return the entries that the records of a run, of a sweep and of the paper have in common.
+
+    Parameters
+    ----------
+    command_name : str
+        "run", "sweep" or "paper".
+    arguments : mapping
+        The arguments of the command, by name.
+    started : str
+        When this command began; a resumed one began with the first of its parts.
+    parts : sequence of mapping
+        The commands that computed the rows (`comparisons.runs.store.Store.parts`).
+    rows : mapping of str to int
+        Numbers of rows: all, resumed, and by status.
+    seconds : mapping of str to float
+        Computing time by model.
+    verdicts : mapping
+        The verdict over all and the number of cases with each; empty if nothing was judged.
+    """
+    return {
+        "format": FORMAT,
+        "command_name": command_name,
+        "arguments": dict(arguments),
+        "command": [Path(sys.argv[0]).name, *sys.argv[1:]],
+        "started": parts[0]["started"] if parts else started,
+        "finished": now(),
+        "seconds": {"run": sum(part["seconds"] for part in parts), "by_model": dict(seconds)},
+        "parts": list(parts),
+        "rows": dict(rows),
+        "verdicts": dict(verdicts),
+        **environment(),
+    }
 
 
 def write_record(content: dict[str, Any], path: Path, files: Collection[str] = RUN_FILES) -> None:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, get_origin
 
 from api_texts import PACKAGES, ROOT, texts_of
 
-from comparisons.runs.code_files import NOT_INSTALLED
+from comparisons.runs.environment import NOT_INSTALLED
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx

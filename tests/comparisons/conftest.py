@@ -16,9 +16,8 @@ import pytest
 import comparisons
 from comparisons.judging.gates import gates_text
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
-from comparisons.pipeline import record_content
 from comparisons.registry import MODELS
-from comparisons.runs import environment
+from comparisons.runs import environment, record
 from comparisons.runs.cases import load_grids
 from comparisons.runs.environment import code_digest as code
 
@@ -127,7 +126,7 @@ def code_read_once():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(environment, "version", cache(environment.version))
         patch.setattr(environment, "code_digest", code_of)
-        patch.setattr(record_content, "environment", of_record)
+        patch.setattr(record, "environment", of_record)
         yield
 
 

@@ -14,7 +14,7 @@ import pytest
 import comparisons
 import fem_reference
 import fscm
-from comparisons.runs.code_files import NOT_INSTALLED
+from comparisons.runs.environment import NOT_INSTALLED
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"

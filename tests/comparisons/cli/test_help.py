@@ -132,29 +132,6 @@ def test_python_m_comparisons_calls_itself_so():
 )
 def test_the_version_states_the_commit_that_pip_recorded(capsys, monkeypatch, installed, text):
     monkeypatch.setattr(environment, "package_version", lambda: "1.2")
-    monkeypatch.setattr(environment, "_clones", lambda digest: iter(()))
-    monkeypatch.setattr(environment, "_installed_commit", lambda: installed if installed["commit"] else None)
+    monkeypatch.setattr(environment, "_commit", lambda: installed)
     assert main(["--version"]) == 0
     assert capsys.readouterr().out == f"fscm-bench {text}\n"
-
-
-def test_the_version_of_a_clone_is_described_by_git(tmp_path, capsys, monkeypatch):
-    who = ["-c", "user.name=Test", "-c", "user.email=test@example.org"]
-
-    def git(*arguments):
-        return subprocess.run(["git", "-C", tmp_path, *who, *arguments], check=True, capture_output=True, text=True)
-
-    for package in ("fscm", "fem_reference", "comparisons"):
-        (tmp_path / package).mkdir()
-        (tmp_path / package / "__init__.py").touch()
-    git("init", "-q")
-    git("add", ".")
-    git("commit", "-q", "-m", "first")
-    git("tag", "v7")
-    monkeypatch.setattr(environment, "package_version", lambda: "7")
-    monkeypatch.setattr(environment, "_running_root", lambda: tmp_path)
-    assert main(["--version"]) == 0
-    assert capsys.readouterr().out == "fscm-bench 7 (commit v7)\n"
-    (tmp_path / "fscm" / "__init__.py").write_text("x = 1\n")
-    assert main(["--version"]) == 0
-    assert capsys.readouterr().out == "fscm-bench 7 (commit v7, with changes)\n"

@@ -70,7 +70,7 @@ def test_every_cell_is_of_its_type_and_every_column_is_described(folder):
             for one, cell in zip(declared, row, strict=True):
                 assert cell == "" or READERS[one["type"]](cell) is not None
     types = {one["name"]: one["type"] for one in package(folder)["resources"][0]["schema"]["fields"]}
-    assert (types["value"], types["size"], types["reason"]) == ("number", "integer", "string")
+    assert (types["value"], types["size"], types["reason"]) == ("number", "number", "string")
 
 
 def test_the_record_has_the_checksum_of_the_package(folder):
