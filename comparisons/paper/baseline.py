@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 
 from comparisons.data.file_names import BASELINE_FOLDER
@@ -38,26 +37,22 @@ def renew(folder: Path, target: Path = PAPER_BASELINE) -> list[Path]:
     ValueError
         If the folder lacks a figure; nothing is changed then.
     """
-    found = {figure.name: figure.files_in(folder) for figure in paper_figures()}
-    missing = [name for name, sources in found.items() if not sources]
-    if missing:
+    sources = {figure.name: figure.files_in(folder) for figure in paper_figures()}
+    if missing := [name for name, files in sources.items() if not files]:
         raise ValueError(
             f"{folder} lacks {', '.join(missing)}: renew the baseline from the folder of a whole `fscm-bench paper`"
         )
     target.mkdir(parents=True, exist_ok=True)
     for stale in target.iterdir():
         stale.unlink()
-    written = []
-    for source in (path for sources in found.values() for path in sources):
-        with atomic(target / source.name) as file:
-            file.write(source.read_bytes())
-        written.append(target / source.name)
+    copies = {target / path.name: path for files in sources.values() for path in files}
     if target == PAPER_BASELINE:
         # The report of an installation has no clone to read them from.
-        with atomic(SHIPPED_STATEMENTS) as file:
-            file.write((target / SHIPPED_STATEMENTS.name).read_bytes())
-        written.append(SHIPPED_STATEMENTS)
-    return written
+        copies[SHIPPED_STATEMENTS] = folder / SHIPPED_STATEMENTS.name
+    for copy, source in copies.items():
+        with atomic(copy) as file:
+            file.write(source.read_bytes())
+    return list(copies)
 
 
 def changes(stored: pd.DataFrame, computed: pd.DataFrame) -> list[str]:
@@ -73,26 +68,19 @@ def changes(stored: pd.DataFrame, computed: pd.DataFrame) -> list[str]:
     """
     if list(stored.columns) != list(computed.columns) or len(stored) != len(computed):
         return [f"{len(stored)} rows of {list(stored.columns)}, now {len(computed)} of {list(computed.columns)}"]
-    found = []
-    for name in (name for name in stored.columns if not _is_bound(name)):
+    different = []
+    for name in stored:
         before, now = stored[name], computed[name]
-        if _is_real(before) and _is_real(now):
-            apart = (now - before).abs()
-            if (before.isna() != now.isna()).any():
-                found.append(f"{name}: a number where there was none, or none where there was")
-            elif apart.max() > SAME * before.abs().max():
-                found.append(f"{name}: up to {apart.max():.2g} apart")
-        elif not np.array_equal(before.fillna("").astype(str), now.fillna("").astype(str)):
-            found.append(f"{name}: other texts")
-    return found
-
-
-def _is_bound(name: str) -> bool:
-    return name == "u" or name.startswith("u_") or name.endswith("_u_num")
-
-
-def _is_real(column: pd.Series) -> bool:
-    return pd.api.types.is_numeric_dtype(column) and not pd.api.types.is_bool_dtype(column)
+        is_bound = name == "u" or name.startswith("u_") or name.endswith("_u_num")
+        if is_bound or before.equals(now):
+            continue
+        if not (pd.api.types.is_float_dtype(before) and pd.api.types.is_float_dtype(now)):
+            different.append(f"{name}: other texts")
+        elif (before.isna() != now.isna()).any():
+            different.append(f"{name}: a number where there was none, or none where there was")
+        elif (apart := (now - before).abs().max()) > SAME * before.abs().max():
+            different.append(f"{name}: up to {apart:.2g} apart")
+    return different
 
 
 def check(folder: Path, target: Path | None = None) -> pd.DataFrame:
@@ -120,23 +108,15 @@ def check(folder: Path, target: Path | None = None) -> pd.DataFrame:
     target = target or committed(PAPER_BASELINE.name)
     rows, compared = [], 0
     for figure in paper_figures():
-        found = figure.files_in(folder)
-        if figure.follows_path or not found:
+        if figure.follows_path or not figure.files_in(folder):
             continue
-        tables = {path.name for path in (*found, *figure.files_in(target)) if path.suffix == ".csv"}
+        tables = {path.name for of in (folder, target) for path in figure.files_in(of) if path.suffix == ".csv"}
         compared += len(tables)
-        rows += [
-            {"figure": figure.name, "file": name, "difference": difference}
-            for name in sorted(tables)
-            for difference in _file_changes(target / name, folder / name)
-        ]
+        for name in sorted(tables):
+            paths = [of / name for of in (target, folder)]
+            missing = [f"there is no file {path}" for path in paths if not path.is_file()]
+            different = missing or changes(*map(pd.read_csv, paths))
+            rows += [{"figure": figure.name, "file": name, "difference": difference} for difference in different]
     if not compared:
         raise ValueError(f"{folder} has no table of a figure to compare: it is not the folder of `fscm-bench paper`")
     return pd.DataFrame(rows, columns=["figure", "file", "difference"])
-
-
-def _file_changes(stored: Path, computed: Path) -> list[str]:
-    for path in (stored, computed):
-        if not path.is_file():
-            return [f"there is no file {path}"]
-    return changes(pd.read_csv(stored), pd.read_csv(computed))

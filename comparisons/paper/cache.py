@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Generator, Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.runs.computation import log_failures_used
@@ -50,8 +50,7 @@ class CachedCall:
         return f"{self.function.partition(':')[2]}({', '.join(map(str, self.arguments))})"
 
 
-@dataclass(frozen=True, slots=True)
-class _Outcome:
+class _Outcome(NamedTuple):
     call: CachedCall
     result: Any = None
     failure: str | None = None
@@ -59,18 +58,14 @@ class _Outcome:
     refused: bool = False
 
 
-def _read(line: dict[str, Any]) -> _Outcome:
-    return _Outcome(
-        CachedCall(line["function"], tuple(line["arguments"])), line["result"], line["failure"], line["refused"]
-    )
+def _read(line: list[Any]) -> _Outcome:
+    function, arguments, *outcome = line
+    return _Outcome(CachedCall(function, tuple(arguments)), *outcome)
 
 
-def _written(outcome: _Outcome) -> dict[str, Any]:
-    return asdict(outcome.call) | {
-        "result": outcome.result,
-        "failure": outcome.failure,
-        "refused": outcome.refused,
-    }
+def _written(outcome: _Outcome) -> list[Any]:
+    call, *rest = outcome
+    return [call.function, call.arguments, *rest]
 
 
 def _lost(call: CachedCall) -> _Outcome:
@@ -85,25 +80,19 @@ def _make(call: CachedCall) -> _Outcome:
         return _Outcome(call, failure=str(error), refused=isinstance(error, NotApplicable))
 
 
-class Results:
+class Results(dict[CachedCall, Any]):
     """Results of calls."""
-
-    def __init__(self, outcomes: Iterable[_Outcome] = ()) -> None:
-        self._outcomes = {outcome.call: outcome for outcome in outcomes}
 
     def lost(self, call: CachedCall) -> bool:
         """Whether the process of a call ended before its result."""
-        return self._outcomes[call].failure == LOST
+        return bool(super().__getitem__(call).failure == LOST)
 
     def failed(self, call: CachedCall) -> bool:
         """Whether the function raised `ComputationFailed`, or returned a dictionary with the status ``"failed"``."""
-        outcome = self._outcomes[call]
-        if outcome.failure is not None:
-            return not outcome.refused
-        return isinstance(outcome.result, dict) and outcome.result.get("status") == "failed"
-
-    def __contains__(self, call: CachedCall) -> bool:
-        return call in self._outcomes
+        _, result, failure, refused = super().__getitem__(call)
+        if failure is not None:
+            return not refused
+        return isinstance(result, dict) and result.get("status") == "failed"
 
     def __getitem__(self, call: CachedCall) -> Any:
         """Return the result of a call.
@@ -113,10 +102,14 @@ class Results:
         ComputationFailed
             If the function raised an exception; the message is its reason.
         """
-        outcome = self._outcomes[call]
+        outcome = super().__getitem__(call)
         if outcome.failure is not None:
             raise ComputationFailed(f"{call.words}: {outcome.failure}")
         return outcome.result
+
+
+def _results(outcomes: Iterable[_Outcome]) -> Results:
+    return Results({outcome.call: outcome for outcome in outcomes})
 
 
 _FORM: Form[_Outcome] = Form("calls", lambda outcome: [outcome.call.function, *outcome.call.arguments], _read, _written)
@@ -177,7 +170,7 @@ def make_calls(
     """
     planned = list(dict.fromkeys(calls))
     with Store(folder, _FORM, code) as store:
-        stored = Results(store.items)
+        stored = _results(store.items)
         failed = [call for call in planned if call in stored and stored.failed(call)]
         again = {call for call in failed if retry_failed or stored.lost(call)}
         store.drop(lambda outcome: outcome.call in again)
@@ -185,7 +178,7 @@ def make_calls(
         missing = [call for call in planned if call not in stored or call in again]
         store.complete(description, [1.0] * len(missing), _outcomes(missing, jobs))
         used = set(planned)
-        return MadeCalls(Results(store.items), len(missing), store.parts(lambda outcome: outcome.call in used))
+        return MadeCalls(_results(store.items), len(missing), store.parts(lambda outcome: outcome.call in used))
 
 
 def _outcomes(calls: list[CachedCall], jobs: int) -> Generator[tuple[_Outcome, None, float]]:

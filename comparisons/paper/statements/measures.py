@@ -114,18 +114,19 @@ def named(n: float, k: float, mu: float) -> Case:
 
 def table_of(places: list[tuple[str, dict[str, str], Case]], **terms: str) -> Plan[pd.DataFrame]:
     """Plan a table of references in cases: what else the row says, and a column and its ``u_`` for each term."""
-    plans = {
-        (index, name): measured(term.format(**keys), reference, case)
+    columns = [f"{u}{name}" for name in terms for u in ("", "u_")]
+    numbers = yield from together(
+        {
+            (index, name): measured(term.format(**keys), reference, case)
+            for index, (reference, keys, case) in enumerate(places)
+            for name, term in terms.items()
+        }
+    )
+    rows = [
+        {"reference": reference, **keys, **dict(case)}
+        | dict(zip(columns, (part for name in terms for part in numbers[index, name][:2]), strict=True))
         for index, (reference, keys, case) in enumerate(places)
-        for name, term in terms.items()
-    }
-    numbers = yield from together(plans)
-    rows = []
-    for index, (reference, keys, case) in enumerate(places):
-        row = {"reference": reference, **keys, **dict(case)}
-        for name in terms:
-            row |= {name: numbers[index, name].value, f"u_{name}": numbers[index, name].u}
-        rows.append(row)
+    ]
     return pd.DataFrame(rows)
 
 

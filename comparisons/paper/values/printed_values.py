@@ -49,9 +49,9 @@ _GRID = f"k up to {LAST_K:g}, n in steps of {N_STEP:g}"
 class Computed(NamedTuple):
     """A paper value computed again: signed, with its bound and place, and by the scheme of its figure if it has one."""
 
-    value: float
+    computed: float
     u: float
-    mu: float = math.nan
+    at_mu: float = math.nan
     scheme: str = ""
     by_scheme: float = math.nan
     u_scheme: float = math.nan
@@ -82,8 +82,8 @@ def _farthest(values: Sequence[float], paper_value: PaperValue) -> float:
     return max(values, key=lambda value: abs(value - paper_value.value))
 
 
-def _jump_out_limits() -> list[float]:
-    return [-JKR().evaluate(Problem.dimensionless(n, 1.0, 1.0), "jump_out_displacement").value for n in _SHAPES]
+def _jump_out(n: float) -> float:
+    return -JKR().evaluate(Problem.dimensionless(n, 1.0, 1.0), "jump_out_displacement").value
 
 
 def _exponent(paper_value: PaperValue) -> float:
@@ -169,7 +169,7 @@ COMPUTED: dict[str, Callable[[PaperValue], Plan[Computed]]] = {
     "critical_tabor_number": _of_model("fscm", "critical_tabor_number"),
     "eta": _closed(lambda paper_value: eta(paper_value.n)),
     "jump_in_limit": _closed(lambda printed: _farthest([jump_in_coefficient(n, 1.0) for n in _SHAPES], printed)),
-    "jump_out_limit": _closed(lambda printed: _farthest(_jump_out_limits(), printed)),
+    "jump_out_limit": _closed(lambda printed: _farthest([_jump_out(n) for n in _SHAPES], printed)),
     "jump_in_prefactor": _closed(lambda paper_value: jump_in_coefficient(paper_value.n, paper_value.k)),
     "jump_in_exponent": _closed(_exponent),
     "largest_relative_error": _largest_relative_error,
@@ -180,45 +180,36 @@ COMPUTED: dict[str, Callable[[PaperValue], Plan[Computed]]] = {
 
 def judged(paper_value: PaperValue, computed: Computed) -> dict[str, str | float]:
     """Return the row of a paper value, which is printed without its sign."""
-    size = abs(computed.value)
-    by_scheme = paper_value.verdict(abs(computed.by_scheme), computed.u_scheme) if computed.scheme else ""
+    numbers, by_scheme = list(computed._asdict().items()), (abs(computed.by_scheme), computed.u_scheme)
     return {
         "where": paper_value.source,
         **{name: getattr(paper_value, name) for name in ("quantity", "model", "n", "k", "unit")},
         "printed": paper_value.text,
-        "computed": computed.value,
-        "u": computed.u,
-        "at_mu": computed.mu,
-        "verdict": paper_value.verdict(size, computed.u),
-        "difference": size - paper_value.value,
-        "scheme": computed.scheme,
-        "by_scheme": computed.by_scheme,
-        "u_scheme": computed.u_scheme,
-        "scheme_verdict": by_scheme,
+        **dict(numbers[:3]),
+        "verdict": paper_value.verdict(abs(computed.computed), computed.u),
+        "difference": abs(computed.computed) - paper_value.value,
+        **dict(numbers[3:]),
+        "scheme_verdict": paper_value.verdict(*by_scheme) if computed.scheme else "",
     }
 
 
 def readable(table: pd.DataFrame) -> pd.DataFrame:
     """Return the table as texts, the computed number with the digits that its uncertainty leaves."""
-
-    def texts(row: pd.Series) -> dict[str, str]:
+    rows = []
+    for row in table.to_dict("records"):
         unit = f" {row['unit']}" if row["unit"] else ""
-        parts = [f"{name} = {row[name]:g}" for name in ("n", "k") if not math.isnan(row[name])]
+        case = [f"{name} = {row[name]:g}" for name in ("n", "k") if not math.isnan(row[name])]
         small = abs(row["difference"]) <= LEAST_SHOWN
-        return {
-            "where": row["where"],
-            "quantity": row["quantity"],
-            "case": ", ".join([*parts, *([row["model"]] if row["model"] else [])]),
-            "printed": row["printed"] + unit,
-            "computed": value_text(row["computed"], row["u"]) + unit,
-            "verdict": row["verdict"],
-            "difference": "0" if small else f"{row['difference']:+.2g}{unit}",
-            "scheme": row["scheme"],
-            "by scheme": value_text(row["by_scheme"], row["u_scheme"]) + unit if row["scheme"] else "",
-            "verdict by scheme": row["scheme_verdict"],
-        }
-
-    return pd.DataFrame([texts(row) for _, row in table.iterrows()])
+        texts = {name: row[name] for name in ("where", "quantity")}
+        texts["case"] = ", ".join([*case, *filter(None, [row["model"]])])
+        texts["printed"] = row["printed"] + unit
+        texts["computed"] = value_text(row["computed"], row["u"]) + unit
+        texts |= {"verdict": row["verdict"], "difference": "0" if small else f"{row['difference']:+.2g}{unit}"}
+        by_scheme = value_text(row["by_scheme"], row["u_scheme"]) + unit if row["scheme"] else ""
+        rows.append(
+            texts | {"scheme": row["scheme"], "by scheme": by_scheme, "verdict by scheme": row["scheme_verdict"]}
+        )
+    return pd.DataFrame(rows)
 
 
 _TITLE = "Numbers printed in the paper, computed again"

@@ -35,7 +35,7 @@ def test_committed_values_agree_within_both_bounds_and_their_limits():
 
 def _results(function, event):
     call = CachedCall.of(function, CASES[0].solid, CASES[0].punch, CASES[0].mu)
-    return Results([type("Outcome", (), {"call": call, "result": event, "failure": None, "refused": False})()])
+    return Results({call: type("Outcome", (), {"result": event, "failure": None})()})
 
 
 @pytest.mark.parametrize(

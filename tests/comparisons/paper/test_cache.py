@@ -41,30 +41,17 @@ def nothing_made():
     MADE.clear()
 
 
-def test_each_call_is_made_once(tmp_path):
-    tasks = [CachedCall.of(double, 1), CachedCall.of(double, 2.5), CachedCall.of(double, 1)]
-    results, made = work(tmp_path / "j", tasks)
-    assert made == 2
-    assert MADE == [1, 2.5]
-    assert results[CachedCall.of(double, 2.5)] == {"value": 5.0, "name": "double"}
-
-
-def test_results_are_read_again(tmp_path):
-    work(tmp_path / "j", [CachedCall.of(double, 1), CachedCall.of(fail, 3)])
-    results, made = work(tmp_path / "j", [CachedCall.of(double, 1), CachedCall.of(double, 2), CachedCall.of(fail, 3)])
-    assert made == 1
-    assert MADE == [1, 2]
-    assert results[CachedCall.of(double, 1)] == {"value": 2, "name": "double"}
-    with pytest.raises(ComputationFailed, match="3 does not converge"):
-        results[CachedCall.of(fail, 3)]
-
-
-@pytest.mark.parametrize("function", [refuse, fail])
-def test_a_failure_is_a_result_that_raises(tmp_path, function):
-    results, _ = work(tmp_path / "j", [CachedCall.of(function, 3), CachedCall.of(double, 1)])
-    assert results[CachedCall.of(double, 1)]["value"] == 2
-    with pytest.raises(ComputationFailed, match=rf"{function.__name__}\(3\): 3 "):
-        results[CachedCall.of(function, 3)]
+def test_each_call_is_made_once_and_its_result_or_failure_is_read_again(tmp_path):
+    calls = [CachedCall.of(double, 1), CachedCall.of(double, 2.5), CachedCall.of(fail, 3), CachedCall.of(refuse, 4)]
+    _, made = work(tmp_path / "j", [*calls, calls[0]])
+    assert (made, MADE) == (4, [1, 2.5])
+    results, made = work(tmp_path / "j", [*calls, CachedCall.of(double, 2)])
+    assert (made, MADE) == (1, [1, 2.5, 2])
+    assert results[calls[1]] == {"value": 5.0, "name": "double"}
+    for call, reason in ((calls[2], r"fail\(3\): 3 does not converge"), (calls[3], r"refuse\(4\): 4 is refused")):
+        with pytest.raises(ComputationFailed, match=reason):
+            results[call]
+    assert [results.failed(call) for call in calls] == [False, False, True, False]
 
 
 def test_nan_is_refused(tmp_path):

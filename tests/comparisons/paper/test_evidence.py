@@ -20,8 +20,6 @@ from comparisons.paper.statements.evidence import (
     clauses,
     flips,
     flips_text,
-    read_number,
-    verdict,
     verdict_at,
 )
 from comparisons.paper.statements.kinds import extrapolated, vanishes
@@ -76,21 +74,6 @@ def test_a_failure_needs_both_references(values, outcome):
     assert clauses(comparison(value, model=model) for model, value in values.items()) == {"n = 2": outcome}
 
 
-@pytest.mark.parametrize(
-    ("values", "expected"),
-    [
-        ((), ""),
-        ((-1.0, -1.0), TRUE),
-        ((1.0, 0.0), FALSE),
-        ((-1.0, 0.0, 1.0), IN_PART),
-        ((-1.0, 0.0), UNDECIDED),
-    ],
-)
-def test_a_verdict_follows_from_the_clauses(values, expected):
-    rows = [comparison(value, model="formula", clause=f"n = {i}") for i, value in enumerate(values)]
-    assert verdict(rows) == expected
-
-
 def read(*values, limit=2.0, relation="<", u=0.0, what=READING):
     return [
         comparison(value, limit, u, relation=relation, clause=f"mu = {i}", what=what) for i, value in enumerate(values)
@@ -123,11 +106,6 @@ def test_the_nearest_factor_of_every_other_verdict(evidence, expected):
 def test_a_factor_is_rounded_away_from_one(value, text):
     assert flips_text(read(value, u=1.0 if value < 1.0 else 0.0)) == text
     assert flips_text(read(1.0, what="")) == ""
-
-
-def test_two_numbers_are_refused():
-    with pytest.raises(ValueError, match=r"judged by \[1.0, 2.0\]"):
-        read_number([*read(1.0), *read(1.0, limit=1.0)])
 
 
 def sequence(function, u=0.0):

@@ -60,14 +60,6 @@ def test_psi_is_phi_less_the_power_and_the_slope_is_the_derivative(k):
     assert np.isnan(of_k["slope"][RATIOS == 1]).all()
 
 
-def test_the_gibson_limit_of_the_functions_is_the_limit():
-    near, limit = functions(0.99), functions(1.0)
-    away = (np.abs(RATIOS - 1) > 0.05) & (RATIOS > 0.01)
-    # With 1-k = 0.01: s^(1-k) is off by (1-k) log s, the slope by (1-k) / 2 over the distance of the step.
-    for name, tolerance in (("phi", 0.012), ("psi", 0.047), ("slope", 0.12)):
-        assert np.abs(near[name] - limit[name])[away].max() < tolerance
-
-
 def test_the_named_points_are_events_and_their_loop_has_the_area_of_the_energy_lost(made_of):
     tables = made_of(fig03_s_curve)
     points = tables["points"].set_index("name")

@@ -8,11 +8,8 @@ from comparisons.paper.cache import Results
 from comparisons.paper.paper_figure import FIGURES, PaperFigure, calls_of, given, paper_figure, result_of
 from comparisons.paper.registry import NAMES, paper_figures
 
-ATTEMPTS = []
-
 
 def fail(x):
-    ATTEMPTS.append(x)
     raise ComputationFailed(f"{x} does not converge")
 
 
@@ -69,13 +66,3 @@ def test_a_failed_call_leaves_out_its_own_figure_only(tmp_path, capsys, monkeypa
     assert "does not converge" in printed.err
     assert "fig02" in printed.out
     assert (tmp_path / "fig02_kernel_functions.csv").exists()
-
-
-def test_a_stored_failure_is_used_and_reported_and_computed_again_on_request(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.pipeline.figures.paper_figures", lambda names: [FAILING])
-    arguments = ["paper", "--jobs", "1", "--out", str(tmp_path)]
-    assert main(arguments) == main(arguments) == 4
-    assert capsys.readouterr().err.count("--retry-failed") == 1
-    attempts = len(ATTEMPTS)
-    assert main([*arguments, "--retry-failed"]) == 4
-    assert len(ATTEMPTS) == attempts + 1

@@ -25,6 +25,7 @@ from comparisons.paper.studies.graded_routes import (
     number_of,
     of_power_law,
 )
+from comparisons.paper.studies.graded_solids import SERIES
 from comparisons.paper.studies.layered_adhesion import TABOR_NUMBERS, coated_force, extrapolated, layer_compliance
 from comparisons.paper.studies.surface_modulus import limits, thresholds
 from comparisons.paper.tasks import quantity
@@ -33,18 +34,11 @@ from tests.fem_reference.hankel_reference import transform
 FOLDER = Path(__file__).parents[3] / PAPER_BASELINE
 GRADED = pd.read_csv(FOLDER / "graded_solids.csv")
 LAYERED = pd.read_csv(FOLDER / "layered_adhesion.csv")
-SKINS = {name: pd.read_csv(FOLDER / f"surface_modulus{name}.csv") for name in ("", "_limits", "_thresholds")}
 
-#: Sum of the bounds over the largest value of a quantity: measured 2.6e-5 (displacement at pull-off, offset 0.1).
-LARGEST_BOUND = 3e-5
 #: Distance of k and mu from those of a power law with an offset of 1e-6 L: see the test for how it falls.
 LARGEST_OFFSET = 3e-4
 #: The ordinary differential equation behind `transform`: its relative tolerance is 1e-11.
 TRANSFORM_ERROR = 1e-9
-#: Relative bound of a limit in the Tabor number: measured 4.6e-6 (substrate 100 times as stiff).
-LIMIT_BOUND = 5e-6
-#: The thin coating is a limit in the thickness as well: measured 3.5e-4.
-THIN_BOUND = 1e-3
 
 
 def test_errors_are_relative_to_forces_computed_elsewhere():
@@ -85,10 +79,6 @@ def test_the_map_of_a_jump_begins_at_the_critical_tabor_number():
         (path,) = hatched.get_paths()
         assert path.contains_point((2.0, 0.69))
         assert not path.contains_points([(2.0, 0.70), (2.0, 0.75)]).any()
-    first = jumps[(jumps["point"] == 0) & (jumps["n"] == 2.0) & (jumps["k"] == 0.0)]
-    assert first["critical"].to_numpy() == pytest.approx(0.69721461, abs=1e-8)
-    # Where the jumps merge the full model has one displacement for both.
-    assert np.ptp(first["fscm"]) < 1e-4
 
 
 def table_of(kappa, mu=(0.1, 1.0, 10.0), **columns):
@@ -128,20 +118,7 @@ def test_rates_and_coefficients_are_those_of_powers():
     assert table["excess"].to_numpy() == pytest.approx(table["semi_rigid"] / 2.0 - 1.0)
 
 
-def test_both_references_agree_within_their_bounds():
-    both = GRADED.dropna(subset="fem")
-    assert ((both["fscm"] - both["fem"]).abs() <= both["u_fscm"] + both["u_fem"]).all()
-    for name, part in both.groupby("quantity"):
-        assert (part["u_fscm"] + part["u_fem"]).max() < LARGEST_BOUND * part["fscm"].abs().max(), name
-    table = SKINS[""]
-    assert (table["value"].isna() == table["fscm_value"].isna()).all()
-    assert (table["value"].isna() == table["reason"].notna()).all()
-    both = table.dropna(subset="value")
-    assert ((both["value"] - both["fscm_value"]).abs() <= both["u_num"] + both["u_fscm"]).all()
-    assert len(both) > 100
-
-
-@pytest.mark.parametrize("kind", ["coating", "exponential", "offset power law"])
+@pytest.mark.parametrize("kind", ["coating", *(pytest.param(kind, marks=pytest.mark.heavy) for kind in SERIES)])
 def test_a_stored_point_is_computed_again(kind):
     parameter = GRADED[GRADED["solid"] == kind]["parameter"].iloc[2]
     results = by_fscm(kind, parameter)
@@ -203,11 +180,6 @@ def test_an_offset_does_nothing_to_a_uniform_solid_and_a_thick_skin_is_one():
     uniform = case_of("offset power law", 1000.0, 0.4, 1.0).mu
     # The solid is a little stiffer than its surface, so nearer to Bradley's.
     assert 1e-5 < thick - quantity("fscm", "pull_off_force", 2.0, 0.0, uniform)["value"] < 5e-5
-
-
-def test_the_committed_limits_and_thresholds_are_those_of_the_committed_values():
-    for name, function in (("_limits", limits), ("_thresholds", thresholds)):
-        pd.testing.assert_frame_equal(function(SKINS[""]), SKINS[name], rtol=1e-6, check_dtype=False)
 
 
 def series(depths=(1e-3, 1e-2, 0.1, 10.0, 100.0), u_num=1e-9):
@@ -281,14 +253,10 @@ def test_a_minimum_at_an_end_is_no_result():
         coated_pull_off(1e-6, 0.5, 0.3, 0.3)
 
 
-def test_layers_agree_with_the_literature_and_the_bounds_are_small():
-    assert (LAYERED["agreement"] == "agrees").all()
-    bound = (LAYERED["u_expected"] + LAYERED["u_found"]) / LAYERED["expected"]
-    assert bound[LAYERED["check"] != "thin coating"].max() < LIMIT_BOUND
-    assert bound.max() < THIN_BOUND
-    row = LAYERED[LAYERED["check"] == "compliance"].iloc[0]
-    assert layer_compliance(row["thickness"], row["modulus_ratio"], 0.3, 0.3) == pytest.approx(row["expected"])
-    assert layer_compliance(row["thickness"], row["modulus_ratio"], 0.3, 0.31) != pytest.approx(row["expected"])
+def test_the_compliance_of_a_layer_is_that_published():
+    expected = coated_compliance(np.array([0.1]), 4.0, 0.3, 0.3)[0]
+    assert layer_compliance(0.1, 4.0, 0.3, 0.3) == pytest.approx(expected)
+    assert layer_compliance(0.1, 4.0, 0.3, 0.31) != pytest.approx(expected)
 
 
 @pytest.mark.heavy

@@ -38,22 +38,6 @@ def test_closed_forms_and_critical_tabor_numbers_agree_to_every_printed_digit(na
         assert row["u"] < 1e-7 * abs(row["computed"])
 
 
-@pytest.mark.parametrize(
-    ("model", "mu", "verdict"), [("md-original", 0.246, "agrees if truncated"), ("md-improved", 0.836, "agrees")]
-)
-def test_largest_errors_of_the_flattest_punch_have_every_printed_digit(model, mu, verdict):
-    (printed,) = [c for c in paper_values("largest_relative_error") if (c.model, c.n) == (model, 5.0)]
-    kappa = []
-    for place in (0.9 * mu, mu, 1.1 * mu):
-        own, exact = (
-            create(name).evaluate(Problem.dimensionless(5.0, 0.4, place), "pull_off_force").value
-            for name in (model, "fscm")
-        )
-        kappa.append(100 * (own / exact - 1))
-    assert kappa[1] == max(kappa)
-    assert judged(printed, Computed(kappa[1], 1e-4))["verdict"] == verdict
-
-
 def test_a_gradient_exponent_that_stops_short_of_the_gibson_limit_gives_the_last_end_its_digits():
     printed = paper_values("insensitive_region")
     verdicts = {
