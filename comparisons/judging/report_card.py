@@ -43,23 +43,17 @@ def card_lines(
 
 
 def _checks(card: Mapping[str, Any], own: pd.DataFrame) -> list[tuple[str, str]]:
-    lines = []
+    again = "nothing: data do not change" if card["kind"] == "data" else "it has no value"
     if repeated := card.get("repeated"):
         count = len(repeated["cases"])
-        found = repeated["cause"] or f"{count} results are the same in a new process and in another order"
-        lines.append(("evaluated again", found))
-    else:
-        lines.append(
-            ("evaluated again", "nothing: data do not change" if card["kind"] == "data" else "it has no value")
-        )
-    lines.append(("digits", _digits(own)))
+        again = repeated["cause"] or f"{count} results are the same in a new process and in another order"
     findings = card["check_model"]
     wrong = [
         f"{finding['check']}: {finding['text']}" for finding in findings if finding["status"] in ("wrong", "failed")
     ]
     kept = sum(finding["status"] == "ok" for finding in findings)
     words = f"kept: {kept} of {kept + len(wrong)} checks" + (f"; not kept: {'; '.join(wrong)}" if wrong else "")
-    return [*lines, ("check-model", words)]
+    return [("evaluated again", again), ("digits", _digits(own)), ("check-model", words)]
 
 
 def _digits(own: pd.DataFrame) -> str:

@@ -11,14 +11,12 @@ import numpy as np
 import pandas as pd
 
 from comparisons.judging.decision import Verdict
-from comparisons.problem import PARAMETERS
-from comparisons.runs.case_columns import with_problem
-from comparisons.runs.rows import CASE, Key, none_if_nan
+from comparisons.runs.case_columns import keys_in, with_problem
+from comparisons.runs.rows import CASE, Key
 
 __all__ = ["StoredResults", "UnusableResult", "stored_curves", "stored_numbers"]
 
-_NAMES = ("model", "quantity")
-_KEY = {*_NAMES, *CASE}
+_KEY = {"model", "quantity", *CASE}
 
 
 class UnusableResult(Exception):
@@ -49,18 +47,15 @@ class StoredResults:
     """
 
     def __init__(self, table: pd.DataFrame | None, needed: set[str], names: Collection[tuple[str, str]]) -> None:
-        table = pd.DataFrame(columns=sorted(needed)) if table is None else table
-        table = with_problem(table)
+        table = with_problem(pd.DataFrame(columns=sorted(needed)) if table is None else table)
         self.missing_columns = sorted(needed - set(table.columns))
         self.rows: dict[Key, list[dict[str, Any]]] = defaultdict(list)
         if self.missing_columns or not names:
             return
-        places = np.flatnonzero(_of_names(table, names))
-        columns = [table[name].iloc[places].tolist() for name in sorted(needed)]
-        for values in zip(*columns, strict=True):
-            row = dict(zip(sorted(needed), values, strict=True))
-            numbers = (none_if_nan(row[name]) for name in PARAMETERS)
-            self.rows[row["model"], row["quantity"], *numbers, row["problem"]].append(row)
+        own = table[pd.MultiIndex.from_frame(table[["model", "quantity"]]).isin(list(names))]
+        records = own[sorted(needed)].to_dict("records")
+        for key, record in zip(keys_in(own), records, strict=True):
+            self.rows[key].append(record)
 
     def status(self, key: Key) -> str:
         """Return the status of a result, "missing" without a row."""
@@ -117,20 +112,6 @@ def stored_numbers(table: pd.DataFrame, names: Collection[tuple[str, str]]) -> S
 def stored_curves(table: pd.DataFrame | None, names: Collection[tuple[str, str]]) -> StoredResults:
     """Return the points of a table of curves that are of some models and quantities."""
     return StoredResults(table, _KEY | {"x", "y", "u_distance", "status", "reason"}, names)
-
-
-def _of_names(table: pd.DataFrame, names: Collection[tuple[str, str]]) -> np.ndarray:
-    """Return which rows of a table are of some models and quantities; each pair of names is compared once."""
-    (models, known_models), (quantities, known_quantities) = (pd.factorize(table[name]) for name in _NAMES)
-    count = len(known_quantities)
-    needed = [
-        model * count + quantity
-        for model, name in enumerate(known_models)
-        for quantity, of in enumerate(known_quantities)
-        if (name, of) in names
-    ]
-    # A row without a name has the code -1.
-    return (models >= 0) & (quantities >= 0) & np.isin(models * count + quantities, needed)
 
 
 def _real(value: float | None) -> float:

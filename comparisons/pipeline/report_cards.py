@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
+from contextlib import closing
 from dataclasses import asdict
+from itertools import accumulate
 from random import SystemRandom
 from typing import Any
 
@@ -51,7 +53,7 @@ def make_cards(
     exact = all(part.get(name) == value for part in parts for name, value in here.items())
     cards = {}
     for name, identity in external.items():
-        own = [row for row in rows if row.model == name and row.status == "ok"]
+        own = [row for row in rows if row.model == name and row.value is not None]
         note(f"checking {name}: some results are evaluated again in a new process, and check-model is called")
         with waiting(f"checking {name}"):
             cards[name] = _card(identity, own, exact, cases)
@@ -59,18 +61,12 @@ def make_cards(
 
 
 def _card(identity: ExternalIdentity, rows: Sequence[Row], exact: bool, cases: Mapping[Key, Problem]) -> dict[str, Any]:
-    model = load_again(identity.spec)
-    try:
+    with closing(load_again(identity.spec)) as model:
         if isinstance(model, DataModel):
             return {"kind": "data", "check_model": _findings(model)}
-        card: dict[str, Any] = {"kind": "program" if model.is_program else "code"}
-        # First, so that the process has evaluated nothing before.
-        if numbers := [row for row in rows if row.value is not None]:
-            card["repeated"] = _repeated(identity, model, numbers, exact, cases)
-        card["check_model"] = _findings(model)
-        return card
-    finally:
-        model.close()
+        # The evaluations first, so that the process has made none before.
+        repeated = {"repeated": _repeated(identity, model, rows, exact, cases)} if rows else {}
+        return {"kind": "program" if model.is_program else "code", **repeated, "check_model": _findings(model)}
 
 
 def _findings(model: AnyExternalModel) -> list[dict[str, str]]:
@@ -86,41 +82,29 @@ def _repeated(
 ) -> dict[str, Any]:
     """Evaluate some results again, the last first; the seed of the choice is nothing that a model can know."""
     seed = SystemRandom().randrange(2**32)
-    repeated = []
-    changed: list[Row] = []
+    repeated, cause = [], ""
     for row in reversed(_chosen(rows, seed)):
         again = evaluate(model, row.quantity, cases[row.key])
         allowed = 0.0 if exact else (row.u_num or 0.0) + (again.u_num or 0.0)
         facts = {"quantity": row.quantity, **row.numbers, "problem": row.problem}
         repeated.append({**facts, "first": row.value, "again": again.value, "allowed": allowed})
-        if again.value is None or row.value is None or abs(again.value - row.value) > allowed:
-            changed.append(row)
-    cause = _cause(identity, changed[0].quantity, cases[changed[0].key]) if changed else ""
+        same = again.value is not None and abs(again.value - (row.value or 0.0)) <= allowed
+        if not same and not cause:
+            cause = _cause(identity, row.quantity, cases[row.key])
     return {"seed": seed, "cause": cause, "cases": repeated}
 
 
 def _chosen(rows: Sequence[Row], seed: int) -> list[Row]:
     """Return some rows in their order, not more than take a minute."""
-    order = list(range(len(rows)))
-    random.Random(seed).shuffle(order)
-    chosen: list[int] = []
-    seconds = 0.0
-    for number in order:
-        seconds += rows[number].seconds
-        if len(chosen) >= AGAIN or (len(chosen) >= _LEAST and seconds > _SECONDS):
-            break
-        chosen.append(number)
-    return [rows[number] for number in sorted(chosen)]
+    order = random.Random(seed).sample(range(len(rows)), min(AGAIN, len(rows)))
+    in_time = sum(seconds <= _SECONDS for seconds in accumulate(rows[number].seconds for number in order))
+    return [rows[number] for number in sorted(order[: max(in_time, _LEAST)])]
 
 
 def _cause(identity: ExternalIdentity, quantity: str, case: Problem) -> str:
     """Return why a result changes: it is evaluated as the first one of two new processes."""
     values = []
     for _ in range(2):
-        model = load_again(identity.spec)
-        try:
-            row = evaluate(model, quantity, case)
-            values.append(row.value)
-        finally:
-            model.close()
+        with closing(load_again(identity.spec)) as model:
+            values.append(evaluate(model, quantity, case).value)
     return _STATE if values[0] == values[1] else _RANDOM
