@@ -24,6 +24,7 @@ from comparisons.runs.tasks import Task, problem_for
 __all__ = [
     "COMPARED",
     "KAPPA_COLUMNS",
+    "LARGEST_COLUMNS",
     "agreement",
     "comparison_table",
     "error_summary",
@@ -38,6 +39,9 @@ _REFERENCE = ("reference", "reference_value", "u_reference")
 
 #: Columns of `relative_error`.
 KAPPA_COLUMNS = ("quantity", "model", *CASE, "value", "u_num", *_REFERENCE, "kappa", "u_kappa")
+
+#: Columns of `largest`.
+LARGEST_COLUMNS = (*_SERIES, "cases", "mu", "at_end", "kappa", "u_kappa", "paper_percent", "verdict")
 
 #: Columns of `comparison_table`.
 COMPARED = (*_CASE, "model", "status", "value", "u_num", *_REFERENCE, "kappa", "u_kappa", "reason")
@@ -134,8 +138,8 @@ def largest(kappa: pd.DataFrame) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        Columns quantity, model, n, k, cases, mu (where the largest is), at_end (whether that is an end of
-        the range of mu, so that a wider one may give more), kappa, u_kappa, paper_percent, verdict.
+        `LARGEST_COLUMNS`: mu is where the largest is, at_end whether that is an end of the range of mu, so that a
+        wider one may give more.
 
     Examples
     --------
@@ -148,15 +152,15 @@ def largest(kappa: pd.DataFrame) -> pd.DataFrame:
     printed = {("pull_off_force", p.model, p.n, p.k): p for p in paper_values("largest_relative_error")}
     table = worst_rows(kappa, _SERIES)[[*_SERIES, "mu", "kappa", "u_kappa"]].sort_values(_SERIES, ignore_index=True)
     ends = kappa.groupby(_SERIES)["mu"].agg(["size", "min", "max"]).reset_index(drop=True)
-    table.insert(4, "cases", ends["size"])
-    table.insert(6, "at_end", (table["mu"] == ends["min"]) | (table["mu"] == ends["max"]))
+    at_end = (table["mu"] == ends["min"]) | (table["mu"] == ends["max"])
+    table = table.assign(cases=ends["size"], at_end=at_end)
     papers = [printed.get(key) for key in table[_SERIES].itertuples(index=False, name=None)]
     table["paper_percent"] = [paper.text if paper else "" for paper in papers]
     table["verdict"] = [
         paper.verdict(100.0 * abs(value), 100.0 * bound) if paper else ""
         for paper, value, bound in zip(papers, table["kappa"], table["u_kappa"], strict=True)
     ]
-    return table
+    return table[list(LARGEST_COLUMNS)]
 
 
 def worst_rows(kappa: pd.DataFrame, by: Sequence[str]) -> pd.DataFrame:

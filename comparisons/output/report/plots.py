@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,9 +14,16 @@ from comparisons.numerics.number_text import case_text, exact, percent_text
 from comparisons.output.figures.curves import tension_view
 from comparisons.output.style import first_shown, model_styles
 from comparisons.output.table import Record
+from comparisons.output.varied_keys import key_text, physical_text
+from comparisons.problem.problem import split_name
+from comparisons.problem.units import prefixed_unit
 from comparisons.quantities import ALL_QUANTITIES, CURVES, CurveQuantity, Kind, title_of
+from comparisons.runs.case_columns import unit_in, varied_of
 
-__all__ = ["Plot", "choice", "convergence", "curve_group", "curves", "in_registry", "kappa", "kappa_group", "points"]
+__all__ = ["Plot", "curve_group", "curves", "in_registry", "kappa", "kappa_group", "value_group", "values_over_keys"]
+
+#: Ratio of the largest and the smallest value of a key from which its axis is logarithmic.
+_LOG = 30.0
 
 #: Label of a control, and its options as (key, text).
 Control = tuple[str, list[tuple[str, str]]]
@@ -32,13 +39,13 @@ class Plot:
     controls : list of Control
         The choices; the keys of the chosen options make the group that is shown.
     points : DataFrame
-        As of `points`: one row for each point.
+        One row for each point: choice, model, label, x, y, ends of the band, and the text at the point.
     table : str
         The id of the table with the numbers.
-    x_scale, y_scale : str
+    x_scale : str
         "linear" or "log".
     mark : str
-        "both" for a line with markers, "line" or "points".
+        "both" for a line with markers, or "line".
     views : dict
         The first view [x0, x1, y0, y1] of a group, if not all of it.
     y_labels : dict
@@ -54,7 +61,6 @@ class Plot:
     table: str
     caption: str
     x_scale: str = "linear"
-    y_scale: str = "linear"
     mark: str = "both"
     views: dict[str, list[float]] = field(default_factory=dict)
     y_labels: dict[str, str] = field(default_factory=dict)
@@ -72,7 +78,7 @@ class Plot:
 
     def data(self) -> dict[str, Any]:
         """Return what the script of the page draws, ready for JSON."""
-        names = ("id", "x_label", "y_label", "x_scale", "y_scale", "mark", "table", "views", "y_labels")
+        names = ("id", "x_label", "y_label", "x_scale", "mark", "table", "views", "y_labels")
         ranked = self.points.assign(rank=self.points["model"].map(self.models.index))
         series = [
             {"group": group, "model": model, "label": label, **rows[["x", "y", "low", "high", "hover"]].to_dict("list")}
@@ -82,12 +88,12 @@ class Plot:
         return {name: getattr(self, name) for name in names} | {"series": series}
 
 
-def choice(*parts: Any) -> str:
+def _choice(*parts: Any) -> str:
     """Return the key of several options, by which the script finds the points of a choice."""
     return "|".join(part if isinstance(part, str) else exact(part) for part in parts)
 
 
-def points(
+def _points(
     rows: pd.DataFrame,
     group: Callable[[Record], str],
     hover: Callable[[Record], str],
@@ -123,7 +129,7 @@ def in_registry(quantity: str) -> tuple[int, str]:
 
 def kappa_group(row: Record) -> str:
     """Return the choice that shows a relative error."""
-    return choice(row["quantity"], row["reference"], row["n"], row["k"])
+    return _choice(row["quantity"], row["reference"], row["n"], row["k"])
 
 
 def kappa(table: pd.DataFrame) -> Plot:
@@ -145,7 +151,7 @@ def kappa(table: pd.DataFrame) -> Plot:
             ("shape index n", shapes),
             ("gradient exponent k", _options(rows["k"])),
         ],
-        points=points(
+        points=_points(
             rows,
             kappa_group,
             lambda row: f"μ = {exact(row['mu'])}, κ = {percent_text(row['kappa'], row['u_kappa'])} %",
@@ -159,7 +165,7 @@ def kappa(table: pd.DataFrame) -> Plot:
 
 def curve_group(row: Record) -> str:
     """Return the choice that shows a point of a curve."""
-    return choice(row["n"], row["k"], row["mu"])
+    return _choice(row["n"], row["k"], row["mu"])
 
 
 def curves(table: pd.DataFrame) -> list[Plot]:
@@ -174,7 +180,7 @@ def curves(table: pd.DataFrame) -> list[Plot]:
 
 def _curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
     x, y = quantity.x.symbol, quantity.y.symbol
-    drawn = points(rows, curve_group, lambda row: f"{x} = {row['x']:.6g}, {y} = {row['y']:.6g}", rows["x"], rows["y"])
+    drawn = _points(rows, curve_group, lambda row: f"{x} = {row['x']:.6g}, {y} = {row['y']:.6g}", rows["x"], rows["y"])
     cases = rows[["n", "k", "mu"]].drop_duplicates().sort_values(["n", "k", "mu"]).to_dict("records")
     options = [(curve_group(row), case_text({"n": row["n"], "k": row["k"], "μ": row["mu"]})) for row in cases]
     views = {
@@ -195,38 +201,62 @@ def _curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
     )
 
 
-def convergence(results: pd.DataFrame) -> list[Plot]:
-    """Uncertainty and observed order of convergence of discretisations, over their size."""
-    discrete = results[(results["size"] > 0) & (results["status"] == "ok")]
-    bounded, ordered = discrete[discrete["u_num"] > 0], discrete[discrete["observed_order"].notna()]
-    bound = "Each point is one number of a discretisation: the bound on its numerical error, against its number of "
-    bound += "unknowns."
-    order = "The order of convergence that a model observed over its meshes, where it measured one."
-    axes = ("u_num, in the unit of the quantity", "log"), ("observed order", "linear")
-    plots = (
-        _over_size(bounded, "u_num", "plot-uncertainty", "Numerical uncertainty against size", *axes[0], bound),
-        _over_size(ordered, "observed_order", "plot-order", "Observed order of convergence", *axes[1], order),
-    )
-    return [plot for plot in plots if len(plot.points)]
+def values_over_keys(results: pd.DataFrame) -> Iterator[tuple[Plot, list[str]]]:
+    """Yield a plot for each varied key of a problem file that has two numbers or more, and the names of all its keys.
+
+    The other keys are choices of the plot.
+
+    Parameters
+    ----------
+    results : DataFrame
+        As of `comparisons.runs.frames.frame`.
+    """
+    if "problem" not in results:
+        return
+    solved = results[(results["status"] == "ok") & (results["problem"] != "")]
+    count = 0
+    for file, rows in solved.groupby(solved["problem"].map(lambda label: split_name(label)[0])):
+        varied = [name for name in varied_of(rows) if rows[name].notna().any()]
+        for name in varied:
+            if pd.api.types.is_numeric_dtype(rows[name]) and rows[name].nunique() > 1:
+                count += 1
+                keys = [name, *(other for other in varied if other != name)]
+                yield _over_key(rows.sort_values(name, kind="stable"), keys, str(file), f"plot-{count}"), keys
 
 
-def _over_size(rows: pd.DataFrame, name: str, id: str, title: str, y_label: str, y_scale: str, caption: str) -> Plot:
+def value_group(keys: Sequence[str]) -> Callable[[Record], str]:
+    """Return what gives the choice that shows a value over the first of some keys."""
+    return lambda row: _choice(row["quantity"], *(row[name] for name in keys[1:]))
+
+
+def _over_key(rows: pd.DataFrame, keys: list[str], file: str, id: str) -> Plot:
+    over, group = keys[0], value_group(keys)
+    label, unit = unit_in(over)
+    power, prefixed = prefixed_unit(float(rows[over].abs().max()), unit)
+    labels, scales = {}, pd.Series(1.0, rows.index)
+    for key, of_group in rows.groupby([group(row) for row in rows.to_dict("records")]):
+        y_power, y_unit = prefixed_unit(float(of_group["value"].abs().max()), str(of_group["unit"].iloc[0]))
+        title = title_of(of_group["quantity"].iloc[0])
+        labels[str(key)] = title if y_unit == "1" else f"{title} ({y_unit})"
+        scales[of_group.index] = 10.0**-y_power
+    controls = [("quantity", _quantities(rows["quantity"]))]
+    for name in keys[1:]:
+        key, of = unit_in(name)
+        controls.append((key, [(_choice(v), key_text(v, of)) for v in rows[name].drop_duplicates().sort_values()]))
+
+    def hover(row: Record) -> str:
+        return f"{label} = {key_text(row[over], unit)}, {title_of(row['quantity'])} = {physical_text(row)}"
+
+    wide = rows[over].min() > 0.0 and rows[over].max() / rows[over].min() >= _LOG
     return Plot(
         id=id,
-        title=title,
-        x_label="number of unknowns",
-        y_label=y_label,
-        x_scale="log",
-        y_scale=y_scale,
-        mark="points",
-        controls=[("quantity", _quantities(rows["quantity"]))],
-        points=points(rows.drop(columns="nu"), lambda row: str(row["quantity"]), _size_text, rows["size"], rows[name]),
-        table="convergence",
-        caption=caption,
+        title=f"Values over {label} of {file}",
+        x_label=label if prefixed == "1" else f"{label} ({prefixed})",
+        y_label="value",
+        x_scale="log" if wide else "linear",
+        controls=controls,
+        points=_points(rows, group, hover, rows[over] * 10.0**-power, rows["value"] * scales, rows["u_num"] * scales),
+        table=f"{id}-numbers",
+        caption="A band shows the bound on the numerical error; where none is seen it is narrower than the line.",
+        y_labels=labels,
     )
-
-
-def _size_text(row: Record) -> str:
-    order = "" if math.isnan(row["observed_order"]) else f", order {row['observed_order']:.2f}"
-    case = case_text({"n": row["n"], "k": row["k"], "μ": row["mu"], "problem": row.get("problem")})
-    return f"{case}: {row['size']:.0f} unknowns, u_num = {row['u_num']:.1e}{order}"

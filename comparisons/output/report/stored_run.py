@@ -16,7 +16,7 @@ from comparisons.data.input_files import read_text
 from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged
 from comparisons.judging.summary import COVERAGE
-from comparisons.output.errors import COMPARED, KAPPA_COLUMNS
+from comparisons.output.errors import COMPARED, KAPPA_COLUMNS, LARGEST_COLUMNS
 from comparisons.output.verdicts import GATE_COLUMNS
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
@@ -26,22 +26,17 @@ from comparisons.runs.tables import read_table
 
 __all__ = ["Stored", "read_folder"]
 
-_LARGEST = ("quantity", "model", "n", "k", "cases", "mu", "at_end", "kappa", "u_kappa", "paper_percent", "verdict")
-
 #: Table -> its columns; a folder of a sweep has no verdicts, and only that of a comparison has one.
 _TABLES: dict[str, Sequence[str]] = {
     file_names.RESULTS: COLUMNS.names,
     file_names.CURVES: CURVE_COLUMNS.names,
     file_names.KAPPA: KAPPA_COLUMNS,
-    file_names.LARGEST_KAPPA: _LARGEST,
+    file_names.LARGEST_KAPPA: LARGEST_COLUMNS,
     file_names.VERDICTS: Judged.__slots__,
     file_names.SUMMARY: (*Judged.__slots__, "cases", "skipped", *COVERAGE),
     file_names.GATES: GATE_COLUMNS,
     file_names.COMPARISON: COMPARED,
 }
-
-#: Columns of problem files, which a table has only where a case is of one.
-_OPTIONAL = ("problem", *DIMENSIONLESS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,18 +96,16 @@ def _table(path: Path, columns: Sequence[str], *, there: bool) -> pd.DataFrame:
     if not there and path.stem not in (file_names.RESULTS, file_names.CURVES, file_names.KAPPA):
         return pd.DataFrame(columns=list(columns))
     table = read_table(path)
-    if lost := [name for name in columns if name not in table and name not in _OPTIONAL]:
+    if lost := [name for name in columns if name not in table and name not in ("problem", *DIMENSIONLESS)]:
         raise ValueError(f"{path} has no column {', '.join(lost)}: it is not what this version of fscm-bench writes")
-    for name in columns:
+    for name in table.columns.intersection(list(columns)):
         described = column(path.stem, name)
-        # The numbers of the paper are texts with its digits.
-        if name not in table or described is None or not described.unit or name == "paper_percent":
-            continue
-        try:
-            # A column without a single number comes back without the type of one.
-            table[name] = pd.to_numeric(table[name]).astype(float)
-        except (TypeError, ValueError):
-            raise ValueError(f"{path}: its column {name} is not numeric") from None
+        # A column without a single number has no type; the numbers of the paper are texts with its digits.
+        if described and described.unit and name != "paper_percent":
+            try:
+                table[name] = table[name].astype(float)
+            except (TypeError, ValueError):
+                raise ValueError(f"{path}: its column {name} is not numeric") from None
     if path.stem in (file_names.VERDICTS, file_names.SUMMARY) and (odd := set(table["verdict"]) - set(Verdict)):
         raise ValueError(f"{path} has the unknown verdict {min(odd)!r}")
     return table

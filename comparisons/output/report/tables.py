@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -15,15 +15,17 @@ from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import METRICS
 from comparisons.judging.report_card import card_lines, given_models
 from comparisons.judging.summary import worst_first
-from comparisons.output.report.plots import Plot, curve_group, kappa_group
+from comparisons.output.report.plots import Plot, curve_group, kappa_group, value_group
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.table import CASE as CASE_COLUMNS
 from comparisons.output.table import Column, Record, Table, columns, numbers, percents, words
+from comparisons.output.varied_keys import key_columns, physical_text
 from comparisons.output.verdicts import command
 from comparisons.runs.case_columns import with_problem
 from comparisons.runs.rows import CASE
 
-__all__ = ["STATEMENTS", "convergence", "curve_points", "errors", "gates", "numbers_of", "statements", "worst_cases"]
+__all__ = ["STATEMENTS", "convergence", "curve_points", "errors", "gates", "numbers_of", "statements", "values"]
+__all__ += ["worst_cases"]
 
 #: So many rows are shown where fewer than that do not pass, so that a clean run still shows what is nearest
 #: to its limits; and at most the second, because the table of every verdict has the rest.
@@ -121,12 +123,15 @@ def convergence(results: pd.DataFrame) -> Table:
     shown += [numbers("observed order", "observed_order", ".2f"), numbers("unknowns", "size", ".0f")]
     shown += [numbers("iterations", "iterations", ".0f"), numbers("residual", "residual", ".1e")]
     rows = results[(results["size"] > 0) & (results["status"] == "ok")]
-    group = _quantity
-    return Table("convergence", "Numbers from a discretisation", shown, rows, "results.csv", fold=_PLOT, group=group)
+    return Table("convergence", "Numbers from a discretisation", shown, rows, "results.csv", fold="These numbers")
 
 
-def _quantity(row: Record) -> str:
-    return str(row["quantity"])
+def values(stored: Stored, plot: Plot, keys: Sequence[str]) -> Table:
+    """Return the values of problem files over the keys of a plot."""
+    shown = [*columns("model"), *key_columns(keys), Column("value", physical_text, "value")]
+    shown += [numbers("u_num", "u_num", ".1e"), *columns("unit")]
+    rows = stored.results.loc[plot.points.sort_index().index]
+    return Table(plot.table, plot.title, shown, rows, "results.csv", fold=_PLOT, group=value_group(keys))
 
 
 def curve_points(stored: Stored, plot: Plot) -> Table:
@@ -152,7 +157,9 @@ def numbers_of(stored: Stored) -> Iterator[Table]:
     shown += [numbers("seconds", "seconds", ".3g"), words("SPEC, if external", "spec", "code")]
     shown += [words("domain", "domain", "prose"), words("citation", "citation", "prose")]
     yield Table("models", "Models, and how their computations ended", shown, models)
-    shown = columns("model", "version", "quantity", *CASE_COLUMNS, "value", "u_num", "unit", "status", "reason")
+    shown = columns("model", "version", "quantity", *CASE_COLUMNS, "value", "u_num", "unit")
+    shown += [numbers("dimensionless value", "dimensionless_value"), words("its unit", "dimensionless_unit")]
+    shown += columns("status", "reason")
     yield Table("results", "Every computed number", shown, stored.results, "results.csv", fold="Every computed number")
 
 

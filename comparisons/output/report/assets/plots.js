@@ -11,7 +11,7 @@ const Plots = (() => {
     const box = new Bokeh.BoxZoomTool();
     const touch = matchMedia("(pointer: coarse)").matches;
     const drawn = Bokeh.Plotting.figure({
-      x_axis_type: plot.x_scale, y_axis_type: plot.y_scale, x_axis_label: plot.x_label, y_axis_label: plot.y_label,
+      x_axis_type: plot.x_scale, x_axis_label: plot.x_label, y_axis_label: plot.y_label,
       x_range: new Bokeh.Range1d({ start: 1, end: 2 }), y_range: new Bokeh.Range1d({ start: 1, end: 2 }),
       // Vectors, so that print is as sharp as the screen.
       output_backend: "svg", sizing_mode: "stretch_both", toolbar_location: null, tools: [],
@@ -30,8 +30,8 @@ const Plots = (() => {
         major_label_text_font: "system-ui, sans-serif", major_label_text_font_size: "12px",
       });
     }
-    const zero = plot.y_scale === "linear" ? [new Bokeh.Span({ location: 0, dimension: "width", line_width: 1 })] : [];
-    for (const line of zero) drawn.add_layout(line);
+    const zero = new Bokeh.Span({ location: 0, dimension: "width", line_width: 1 });
+    drawn.add_layout(zero);
     const one = { plot, figure, drawn, hovers, zero, layers: {}, dark: Theme.dark() };
     made[plot.id] = one;
 
@@ -58,7 +58,7 @@ const Plots = (() => {
       });
     }
     for (const lines of [...drawn.xgrids, ...drawn.ygrids]) lines.setv({ grid_line_color: grid });
-    for (const line of zero) line.setv({ line_color: axes });
+    zero.setv({ line_color: axes });
     drawn.setv({ outline_line_color: grid });
     // A layer has its colours from the start: a glyph that changes while it is pointed at has no data for a moment.
     if (one.dark === dark) return;
@@ -92,12 +92,10 @@ const Plots = (() => {
       if (series.low.some((low, index) => low < series.high[index])) {
         renderers.push(drawn.varea({ field: "x" }, { field: "low" }, { field: "high" }, { source, fill_color: colour, fill_alpha: 0.2 }));
       }
-      if (plot.mark !== "points") {
-        const below = plot.mark === "line" && broad;
-        renderers.push(drawn.line({ field: "x" }, { field: "y" }, {
-          source, line_color: colour, line_dash: dash, line_width: below ? 3.5 : 2, line_alpha: below ? 0.45 : 1,
-        }));
-      }
+      const below = plot.mark === "line" && broad;
+      renderers.push(drawn.line({ field: "x" }, { field: "y" }, {
+        source, line_color: colour, line_dash: dash, line_width: below ? 3.5 : 2, line_alpha: below ? 0.45 : 1,
+      }));
       if (plot.mark !== "line") {
         // A source of its own: pointing at a marker would take away the line and the band of the same source.
         renderers.push(drawn.scatter({ field: "x" }, { field: "y" }, {
@@ -154,7 +152,7 @@ const Plots = (() => {
       return [low - margin, high + margin].map((v) => (scale === "log" ? 10 ** v : v));
     };
     const y = shown.flatMap((series) => [...series.low, ...series.high]);
-    return [...span(shown.flatMap((series) => series.x), one.plot.x_scale), ...span(y, one.plot.y_scale)];
+    return [...span(shown.flatMap((series) => series.x), one.plot.x_scale), ...span(y, "linear")];
   }
 
   function setView(one, [x0, x1, y0, y1]) {
@@ -169,7 +167,7 @@ const Plots = (() => {
     if (how === "all") return setView(one, whole(one));
     const [dx, dy, factor] = STEPS[how];
     const { x_range, y_range } = one.drawn;
-    return setView(one, [...shifted(x_range, one.plot.x_scale, dx, factor), ...shifted(y_range, one.plot.y_scale, dy, factor)]);
+    return setView(one, [...shifted(x_range, one.plot.x_scale, dx, factor), ...shifted(y_range, "linear", dy, factor)]);
   }
 
   function shifted(range, scale, shift, factor) {

@@ -254,7 +254,7 @@ POINTS = """
   return plot.series.filter((series) => series.group === group).map((series) => {
     const places = series.x.map((x, index) => ({
       label: series.label, hover: series.hover[index],
-      across: share(x, x0, x1, plot.x_scale), up: share(series.y[index], y0, y1, plot.y_scale),
+      across: share(x, x0, x1, plot.x_scale), up: share(series.y[index], y0, y1, "linear"),
     })).filter(({ across, up }) => Math.min(across, up) > 0.02 && Math.max(across, up) < 0.98);
     const { label, hover, across, up } = places[Math.floor(places.length / 2)];
     const [right, down] = [left + width * across - box.width / 2, top + height * (1 - up) - box.height / 2];
@@ -302,7 +302,7 @@ def test_values_are_read_off_after_every_choice(opened, whole):
                 point(opened, plot, right, down)
                 wait(partial(shows, opened, label, hover))
                 read_off += 1
-    assert read_off >= ((4 * 2 + 2 + 1 + 2) + (2 + 2 + 1 + 2) if whole else 3 * 2 + 2 + 1 + 2)
+    assert read_off >= ((4 * 2 + 2 + 1 + 2) + (2 + 2 + 1) if whole else 3 * 2 + 2 + 1 + 2)
     # A model that is switched off is not read off.
     click(opened, find(opened, "#plot-pull-off-gap .models input"))
     (_, again) = opened.execute_script(POINTS, "plot-pull-off-gap", "2|0.4|1")

@@ -76,7 +76,7 @@ def test_names_are_there_to_be_read(text, hostile):
 def test_the_data_are_json_whatever_the_names(elements, hostile):
     data = json.loads(elements.scripts[0])
     models = {series["model"] for plot in data["plots"] for series in plot["series"]}
-    assert {hostile.image, hostile.script, "fscm", "fem"} == models
+    assert {hostile.image, hostile.script, "fscm"} == models
     assert hostile.line in "\n".join(data["files"]["verdicts.csv"]).replace('""', '"')
 
 
