@@ -1,11 +1,11 @@
-"""Accuracies and the mesh densities that they select."""
+"""Accuracies, and the meshes and degrees that they select."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
-__all__ = ["ACCURACIES", "Level", "coarser_accuracy", "finer_levels", "level_for", "relative_error"]
+__all__ = ["ACCURACIES", "SEARCH_DEGREE", "Level", "coarser_accuracy", "finer_levels", "level_for", "relative_error"]
 
 #: Names of accuracies. Measured for n = 2 and the 9-3 law: the pull-off force has these relative errors. The bound
 #: `u_num` is larger: it is the sum of what other meshes show.
@@ -17,24 +17,27 @@ LARGEST = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Level:
-    """Element order and the three mesh densities, coarse to fine.
+    """Degree of the elements, density of their mesh, and the relative error asked for.
 
     Examples
     --------
-    >>> level_for("quick").densities
-    (1.4, 1.15, 0.95)
+    >>> level_for("quick")
+    Level(order=6, density=1.05, accuracy=1e-06)
     """
 
     order: int
-    densities: tuple[float, float, float]
+    density: float
+    accuracy: float
 
 
-ORDER = 6
+#: Degree of the elements on which a path is traced, an edge is measured and a feature of the mesh is judged: those of
+#: the bound contain it, at a tenth of the cost.
+SEARCH_DEGREE = 4
 
 _LEVELS = {
-    ACCURACIES["quick"]: Level(ORDER, (1.4, 1.15, 0.95)),
-    ACCURACIES["default"]: Level(ORDER, (1.05, 0.85, 0.69)),
-    ACCURACIES["fine"]: Level(ORDER, (0.75, 0.61, 0.5)),
+    1e-6: Level(6, 1.05, 1e-6),
+    1e-7: Level(7, 0.95, 1e-7),
+    1e-8: Level(8, 0.8, 1e-8),
 }
 
 
@@ -63,8 +66,9 @@ def relative_error(accuracy: float | str) -> float:
 def level_for(accuracy: float | str) -> Level:
     """Return the meshes of an accuracy.
 
-    Between the named accuracies the logarithm of each density is linear in that of the accuracy.  Above the largest of
-    them the meshes are those of "quick": a path cannot be traced reliably on coarser ones.
+    Between two named accuracies the degree is that of the finer one, and the logarithm of the density is linear in that
+    of the accuracy.  Above the largest of them the meshes are those of "quick": a path cannot be traced reliably on
+    coarser ones.
 
     Parameters
     ----------
@@ -80,17 +84,16 @@ def level_for(accuracy: float | str) -> Level:
     --------
     >>> level_for(1e-7) == level_for("default")
     True
-    >>> [round(density, 3) for density in level_for(3e-7).densities]
-    [1.204, 0.982, 0.804]
+    >>> level_for(3e-7).order, round(level_for(3e-7).density, 3)
+    (7, 0.997)
     """
     number = min(relative_error(accuracy), max(_LEVELS))
     if number in _LEVELS:
         return _LEVELS[number]
-    coarse, fine = min(n for n in _LEVELS if n > number), max(n for n in _LEVELS if n < number)
-    share = math.log(coarse / number) / math.log(coarse / fine)
-    pairs = zip(_LEVELS[coarse].densities, _LEVELS[fine].densities, strict=True)
-    coarsest, medium, finest = (a * (b / a) ** share for a, b in pairs)
-    return Level(ORDER, (coarsest, medium, finest))
+    larger, smaller = min(n for n in _LEVELS if n > number), max(n for n in _LEVELS if n < number)
+    share = math.log(larger / number) / math.log(larger / smaller)
+    coarse, fine = _LEVELS[larger], _LEVELS[smaller]
+    return Level(fine.order, coarse.density * (fine.density / coarse.density) ** share, number)
 
 
 def coarser_accuracy(accuracy: float | str) -> tuple[float, str] | None:

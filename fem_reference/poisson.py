@@ -114,7 +114,7 @@ def poisson_at(nu: float | PoissonRatio, z: Array) -> Array:
     >>> poisson_at(0.3, np.array([0.0, 1.0]))
     array([0.3, 0.3])
     """
-    if isinstance(nu, PoissonRatio):
+    if callable(nu):
         return np.asarray(nu(z), float)
     return np.full(np.shape(z), nu, float)
 

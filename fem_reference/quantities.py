@@ -1,4 +1,4 @@
-"""Quantities of a contact problem: one table of event, functional, kind and declared order."""
+"""Quantities of a contact problem: one table of event, functional and kind."""
 
 from __future__ import annotations
 
@@ -21,11 +21,6 @@ __all__ = [
     "further_losses",
     "quantity_named",
 ]
-
-#: Declared order of the central gap at jump-out, in contact: under the tip of a cone the pressure has a kink, the
-#: displacement a term r^2 log r (r^(2-k) in a graded solid, whose size falls with that of the contact edge), and that
-#: decides it, not the degree of the element.
-GAP_ORDER = 2.0
 
 
 class Events(Protocol):
@@ -53,8 +48,6 @@ class Quantity:
         Its value from the events of a path, in the units of the problem.
     kind : {"force", "length", "energy", "modulus"}
         A length near zero is measured by the length of the surface law.
-    order : float, optional
-        Declared order of convergence; that of the element by default.
     parts : tuple of str
         Quantities whose sum it is, each with the contact edge at one radius.
     """
@@ -62,7 +55,6 @@ class Quantity:
     events: tuple[str, ...]
     functional: Callable[[Events], float]
     kind: Literal["force", "length", "energy", "modulus"]
-    order: float | None = None
     parts: tuple[str, ...] = ()
 
 
@@ -78,7 +70,7 @@ TABLE = {
     "jump_in_displacement": Quantity(("jump_in",), lambda e: e.at("jump_in").state.displacement, "length"),
     "jump_in_gap": Quantity(("jump_in",), lambda e: e.at("jump_in").state.central_gap, "length"),
     "jump_out_displacement": Quantity(("jump_out",), lambda e: e.at("jump_out").state.displacement, "length"),
-    "jump_out_gap": Quantity(("jump_out",), lambda e: e.at("jump_out").state.central_gap, "length", GAP_ORDER),
+    "jump_out_gap": Quantity(("jump_out",), lambda e: e.at("jump_out").state.central_gap, "length"),
     "zero_load_displacement": Quantity(("zero_load",), lambda e: e.at("zero_load").state.displacement, "length"),
     "hysteresis_energy": Quantity(
         (JUMP_OUT, LANDING), lambda e: math.fsum(energy_lost(e, jump) for jump in e.jumps), "energy", parts=LOSSES

@@ -27,17 +27,14 @@ class Solution:
         Residual of the whole nonlinear system there, relative to the traction.
     seconds : float
         Wall-clock time of everything.
-    observed_order : float
-        Order of convergence in the mesh density over the three meshes.
-    declared_order : float
-        Order beyond which the observed one is not used: that of the quantity, or else of the elements.
-    densities, values : tuple of float
-        The meshes, coarse to fine, and the quantity on each from its condensed system.
+    degrees, values : tuple
+        Degrees of the elements, rising, and the quantity with each from its condensed system (nan where the lowest
+        degree has no such event).
     parts : mapping of str to float
-        Causes of the error and the share of each in `u_num`: "mesh" (density and degree), "first layer", "interior and
-        exterior" (extent of the mesh), "edge" (placement of the contact edge, size of the elements at the apex), "tail"
-        (displacement that the mesh leaves out) and "algebra" (rounding,
-        the distance of `value` from the condensed one, and what conjugate gradients leave).
+        Causes of the error and the share of each in `u_num`: "mesh" (size and degree of the elements), "first layer",
+        "interior and exterior" (extent of the mesh), "edge" (placement of the contact edge, size of the elements at the
+        apex), "tail" (displacement that the mesh leaves out) and "algebra" (rounding, the distance of `value` from the
+        condensed one, and what conjugate gradients leave).
     """
 
     value: float
@@ -46,9 +43,7 @@ class Solution:
     iterations: int
     residual: float
     seconds: float
-    observed_order: float
-    declared_order: float
-    densities: tuple[float, float, float]
+    degrees: tuple[int, int, int]
     values: tuple[float, float, float]
     parts: Mapping[str, float] = field(default_factory=dict, hash=False)
 
@@ -69,7 +64,7 @@ class Solution:
 
         Examples
         --------
-        >>> solution = Solution(1.0, 3e-9, 100, 3, 0.0, 0.1, 6.0, 6.0, (1.0, 0.8, 0.6), (1.0, 1.0, 1.0), {"mesh": 3e-9})
+        >>> solution = Solution(1.0, 3e-9, 100, 3, 0.0, 0.1, (4, 5, 6), (1.0, 1.0, 1.0), {"mesh": 3e-9})
         >>> solution.with_part("algebra", 1e-9).parts
         {'mesh': 3e-09, 'algebra': 1e-09}
         """
@@ -83,7 +78,7 @@ class Solution:
 
         Examples
         --------
-        >>> solution = Solution(1.0, 3e-9, 100, 3, 0.0, 0.1, 6.0, 6.0, (1.0, 0.8, 0.6), (1.0, 1.0, 1.0), {"mesh": 3e-9})
+        >>> solution = Solution(1.0, 3e-9, 100, 3, 0.0, 0.1, (4, 5, 6), (1.0, 1.0, 1.0), {"mesh": 3e-9})
         >>> solution.plus(solution).value, solution.plus(solution).u_num
         (2.0, 6e-09)
         """
@@ -96,8 +91,6 @@ class Solution:
             iterations=self.iterations + addend.iterations,
             residual=max(self.residual, addend.residual),
             seconds=max(self.seconds, addend.seconds),
-            observed_order=min(self.observed_order, addend.observed_order),
-            declared_order=min(self.declared_order, addend.declared_order),
             values=(a + p, b + q, c + r),
             parts={name: error + addend.parts[name] for name, error in self.parts.items()},
         )

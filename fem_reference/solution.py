@@ -12,7 +12,6 @@ from functools import partial
 
 from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
-from fem_reference._contact.events import PathEvents
 from fem_reference._contact.mesh_choice import MeshChoice, chosen, path_over_meshes
 from fem_reference._contact.mesh_lengths import scales
 from fem_reference._contact.path import edge_is_resolved
@@ -20,7 +19,7 @@ from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.uncondensed import uncondensed_events
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
-from fem_reference.accuracy import Level, coarser_accuracy
+from fem_reference.accuracy import coarser_accuracy
 from fem_reference.errors import AccuracyWarning, NoSuchEvent, NotConverged
 from fem_reference.problem import Problem
 from fem_reference.punch import check_contact
@@ -148,7 +147,7 @@ def _no_less_certain(
 ) -> dict[str, Solution | NoSuchEvent]:
     """Compute quantities, those that miss an accuracy finer than "default" there as well; the more certain one stays.
 
-    On the finer meshes the bound may be larger: it is what three meshes happen to show.
+    On the finer mesh the bound may be larger: it is what the degrees happen to show.
     """
     results = _summed(problem, rows, accuracy)
     coarser = coarser_accuracy(accuracy)
@@ -227,15 +226,15 @@ def _solved_together(
     for name, row in rows.items():
         if name not in results:
             try:
-                results[name] = _solution(row, meshes, choice.level)
+                results[name] = _solution(row, meshes)
             except NoSuchEvent as reason:
                 results[name] = reason.with_traceback(None)
             except NotConverged as reason:
                 missed[name] = reason
     solved = {name: solution for name, solution in results.items() if isinstance(solution, Solution)}
-    unresolved = _unresolved(problem, rows, solved, missed, meshes.path)
+    unresolved = _unresolved(problem, rows, solved, missed, meshes.fine)
     # All events of the whole system are columns of one linear system.
-    events = uncondensed_events(choice, replace(spec, density=choice.level.densities[-1]), size)
+    events = uncondensed_events(choice, spec, size)
     on_mesh = [name for name in solved if name not in unresolved]
     events.prepare(rows[name].functional for name in on_mesh)
     seconds = time.perf_counter() - begin
@@ -255,10 +254,9 @@ def _estimated(row: Quantity, choice: MeshChoice, spec: MeshSpec, size: float) -
     If the solid does not scale, also on the whole system, which may not resolve the rates at a narrow edge.
     """
     with suppress(NoSuchEvent):
-        _solution(row, events_on_meshes(choice, spec, size), choice.level)
+        _solution(row, events_on_meshes(choice, spec, size))
         if not choice.scaling:
-            finest = replace(spec, density=choice.level.densities[-1])
-            uncondensed_events(choice, finest, size).prepare((row.functional,))
+            uncondensed_events(choice, spec, size).prepare((row.functional,))
 
 
 def _unresolved(
@@ -266,13 +264,13 @@ def _unresolved(
     rows: Mapping[str, Quantity],
     solved: Mapping[str, Solution],
     missed: Iterable[str],
-    path: PathEvents | ResolvedEvents,
+    path: ResolvedEvents,
 ) -> dict[str, Quantity]:
     """Quantities whose contact edge is not resolved on the mesh of another event, or which that mesh has missed.
 
-    An edge on elements that are longer than it is wide has an error that does not fall from one of three meshes to the
-    next: they do not bound it.  The quantities of the jump out of contact come first: before the jump into contact
-    there is no edge, and the mesh of the other jump is fine enough for it.
+    An edge on elements that are longer than it is wide has an error that does not fall from one degree to the next:
+    they do not bound it.  The quantities of the jump out of contact come first: before the jump into contact there is
+    no edge, and the mesh of the other jump is fine enough for it.
     """
     if scales(problem):
         return {}
@@ -282,23 +280,12 @@ def _unresolved(
     return {name: rows[name] for name in sorted(poor, key=lambda name: rows[name].events[0] != "jump_out")}
 
 
-def _solution(row: Quantity, meshes: EventsOnMeshes, level: Level) -> Solution:
+def _solution(row: Quantity, meshes: EventsOnMeshes) -> Solution:
     """Evaluate a quantity on the condensed system of all meshes."""
-    declared = row.order or level.order
-    estimate = meshes.estimate(row.functional, declared)
+    estimate = meshes.estimate(row.functional)
     for event in row.events:
-        point = meshes.path.at(event)
+        point = meshes.fine.at(event)
         check_contact(point.branch.contact.punch, point.edge_radius)
-    return Solution(
-        estimate.values[-1],
-        math.fsum(estimate.parts.values()),
-        meshes.path.at(row.events[0]).branch.contact.compliance.unknowns,
-        0,
-        0.0,
-        0.0,
-        estimate.convergence.observed_order,
-        float(declared),
-        level.densities,
-        estimate.values,
-        estimate.parts,
-    )
+    unknowns = meshes.fine.at(row.events[0]).branch.contact.compliance.unknowns
+    u_num = math.fsum(estimate.parts.values())
+    return Solution(estimate.values[-1], u_num, unknowns, 0, 0.0, 0.0, meshes.degrees, estimate.values, estimate.parts)

@@ -1,11 +1,11 @@
-"""States of a contact problem on the finest mesh: the equilibrium path, one event, and the surface there.
+"""States of a contact problem on the mesh of an accuracy: the equilibrium path, one event, and the surface there.
 
 The path is that of the condensed system.  An event and the surface there are those of the whole system (pyamg).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -67,7 +67,7 @@ class RadialField:
 
 
 def trace(problem: Problem, accuracy: float | str = "default", largest_turn: float | None = None) -> EquilibriumPath:
-    """Trace the equilibrium path from far away until the load is compressive, on the finest mesh.
+    """Trace the equilibrium path from far away until the load is compressive.
 
     The states in contact with a solid that does not scale lie on a mesh for each radius of the contact edge.
 
@@ -113,7 +113,7 @@ def trace(problem: Problem, accuracy: float | str = "default", largest_turn: flo
 
 
 def event_state(problem: Problem, event: str = "pull_off", accuracy: float | str = "default") -> tuple[MeshSpec, Point]:
-    """Return the equilibrium at an event on the finest mesh, with the mesh.
+    """Return the equilibrium at an event, with the mesh.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def event_state(problem: Problem, event: str = "pull_off", accuracy: float | str
     Returns
     -------
     spec : MeshSpec
-        The finest mesh, in units of the edge radius.
+        The mesh, in units of the edge radius.
     point : Point
         The equilibrium, in the units of the input.
 
@@ -149,7 +149,7 @@ def event_state(problem: Problem, event: str = "pull_off", accuracy: float | str
     if event not in EVENTS:
         raise ValueError(f"event {event!r} is unknown; choose one of {', '.join(EVENTS)}")
     with one_thread:
-        choice, spec, size = _finest(problem, event, accuracy)
+        choice, spec, size = chosen(problem, (event,), accuracy, _traced)
         return spec, uncondensed_events(choice, spec, size).at(event)
 
 
@@ -204,17 +204,6 @@ def profile(
         return RadialField(s * y[-1], gap, pressure, w, point.state.displacement, point.state.load)
 
 
-def _finest(problem: Problem, event: str, accuracy: float | str) -> tuple[MeshChoice, MeshSpec, float]:
-    """Return the finest mesh for an event, as `fem_reference._contact.mesh_choice.chosen` returns the coarsest."""
-    choice, spec, size = chosen(problem, (event,), accuracy, _traced)
-    return choice, _fine(choice, spec), size
-
-
-def _fine(choice: MeshChoice, spec: MeshSpec) -> MeshSpec:
-    """The finest of the three meshes."""
-    return replace(spec, density=choice.level.densities[-1])
-
-
 def _traced(choice: MeshChoice, spec: MeshSpec, size: float) -> None:
-    """Trace the path on the finest mesh, which is kept."""
-    choice.traced(_fine(choice, spec), size)
+    """Find the path on a mesh, which is kept."""
+    choice.traced(spec, size)

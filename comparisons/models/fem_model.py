@@ -16,7 +16,6 @@ import fem_reference
 from comparisons.model import Curve, NotApplicable, RadialField, Result
 from comparisons.models.solver import result_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
-from comparisons.numerics.grid_convergence import three_grids
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.quantities.points import near
@@ -72,13 +71,13 @@ class FiniteElements:
         units, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             solution = fem_reference.solve(body, quantity)
-        return result_of(_audited(solution), unit=units[QUANTITIES[quantity].scale])
+        return result_of(solution, unit=units[QUANTITIES[quantity].scale])
 
     def _critical_tabor_number(self, problem: Problem) -> Result:
         """Return the Tabor number of the modulus at which jumps begin; that of the problem is not used."""
         physical = self._scaled(Problem.dimensionless(problem.n, problem.k, 1.0))
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            solution = _audited(fem_reference.solve(self._body(physical), fem_reference.CRITICAL_MODULUS))
+            solution = fem_reference.solve(self._body(physical), fem_reference.CRITICAL_MODULUS)
 
         def tabor_number(E0: float) -> float:
             solid: Any = physical.solid
@@ -185,12 +184,6 @@ class FiniteElements:
             fem_reference.PowerPunch(n=physical.n, Q=_SCALES["Q"]),
             fem_reference.LennardJones(work_of_adhesion=_SCALES["work_of_adhesion"], z0=_SCALES["z0"]),
         )
-
-
-def _audited(solution: fem_reference.Solution) -> fem_reference.Solution:
-    """Return the solution with the larger of two bounds: the solver's own, and that of the three-grid procedure."""
-    family = three_grids(solution.densities, solution.values, solution.declared_order)
-    return solution.with_part("mesh", max(family.u_num - solution.u_num, 0.0))
 
 
 @lru_cache(maxsize=1)

@@ -19,13 +19,10 @@ from fem_reference._contact.path import WIDTH_SHARE, Point, edge_width, equilibr
 from fem_reference._contact.tracing import beginning
 from fem_reference._elastic.compliance import is_scaling
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference.accuracy import Level
+from fem_reference.accuracy import SEARCH_DEGREE, Level
 from fem_reference.problem import Problem
 
 __all__ = ["FollowedPath"]
-
-#: Degrees by which the elements of the path are lower than those of its events: a third of the time.
-SEARCH_DEGREES = 2
 
 #: Difference of two minima, relative to the load or in lengths of the law, up to which their own meshes decide.
 TIE = 1e-2
@@ -74,7 +71,7 @@ class FollowedPath:
 
     def __init__(self, choice: _Choice, initial: tuple[MeshSpec, float]) -> None:
         self._choice, self._first = choice, initial
-        self._degree = choice.level.order - SEARCH_DEGREES
+        self._degree = SEARCH_DEGREE
 
     @cached_property
     def _approach(self) -> tuple[list[Point], Point]:
@@ -110,7 +107,7 @@ class FollowedPath:
         ratio = EDGE_PER_BALANCE / FARTHER if scaling else WIDEST_EDGE
         check_width(ratio * WIDTH_SHARE * spot_length(problem, self._first[1]) / turn)
         approach, contact_start = self._approach
-        states = EdgeStates(self._choice, contact_start, self._degree, self._choice.level.densities[0])
+        states = EdgeStates(self._choice, contact_start, self._degree, self._choice.level.density)
         highest = displacement_range(approach)[1]
         touching = multimesh_path(states, contact_start.edge_radius, turn, kinks_within(problem), highest)
         before = complete_path([*beginning(approach, touching), *approach])
@@ -157,13 +154,13 @@ class FollowedPath:
             return self._first, replace(point, held=held), slope
         level = 0.0 if beginning is None else self._whole.at(beginning).state.displacement
         # Its own finest mesh decides where the edge is, because the rates on coarser ones are less certain.
-        order, densities = self._choice.level.order, self._choice.level.densities
+        order, density = self._choice.level.order, self._choice.level.density
         if beginning is None and event != "zero_load" and edge_width(point) < NARROW_EDGE:
-            states = EdgeStates(self._choice, point, order, densities[0], EVENT_SHARE)
+            states = EdgeStates(self._choice, point, order, density, EVENT_SHARE)
             radius, slope = states.extremum(lambda state: _height(event, state))
-            spec, point_there = EdgeStates(self._choice, states.start, order, densities[-1], EVENT_SHARE).own(radius)
+            spec, point_there = EdgeStates(self._choice, states.start, order, density, EVENT_SHARE).own(radius)
             return (spec, radius), replace(point_there, held=True), slope
-        states = EdgeStates(self._choice, point, order, densities[-1], EVENT_SHARE)
+        states = EdgeStates(self._choice, point, order, density, EVENT_SHARE)
         excess = excess_of(event, level)
         spec, radius = states.located(excess, slope)
         if held:

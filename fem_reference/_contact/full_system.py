@@ -70,14 +70,14 @@ class FullSystem:
     ) -> None:
         self.half_space, self.punch, self.law = half_space, punch, law
         self.preconditioner = ElasticPreconditioner(half_space) if preconditioner is None else preconditioner
-        basis = half_space.basis
-        mesh = basis.mesh
+        dofs = half_space.dofs
+        mesh = dofs.topo
         straight = mesh.mapping()
         mapping = _RectangleMapping(mesh, straight.elem, straight.bndelem)
         x, w = unit_gauss(2 * half_space.body.order + 2)
         top = np.flatnonzero((mesh.p[1][mesh.facets] == 0).all(axis=0))
         rule = x[None, :], w
-        self.facets = FacetBasis(mesh, basis.elem, mapping, facets=top, quadrature=rule)
+        self.facets = FacetBasis(mesh, dofs.element, mapping, facets=top, quadrature=rule)
         self.s: Array = np.asarray(self.facets.global_coordinates())[0]
 
     def gap(self, u: Array, delta: float, c: float) -> Array:

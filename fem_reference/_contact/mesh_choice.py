@@ -1,4 +1,4 @@
-"""Choice of the mesh: three densities an accuracy, and an edge as fine as the computed gap needs.
+"""Choice of the mesh of an accuracy, with an edge as fine as the computed gap needs.
 
 A solid that scales has one mesh for every size of the contact (`fem_reference._contact.one_mesh`).  Otherwise the path
 has a mesh for each radius of the contact edge, and so has each event (`fem_reference._contact.followed`).
@@ -21,7 +21,7 @@ from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tracing import traced
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference.accuracy import Level, finer_levels
+from fem_reference.accuracy import SEARCH_DEGREE, Level, finer_levels
 from fem_reference.errors import NotConverged
 from fem_reference.problem import Problem
 from fem_reference.punch import check_without_asperities, radius_at_height
@@ -41,7 +41,7 @@ class MeshChoice:
     ----------
     problem : Problem
     level : Level
-        Order and densities of the meshes.
+        Degree and density of the meshes.
     event : str, optional
         The event at whose contact edge the mesh is fine, if the solid does not scale.
     """
@@ -55,15 +55,15 @@ class MeshChoice:
         solid, punch, law = self.problem.solid, self.problem.punch, self.problem.law
         return Contact(punch, law, compliance_for(solid.modulus, solid.poisson, spec, size, self.scaling))
 
-    def traced(self, spec: MeshSpec, size: float) -> PathEvents | ResolvedEvents:
-        """The path on that mesh or, if the solid does not scale, its events there; kept for all quantities.
+    def traced(self, spec: MeshSpec, size: float) -> ResolvedEvents:
+        """The events of the path on that mesh; kept for all quantities.
 
         Raises
         ------
         NotConverged
-            If it cannot be traced there.
+            If the path cannot be traced.
         """
-        return _resolved(self, spec, size) if self.event else self.path(spec, size)
+        return _resolved(self, spec, size)
 
     def path(self, spec: MeshSpec, size: float) -> PathEvents:
         """The whole path on that mesh.
@@ -77,6 +77,18 @@ class MeshChoice:
         if isinstance(path, str):
             raise NotConverged(path)
         return path
+
+    def search_path(self, spec: MeshSpec, size: float) -> PathEvents:
+        """The whole path on that mesh with elements of the degree of a search, or with their own if that fails.
+
+        Raises
+        ------
+        NotConverged
+            If it cannot be traced with either.
+        """
+        with suppress(NotConverged):
+            return self.path(replace(spec, order=SEARCH_DEGREE), size)
+        return self.path(spec, size)
 
     @property
     def scaling(self) -> bool:
@@ -100,7 +112,7 @@ class MeshChoice:
         choice : MeshChoice
             This one, or one whose event is at the edge of the mesh.
         spec : MeshSpec
-            At the coarsest density of the accuracy.
+            Of the degree and density of the accuracy.
         size : float
             Radius of the edge of the mesh, in the length unit of the input.
 
@@ -131,7 +143,7 @@ class MeshChoice:
 
 
 def whole_path(problem: Problem, accuracy: float | str) -> PathEvents:
-    """Return the whole path, on the finest mesh or, if the solid does not scale, on a mesh for each radius.
+    """Return the whole path, on one mesh or, if the solid does not scale, on a mesh for each radius.
 
     Raises
     ------
@@ -141,7 +153,7 @@ def whole_path(problem: Problem, accuracy: float | str) -> PathEvents:
 
     def path(choice: MeshChoice, spec: MeshSpec, size: float) -> PathEvents:
         if choice.scaling:
-            return choice.path(replace(spec, density=choice.level.densities[-1]), size)
+            return choice.path(spec, size)
         return followed_path(choice).events()
 
     return path(*chosen(problem, ("zero_load",), accuracy, path))
@@ -228,7 +240,7 @@ def chosen(
     return used(finest.adapted(events, start))
 
 
-# The paths of one problem: three densities and the search for the width, on the meshes of two kinds of events.
+# The paths of one problem: the search for the width, on the meshes of two kinds of events.
 @lru_cache(maxsize=12)
 def _traced(choice: MeshChoice, spec: MeshSpec, size: float) -> PathEvents | str:
     """The path, or why it cannot be traced: the next quantity would try it again."""
@@ -240,5 +252,6 @@ def _traced(choice: MeshChoice, spec: MeshSpec, size: float) -> PathEvents | str
 
 @lru_cache(maxsize=12)
 def _resolved(choice: MeshChoice, spec: MeshSpec, size: float) -> ResolvedEvents:
-    """Events of the path of a solid that does not scale, on a mesh that is fine at the edge of one of them."""
-    return ResolvedEvents(followed_path(choice).events(choice.event), choice.contact(spec, size))
+    """Events of a path on a mesh that is fine at the edge of one of them, or at all if the solid scales."""
+    path = followed_path(choice).events(choice.event) if choice.event else choice.search_path(spec, size)
+    return ResolvedEvents(path, choice.contact(spec, size))

@@ -132,7 +132,7 @@ def mesh_spec(
     while exterior_error(scaled[0], extent, scaled[1]) > EXTERIOR_ERROR and extent < LARGEST_EXTENT:
         extent *= 2.0
     scales = depth_scales(modulus, FINEST_SCALE * depth * size, extent * size, nu).scaled(size)
-    density, order = level.densities[0], level.order
+    density, order = level.density, level.order
     kinks = tuple(r / size for r in kinks_within(problem))
     apex_width = min(_apex_width(problem.punch, size), max(apex / size, SMALLEST_APEX))
     return MeshSpec(width, depth, extent, density, order, apex_width, scales, far_share, kinks)
@@ -180,7 +180,9 @@ def balance_length(problem: Problem, radius: float) -> float:
     # power of 2 to which `spec` rounds.
     for _ in range(BALANCE_STEPS):
         E = float(solid.modulus(depth) / (1.0 - poisson_at(solid.poisson, depth) ** 2))
-        depth = np.sqrt(depth * E * law.z0**2 / (2.0 * law.work_of_adhesion))
+        before, depth = depth, np.sqrt(depth * E * law.z0**2 / (2.0 * law.work_of_adhesion))
+        if depth == before:
+            break
     return float(depth)
 
 

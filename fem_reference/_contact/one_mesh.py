@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Protocol
 
 from fem_reference._contact.cusp import slowest_sample
@@ -61,7 +61,7 @@ class _Choice(Protocol):
     @property
     def scaling(self) -> bool: ...
 
-    def path(self, spec: MeshSpec, size: float) -> PathEvents: ...
+    def search_path(self, spec: MeshSpec, size: float) -> PathEvents: ...
 
 
 @dataclass(slots=True)
@@ -84,7 +84,7 @@ class OneMesh:
     unresolved: int = 0
 
     def found(self, start: tuple[MeshSpec, float] | None = None) -> tuple[MeshSpec, float]:
-        """Return the mesh, at the coarsest density of the accuracy, and the radius of its edge.
+        """Return the mesh and the radius of its edge.
 
         Parameters
         ----------
@@ -96,10 +96,10 @@ class OneMesh:
         NotConverged
             If the path cannot be traced, or the edge is narrower than the mesh can resolve.
         """
-        spec, size = self._first() if start is None else (self._coarsest(start[0]), start[1])
+        spec, size = self._first() if start is None else start
         for _ in range(REFINEMENTS):
             try:
-                samples = self.choice.path(spec, size).samples
+                samples = self.choice.search_path(spec, size).samples
             except NotConverged:
                 narrower = self._without_path(spec, size)
                 if narrower == spec or self.failures == FAILURES:
@@ -113,9 +113,6 @@ class OneMesh:
         raise NotConverged(
             "the width of the contact edge was not found; the edge is narrower than the mesh can resolve"
         )
-
-    def _coarsest(self, spec: MeshSpec) -> MeshSpec:
-        return replace(spec, density=self.choice.level.densities[0])
 
     def _first(self) -> tuple[MeshSpec, float]:
         """The mesh for the edge where law and solid balance."""

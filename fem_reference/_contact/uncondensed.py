@@ -215,12 +215,16 @@ class UncondensedEvents:
             name: (i, len(equations) + folds.index(name) if name in folds else None) for i, name in enumerate(equations)
         }
         start: Array | None = None
-        iterations, step = 0, math.inf
+        iterations, step, half_space = 0, math.inf, system.half_space
         for _ in range(NEWTON_STEPS):
             loads = [system.load_vector(equation.y) for equation in equations.values()]
             loads += [system.load_vector_rate(equations[name].y, equations[name].rate) for name in folds]
+            if start is None and half_space.eliminations:
+                # Below the surface the condensed state.
+                compliance = next(iter(equations.values())).contact.compliance
+                start = half_space.recovered(compliance.matrix @ np.stack(loads, axis=1)[surface])
             result = solve_cg(
-                system.half_space,
+                half_space,
                 np.stack(loads, axis=1),
                 system.preconditioner,
                 LINEAR_TOLERANCE,

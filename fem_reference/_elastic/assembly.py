@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import Any, cast
 
 import numpy as np
 from scipy import sparse
-from skfem import Basis
+from skfem import Dofs, ElementQuadP
 
 from fem_reference._elastic.condensed_elements import CondensedElements, condensed_elements
+from fem_reference._elastic.dissection import Elimination
 from fem_reference._elastic.dof_ordering import both_components, line_unknowns, reversal_signs
 from fem_reference._elastic.elasticity import Body
 from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import Grid, MeshSpec
-from fem_reference._elastic.tensor_elements import numbering, tensor_stiffness
+from fem_reference._elastic.tensor_elements import tensor_stiffness
 from fem_reference._typing import Array, Index
+from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.modulus import Modulus
 from fem_reference.poisson import PoissonRatio
 
@@ -35,8 +37,8 @@ class HalfSpace:
         Interior mesh, chart, material.
     grid : Grid
         Its grid.
-    basis : skfem.Basis
-        Scalar space; component c of unknown i is row 2 i + c.
+    dofs : skfem.Dofs
+        Numbering of the scalar functions; component c of unknown i is row 2 i + c.
     elements : CondensedElements
         Stiffness of the elements per radian, on their sides.
     exterior : ndarray, shape (b, b)
@@ -47,16 +49,19 @@ class HalfSpace:
         Rows of u_z along the surface, in surface order.
     boundary : ndarray of int
         Rows on the square's side and bottom, coupled by the exterior.
+    eliminations : list of Elimination
+        What recovers the displacement of the mesh from that of its surface, once it has been condensed.
     """
 
     body: Body
     grid: Grid
-    basis: Basis
+    dofs: Dofs
     elements: CondensedElements
     exterior: Array
     free: Index
     surface: Index
     boundary: Index
+    eliminations: list[Elimination] = field(default_factory=list)
 
     @property
     def unknowns(self) -> int:
@@ -69,6 +74,23 @@ class HalfSpace:
         rows, cols = np.repeat(self.boundary, self.boundary.size), np.tile(self.boundary, self.boundary.size)
         inside = self.elements.assembled()
         return (inside + sparse.coo_array((self.exterior.ravel(), (rows, cols)), shape=inside.shape)).tocsr()
+
+    def recovered(self, w: Array) -> Array:
+        """Return the displacement of the mesh, shape (2 N, q), without that inside the elements, from its surface."""
+        u = np.zeros((self.elements.size, w.shape[1]))
+        u[self.surface] = w
+        for elimination in reversed(self.eliminations):
+            u[elimination.rows] = elimination.follow @ u[elimination.stays]
+        return u
+
+    def completed(self, u: Array) -> Array:
+        """Fill in the displacement inside every element, under that of the sides; shape (2 N,)."""
+        complete, sides = u.copy(), self.elements.sides.shape[1]
+        body = self.body
+        for _, rows, K in tensor_stiffness(self.grid, self.dofs, body.modulus, body.nu):
+            pull = K[:, sides:, :sides] @ u[rows[:, :sides], None]
+            complete[rows[:, sides:]] = -np.linalg.solve(K[:, sides:, sides:], pull)[:, :, 0]
+        return complete
 
 
 def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, order: int = 4) -> HalfSpace:
@@ -92,25 +114,23 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, 
     mesh = grid.quads()
     layer = float(grid.z[1])
     body = Body(mesh, InteriorChart(layer, modulus.surface_exponent), modulus, nu, order)
-    basis = numbering(mesh, order)
-    inside = 2 * int(basis.interior_dofs.shape[0])
-    parts = tensor_stiffness(grid, basis, modulus, nu, order)
-    elements = condensed_elements(parts, mesh.nelements, inside, 2 * basis.N)
-    side = line_unknowns(basis, 0, grid.extent)
-    bottom = line_unknowns(basis, 1, grid.extent, reverse=True)
+    dofs = Dofs(mesh, ElementQuadP(order))
+    elements = condensed_elements(tensor_stiffness(grid, dofs, modulus, nu), dofs)
+    side = line_unknowns(dofs, 0, grid.extent)
+    bottom = line_unknowns(dofs, 1, grid.extent, reverse=True)
     nz, nr, edges = grid.z.size - 1, grid.r.size - 1, order - 1
     square = np.concatenate([side[: nz + 1], bottom[1 : nr + 1], side[nz + 1 :], bottom[nr + 1 :]])
     signs = np.ones(square.size)
     signs[square.size - nr * edges :] = reversal_signs(nr, order)[nr + 1 :]
     weight = np.repeat(signs, 2)
     outer = weight[:, None] * exterior_stiffness(grid, modulus, nu, order) * weight
-    free = np.setdiff1d(elements.sides, 2 * line_unknowns(basis, 0, 0.0))
-    surface = 2 * line_unknowns(basis, 1, 0.0) + 1
-    return HalfSpace(body, grid, basis, elements, outer, free, surface, both_components(square))
+    free = np.setdiff1d(elements.sides, 2 * line_unknowns(dofs, 0, 0.0))
+    surface = 2 * line_unknowns(dofs, 1, 0.0) + 1
+    return HalfSpace(body, grid, dofs, elements, outer, free, surface, both_components(square))
 
 
 def half_space_of(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) -> HalfSpace:
-    """Return the half-space on a mesh, kept for the next caller: compliance and pyamg's preconditioner share it.
+    """Return the half-space on a mesh; above the degree of a search it is kept for its whole system.
 
     Parameters
     ----------
@@ -125,10 +145,12 @@ def half_space_of(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) ->
     -------
     HalfSpace
     """
+    if spec.order <= SEARCH_DEGREE:
+        return assemble_half_space(spec.grid(), modulus, nu, spec.order)
     return _assembled(cast(Hashable, modulus), cast(Hashable, nu), spec)
 
 
-# Two: the mesh of the last path, whose events are solved next, and one before it; each holds some 100 MB.
-@lru_cache(maxsize=2)
+# Three: the mesh whose whole system is solved next, the degree below it, and one with a coarser feature.
+@lru_cache(maxsize=3)
 def _assembled(modulus: Any, nu: Any, spec: MeshSpec) -> HalfSpace:
     return assemble_half_space(spec.grid(), modulus, nu, spec.order)

@@ -10,10 +10,11 @@ import numpy as np
 from scipy import linalg
 
 from fem_reference._elastic.assembly import HalfSpace
-from fem_reference._elastic.dissection import condensed_on, schur_complement
+from fem_reference._elastic.dissection import Elimination, condensed_on, eliminated
 from fem_reference._elastic.elasticity import element_places
 from fem_reference._elastic.scaling import unit_scaling
 from fem_reference._typing import Array
+from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.errors import NotConverged
 
 __all__ = ["condensed", "surface_stiffness"]
@@ -58,12 +59,18 @@ def condensed(half_space: HalfSpace) -> tuple[Array, Array]:
     present = np.isin(boundary, half_space.free)
     exterior_rows = np.setdiff1d(boundary[present], surface)
     rows = np.concatenate([surface, exterior_rows])
-    K = condensed_on(rows, half_space.elements, element_places(half_space.basis.mesh), half_space.free)
+    # A mesh for a search has no use for its rounding, nor for the displacement below its surface.
+    eliminations = half_space.eliminations if half_space.body.order > SEARCH_DEGREE else None
+    places = element_places(half_space.dofs.topo)
+    K = condensed_on(rows, half_space.elements, places, half_space.free, eliminations)
     order = np.argsort(rows)
     local = order[np.searchsorted(rows[order], boundary[present])]
     K[np.ix_(local, local)] += half_space.exterior[np.ix_(present, present)]
     scale = unit_scaling(np.diagonal(K))
-    S = schur_complement(scale[:, None] * K * scale, surface.size)
+    S, follow = eliminated(scale[:, None] * K * scale, surface.size, eliminations is not None)
+    if eliminations is not None:
+        follow = scale[surface.size :, None] * follow / scale[: surface.size]
+        eliminations.append(Elimination(exterior_rows, surface, follow))
     scale = scale[: surface.size]
     lower = np.tril((S - S.T) / scale[:, None] / scale)
     S = 0.5 * (S + S.T) / scale[:, None] / scale

@@ -6,20 +6,20 @@ The order is: the vertices along the line, then the p - 1 edge functions of each
 from __future__ import annotations
 
 import numpy as np
-from skfem import Basis
+from skfem import Dofs
 
 from fem_reference._typing import Array, Index
 
 __all__ = ["both_components", "line_unknowns", "reversal_signs"]
 
 
-def line_unknowns(basis: Basis, axis: int, value: float, reverse: bool = False) -> Index:
+def line_unknowns(dofs: Dofs, axis: int, value: float, reverse: bool = False) -> Index:
     """Scalar unknowns on the grid line x[axis] = value of a tensor-product mesh.
 
     Parameters
     ----------
-    basis : skfem.Basis
-        A space of `ElementQuadP`.
+    dofs : skfem.Dofs
+        Numbering of the functions of `ElementQuadP`.
     axis : int
         Mesh coordinate that is constant on the line.
     value : float
@@ -35,13 +35,13 @@ def line_unknowns(basis: Basis, axis: int, value: float, reverse: bool = False) 
     Examples
     --------
     >>> from skfem import ElementQuadP, MeshQuad
-    >>> basis = Basis(MeshQuad.init_tensor(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0])), ElementQuadP(3))
-    >>> surface = line_unknowns(basis, 1, 0.0)
-    >>> surface.size, basis.mesh.p[0][surface[:3]].tolist()  # three vertices and two functions on each of two edges
+    >>> dofs = Dofs(MeshQuad.init_tensor(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0])), ElementQuadP(3))
+    >>> surface = line_unknowns(dofs, 1, 0.0)
+    >>> surface.size, dofs.topo.p[0][surface[:3]].tolist()  # three vertices and two functions on each of two edges
     (7, [0.0, 1.0, 2.0])
     """
-    p = basis.mesh.p
-    facets = basis.mesh.facets
+    p = dofs.topo.p
+    facets = dofs.topo.facets
     on_line = p[axis] == value
     vertices = np.flatnonzero(on_line)
     edges = np.flatnonzero(on_line[facets].all(axis=0))
@@ -50,7 +50,7 @@ def line_unknowns(basis: Basis, axis: int, value: float, reverse: bool = False) 
     edges = edges[np.argsort(along[facets[:, edges]].mean(axis=0))]
     if reverse:
         vertices, edges = vertices[::-1], edges[::-1]
-    return np.concatenate([basis.nodal_dofs[0, vertices], basis.facet_dofs[:, edges].T.ravel()])
+    return np.concatenate([dofs.nodal_dofs[0, vertices], dofs.facet_dofs[:, edges].T.ravel()])
 
 
 def reversal_signs(elements: int, order: int) -> Array:

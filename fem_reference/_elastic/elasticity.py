@@ -20,7 +20,6 @@ import numpy as np
 from scipy import sparse
 from skfem import Basis, ElementQuadP, MeshQuad
 
-from fem_reference._elastic.condensed_elements import CondensedElements, condensed_elements
 from fem_reference._elastic.dof_ordering import both_components
 from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._elastic.mapping import Chart, ChartMapping
@@ -28,7 +27,7 @@ from fem_reference._typing import Array, Index
 from fem_reference.modulus import Modulus
 from fem_reference.poisson import PoissonRatio, check_poisson, poisson_at
 
-__all__ = ["Body", "condensed_stiffness", "element_places", "gauss_product", "lame_parameters", "stiffness"]
+__all__ = ["Body", "contracted", "element_places", "gauss_product", "lame_parameters", "stiffness"]
 
 
 #: Gauss points a direction beyond the order p: r and E(z) are no polynomials of low degree.
@@ -118,16 +117,30 @@ def lame_parameters(modulus: Modulus, nu: float | PoissonRatio, z: Array) -> tup
 def _element_matrices(body: Body, basis: Basis, chunk: slice) -> Array:
     """Stiffness of some elements, shape (elements, 2 n, 2 n) with n functions and interleaved components."""
     r, z = np.asarray(basis.global_coordinates())[:, chunk]
-    measure = (r * basis.dx[chunk])[..., None]
-    lame, shear = (constant[..., None] * measure for constant in lame_parameters(body.modulus, body.nu, z))
-    # A radial function strains by `radial` (rr), `hoop` and `axial` (rz); an axial one by `axial` (zz)
-    # and `radial` (rz).
+    measure = r * basis.dx[chunk]
+    lame, shear = (constant * measure for constant in lame_parameters(body.modulus, body.nu, z))
     radial = np.stack([f[0].grad[0][chunk] for f in basis.basis], axis=-1)
     axial = np.stack([f[0].grad[1][chunk] for f in basis.basis], axis=-1)
     hoop = np.stack([np.asarray(f[0])[chunk] for f in basis.basis], axis=-1) / r[..., None]
+    return contracted(radial, axial, hoop, lame, shear)
+
+
+def contracted(radial: Array, axial: Array, hoop: Array, lame: Array, shear: Array) -> Array:
+    """Stiffness of elements from the values of n functions at q points, shape (elements, 2 n, 2 n).
+
+    Parameters
+    ----------
+    radial, axial, hoop : ndarray, shape (elements, q, n)
+        Derivatives along r and z, and the values over r.
+    lame, shear : ndarray, shape (elements, q)
+        Lame's constants times the weights of the points.
+    """
+    # A radial function strains by `radial` (rr), `hoop` and `axial` (rz); an axial one by `axial` (zz)
+    # and `radial` (rz).
+    lame, shear = lame[..., None], shear[..., None]
     stiff = lame + 2.0 * shear
     n = radial.shape[-1]
-    K = np.empty((r.shape[0], 2 * n, 2 * n))
+    K = np.empty((radial.shape[0], 2 * n, 2 * n))
     radial_t, axial_t, hoop_t = (np.swapaxes(f, 1, 2) for f in (radial, axial, hoop))
     K[:, 0::2, 0::2] = (
         radial_t @ (stiff * radial + lame * hoop) + hoop_t @ (stiff * hoop + lame * radial) + axial_t @ (shear * axial)
@@ -172,34 +185,6 @@ def stiffness(body: Body, first_layer: Index, depth_axis: int = 1) -> tuple[spar
     data, rows, cols = (np.concatenate(column) for column in zip(*triplets, strict=True))
     size = 2 * bases[-1].N
     return sparse.coo_array((data, (rows, cols)), shape=(size, size)).tocsr(), bases[-1]
-
-
-def condensed_stiffness(body: Body, first_layer: Index, depth_axis: int = 1) -> tuple[CondensedElements, Basis]:
-    """Stiffness of the elements of a body without the functions inside them.
-
-    Parameters
-    ----------
-    body, first_layer, depth_axis
-        As for `stiffness`.
-
-    Returns
-    -------
-    elements : CondensedElements
-        In the order of the mesh.
-    basis : skfem.Basis
-        As of `stiffness`.
-
-    Raises
-    ------
-    ValueError
-        As `stiffness`.
-    NotConverged
-        If the stiffness of the functions inside an element is singular.
-    """
-    bases = _bases(body, first_layer, depth_axis)
-    basis = bases[-1]
-    count = 2 * int(basis.interior_dofs.shape[0])
-    return condensed_elements(_elements(body, bases), body.mesh.nelements, count, 2 * basis.N), basis
 
 
 def element_places(mesh: MeshQuad) -> Index:

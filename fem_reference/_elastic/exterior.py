@@ -12,17 +12,20 @@ Dirichlet-to-Neumann matrix of the discrete exterior, for both modulus exponents
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import linalg
-from skfem import MeshQuad
+from skfem import Dofs, ElementQuadP, MeshQuad
 
+from fem_reference._elastic.condensed_elements import condensed_elements
 from fem_reference._elastic.dissection import condensed_on
 from fem_reference._elastic.dof_ordering import both_components, line_unknowns
-from fem_reference._elastic.elasticity import Body, condensed_stiffness, element_places
+from fem_reference._elastic.elasticity import Body, element_places
 from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._elastic.line_functions import line_projection
-from fem_reference._elastic.mapping import ShellChart
+from fem_reference._elastic.mapping import ShellChart, graded_depth
 from fem_reference._elastic.mesh import Grid
-from fem_reference._typing import Array, Index
+from fem_reference._elastic.tensor_elements import charted_stiffness
+from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 from fem_reference.modulus import Modulus, PowerLawModulus
 from fem_reference.modulus_checks import positive_modulus
@@ -34,11 +37,12 @@ __all__ = ["exterior_error", "exterior_stiffness"]
 #: Scale ratio of one shell; at order 4 its radial error is below 1e-9 of the far field, itself 1/extent.
 SHELL_RATIO = 1.3
 
-#: Side of the square over the radius within which its bottom is one element for the exterior. The field there is as
-#: smooth as the square is far, while the elements are those of the contact. The compliance changes by 2e-15 at most at
-#: degree 6, by 1e-12 at degree 4 (measured for k = 0, 0.6, 0.9 and a side of 16 and 64 radii; at half of this ratio by
-#: 2e-14 and 8e-11).
-BOTTOM_RATIO = 8.0
+#: Side of the square over the radius within which its bottom, and the depth within which its side, is one element for
+#: the exterior. The field there is as smooth as the square is far, while the elements are those of the contact and of
+#: its surface. The compliance of the contact changes, relative to its largest entry, by 2e-15 to 6e-10 at degree 7 and
+#: by 3e-12 to 8e-9 at degree 4 where the side is 16 or 64 radii (measured for k = 0, 0.05, 0.6, 0.9; the largest for
+#: k = 0.05), and falls like the compliance at the end of the mesh.
+COARSE_RATIO = 8.0
 
 #: Ratio 1.3^4096 at most: the remaining coupling is zero in double precision long before.
 DOUBLINGS = 12
@@ -53,7 +57,7 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, o
     Parameters
     ----------
     grid : Grid
-        Grid of the interior; the exterior has the nodes of its boundary, but for those under the contact.
+        Grid of the interior; the exterior has the nodes of its boundary, but those next to the surface and the axis.
     modulus : Modulus
         Its depth exponent and its value at depth a define the power law of the exterior.  For a modulus
         that is no power law the square must be so large that this does not matter (see `exterior_error`).
@@ -79,30 +83,39 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, o
     value = float(modulus(np.array(a)))
     law = modulus if isinstance(modulus, PowerLawModulus) else PowerLawModulus(value, a, k)
     # Along the side down, then along the bottom to the axis.
-    retained = _exterior_nodes(grid)
-    fine, t = (np.concatenate([grid.z, a + (a - r[::-1][1:])]) for r in (grid.r, grid.r[retained]))
+    fine, keep = (
+        np.concatenate([down, along])
+        for down, along in ((grid.z, 2.0 * a - grid.r[-2::-1]), (_far(grid.z), _far(grid.r)[-2::-1]))
+    )
+    t = fine[keep.astype(bool)]
     mesh = MeshQuad.init_tensor(t, np.array([1.0, SHELL_RATIO]))
-    layer = float(grid.z[1])
+    layer = float(t[1])
     body = Body(mesh, ShellChart(a, layer, k), law, float(poisson_at(nu, np.array(a))), order)
     touching = np.flatnonzero(mesh.p[0][mesh.t].max(axis=0) <= layer * (1 + 1e-12))
-    elements, basis = condensed_stiffness(body, touching, depth_axis=0)
-    inner = both_components(line_unknowns(basis, 1, 1.0))
-    outer = both_components(line_unknowns(basis, 1, SHELL_RATIO))
-    axis = 2 * line_unknowns(basis, 0, float(t[-1]))
+    dofs = Dofs(mesh, ElementQuadP(order))
+    elements = condensed_elements(charted_stiffness(body, dofs, touching), dofs)
+    inner = both_components(line_unknowns(dofs, 1, 1.0))
+    outer = both_components(line_unknowns(dofs, 1, SHELL_RATIO))
+    axis = 2 * line_unknowns(dofs, 0, float(t[-1]))
     free = np.setdiff1d(elements.sides, axis)
     present = ~np.isin(inner, axis)
     condensed = condensed_on(np.concatenate([inner, outer])[np.tile(present, 2)], elements, element_places(mesh), free)
     condensed = 0.5 * (condensed + condensed.T)
     m = int(present.sum())
     A = _double(condensed[:m, :m], condensed[:m, m:], condensed[m:, m:], SHELL_RATIO ** (1.0 + k))
-    projection = np.kron(line_projection(fine, np.searchsorted(fine, t), order), np.eye(2))[present]
+
+    def coordinate(y: Array) -> Array:
+        """From the graded first layer of the interior to that of the exterior."""
+        z = graded_depth(y, float(grid.z[1]), modulus.surface_exponent)[0]
+        return np.where(z < layer, layer * (z / layer) ** (1.0 - k), z)
+
+    projection = np.kron(line_projection(fine, np.searchsorted(fine, t), order, coordinate), np.eye(2))[present]
     return np.asarray(projection.T @ A @ projection)
 
 
-def _exterior_nodes(grid: Grid) -> Index:
-    """Radii of the bottom that the exterior has: all in its outer part, and the axis."""
-    outer = np.flatnonzero(grid.r >= grid.extent / BOTTOM_RATIO)
-    return np.append(0, outer[outer > 0])
+def _far(nodes: Array) -> NDArray[np.bool_]:
+    """Whether the exterior has a node of a side: all in its outer part, and the end next to the contact."""
+    return (nodes >= nodes[-1] / COARSE_RATIO) | (nodes == 0.0)
 
 
 def _double(A: Array, B: Array, D: Array, factor: float) -> Array:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from fem_reference._elastic.gauss import unit_gauss
@@ -45,7 +47,9 @@ def line_slopes(nodes: Array, order: int, s: Array) -> Array:
     return slopes
 
 
-def line_projection(nodes: Array, retained: Index, order: int) -> Array:
+def line_projection(
+    nodes: Array, retained: Index, order: int, coordinate: Callable[[Array], Array] | None = None
+) -> Array:
     """Projection of the functions on a line to those of longer elements: equal at the nodes, nearest in slope between.
 
     What it loses of a function is orthogonal to polynomials of degree p - 2 on each longer element.
@@ -54,10 +58,12 @@ def line_projection(nodes: Array, retained: Index, order: int) -> Array:
     ----------
     nodes : ndarray, shape (n,)
         Ascending.
-    kept : ndarray of int
+    retained : ndarray of int
         Indices of the nodes that the longer elements have, the first and the last among them.
     order : int
         Degree p of the functions, at least 2.
+    coordinate : callable, optional
+        From the coordinate of the shorter elements to that of the longer ones; both are equal at the nodes that stay.
 
     Returns
     -------
@@ -71,12 +77,12 @@ def line_projection(nodes: Array, retained: Index, order: int) -> Array:
     >>> (projection @ square).round(12) == np.array([0.0, 9.0, 9.0 / 6**0.5]).round(12)  # r^2 on [0, 3]
     array([ True,  True,  True])
     """
-    x, w = unit_gauss(order + 1)
+    x, w = unit_gauss(2 * order)
     h = np.diff(nodes)[:, None]
     s = (nodes[:-1, None] + h * x).ravel()
     weight = (h * w).ravel()
     longer = nodes[retained]
-    short, long = line_slopes(nodes, order, s), line_slopes(longer, order, s)
+    short, long = line_slopes(nodes, order, s), line_slopes(longer, order, s if coordinate is None else coordinate(s))
     # The slopes of the functions inside an element of length h are orthogonal, of the norm 2/h.
     scale = np.concatenate([np.zeros(retained.size), np.repeat(0.5 * np.diff(longer), order - 1)])
     projection = scale[:, None] * (long.T @ (weight[:, None] * short))

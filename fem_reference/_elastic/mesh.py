@@ -192,26 +192,3 @@ class MeshSpec:
         (0.5,)
         """
         return replace(self, scales=self.scales.scaled(ratio), kinks=tuple(r / ratio for r in self.kinks))
-
-    def refines(self, coarser: MeshSpec) -> bool:
-        """Whether this mesh has more elements between all neighbouring lines than a coarser one with the same lines.
-
-        Examples
-        --------
-        >>> coarse = MeshSpec(0.1, 0.05, 100.0, 1.0, 4, scales=DepthScales((2.0, 2.1)))
-        >>> replace(coarse, density=0.5).refines(coarse), replace(coarse, density=0.02).refines(coarse)
-        (False, True)
-        """
-        grids = self.grid(), coarser.grid()
-        return all(
-            bool(np.all(np.diff(np.searchsorted(fine, lines)) > np.diff(np.searchsorted(coarse, lines))))
-            for fine, coarse, lines in (
-                (grids[0].r, grids[1].r, _within(self.kinks, self.extent)),
-                (grids[0].z, grids[1].z, _within(self.scales.lines, self.extent)),
-            )
-        )
-
-
-def _within(lines: tuple[float, ...], length: float) -> Array:
-    """Ends of the intervals between lines."""
-    return np.array([0.0, *(z for z in lines if 0.0 < z < length), length])

@@ -7,17 +7,19 @@ product of two integrals along its sides.  Functions, numbering and degree are t
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import lru_cache
 
 import numpy as np
-from skfem import Basis, ElementQuadP, MeshQuad
+from skfem import Dofs, MeshQuad
 
 from fem_reference._elastic.dof_ordering import both_components
 from fem_reference._elastic.elasticity import (
     CHUNK,
     EXTRA_POINTS,
     FIRST_LAYER_POINTS,
+    Body,
+    contracted,
     element_places,
+    gauss_product,
     lame_parameters,
 )
 from fem_reference._elastic.gauss import unit_gauss
@@ -28,24 +30,18 @@ from fem_reference._typing import Array, Index
 from fem_reference.modulus import Modulus
 from fem_reference.poisson import PoissonRatio
 
-__all__ = ["numbering", "tensor_stiffness"]
+__all__ = ["charted_stiffness", "tensor_stiffness"]
 
 
-def numbering(mesh: MeshQuad, order: int) -> Basis:
-    """Return scikit-fem's numbering of the functions; its one quadrature point is not used."""
-    point = np.full((2, 1), 0.5), np.ones(1)
-    return Basis(mesh, ElementQuadP(order), quadrature=point, disable_doflocs=True)
-
-
-@lru_cache(maxsize=8)
-def _factors(order: int) -> tuple[Index, Index]:
-    """Degrees of both factors of each function of an element, along its first and its second reference axis."""
-    edge, inner = range(2, order + 1), range(2, order + 1)
+def _factors(mesh: MeshQuad, order: int) -> tuple[Index, Index]:
+    """Degrees of both factors of each function of an element, along both coordinates of the mesh."""
+    edge = range(2, order + 1)
     pairs = [(0, 0), (1, 0), (1, 1), (0, 1)]
     pairs += [(i, 0) for i in edge] + [(1, i) for i in edge] + [(i, 1) for i in edge] + [(0, i) for i in edge]
-    pairs += [(i, j) for i in inner for j in inner]
+    pairs += [(i, j) for i in edge for j in edge]
     x, y = np.array(pairs, np.intp).T
-    return x, y
+    # The first reference axis goes from the first corner to the second.
+    return (y, x) if mesh.p[0, mesh.t[0, 0]] == mesh.p[0, mesh.t[1, 0]] else (x, y)
 
 
 def _along(points: Array, order: int) -> tuple[Array, Array]:
@@ -113,7 +109,7 @@ BLOCKS = {
 
 
 def tensor_stiffness(
-    grid: Grid, basis: Basis, modulus: Modulus, nu: float | PoissonRatio, order: int
+    grid: Grid, dofs: Dofs, modulus: Modulus, nu: float | PoissonRatio
 ) -> Iterator[tuple[Index, Index, Array]]:
     """Numbers, rows and stiffness of some elements at a time: shapes (e,), (e, 2 n) and (e, 2 n, 2 n).
 
@@ -121,26 +117,22 @@ def tensor_stiffness(
     ----------
     grid : Grid
         The mesh; its first layer has the graded chart.
-    basis : skfem.Basis
-        As `numbering` returns it.
+    dofs : skfem.Dofs
+        Numbering of its functions of `ElementQuadP`.
     modulus, nu
         E(z), and the Poisson ratio.
-    order : int
-        Degree of the elements.
 
     Raises
     ------
     ValueError
         If the modulus is not positive, or Poisson's ratio outside its range.
     """
-    mesh = basis.mesh
-    # The first reference axis goes from the first corner to the second.
-    down = bool(mesh.p[0, mesh.t[0, 0]] == mesh.p[0, mesh.t[1, 0]])
-    along_r, along_z = _factors(order)[::-1] if down else _factors(order)
+    mesh, order = dofs.topo, int(dofs.element.p)
+    along_r, along_z = _factors(mesh, order)
     radial = {name: M[:, along_r[:, None], along_r] for name, M in _radial(grid.r, order).items()}
     depth = {name: M[:, along_z[:, None], along_z] for name, M in _depth(grid.z, modulus, nu, order).items()}
     columns, layers = element_places(mesh)
-    rows = both_components(np.asarray(basis.element_dofs)).T
+    rows = both_components(np.asarray(dofs.element_dofs)).T
     size = rows.shape[1]
     for start in range(0, rows.shape[0], CHUNK):
         chunk = np.arange(start, min(start + CHUNK, rows.shape[0]))
@@ -153,3 +145,39 @@ def tensor_stiffness(
                 block += radial[name_r][column] * depth[name_z][layer]
         K[:, 1::2, 0::2] = np.swapaxes(K[:, 0::2, 1::2], 1, 2)
         yield chunk, rows[chunk], K
+
+
+def charted_stiffness(body: Body, dofs: Dofs, first_layer: Index) -> Iterator[tuple[Index, Index, Array]]:
+    """Numbers, rows and stiffness of elements as of `tensor_stiffness`, under any chart of a tensor-product mesh.
+
+    Parameters
+    ----------
+    body : Body
+        Its first coordinate points into the solid in the first layer.
+    dofs : skfem.Dofs
+        Numbering of the functions on its mesh.
+    first_layer : ndarray of int
+        Elements touching the surface.
+    """
+    mesh, order = body.mesh, body.order
+    along = _factors(mesh, order)
+    rows = both_components(np.asarray(dofs.element_dofs)).T
+    corner, sides = mesh.p[:, mesh.t].min(axis=1), np.ptp(mesh.p[:, mesh.t], axis=1)
+    others = np.setdiff1d(np.arange(mesh.nelements), first_layer)
+    count = order + EXTRA_POINTS
+    rules = (others, gauss_product(count, count)), (first_layer, gauss_product(count, FIRST_LAYER_POINTS, 3))
+    for elements, (X, W) in rules:
+        if not elements.size:
+            continue
+        # Transposed in the first layer, where the graded rule goes along the first coordinate.
+        X = X[::-1] if elements is first_layer else X
+        (r, z), J = body.chart(corner[:, elements, None] + sides[:, elements, None] * X[:, None, :])
+        det = J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0]
+        N, dN = (f[:, along[0]] for f in _along(X[0], order))
+        M, dM = (f[:, along[1]] for f in _along(X[1], order))
+        first, second = (g / sides[i, elements, None, None] for i, g in enumerate((dN * M, N * dM)))
+        radial = (J[1, 1] / det)[..., None] * first - (J[1, 0] / det)[..., None] * second
+        axial = (J[0, 0] / det)[..., None] * second - (J[0, 1] / det)[..., None] * first
+        measure = r * np.abs(det) * W * (sides[0] * sides[1])[elements, None]
+        constants = (constant * measure for constant in lame_parameters(body.modulus, body.nu, z))
+        yield elements, rows[elements], contracted(radial, axial, N * M / r[..., None], *constants)

@@ -16,13 +16,13 @@ import numpy as np
 from scipy import sparse
 
 from fem_reference._linear.algebraic_multigrid import pyamg
-from fem_reference._linear.strips import StripSmoother, sparse_bytes, strips_of
+from fem_reference._linear.strips import StripSmoother, factorise, sparse_bytes, strips_of
 from fem_reference._typing import Array, Index
 
 __all__ = ["hierarchy_bytes", "vertex_hierarchy"]
 
-#: Unknowns pyamg solves directly.
-COARSEST = 300
+#: Unknowns of the coarsest level, which pyamg solves by a sparse factorisation.
+COARSEST = 2000
 
 
 def vertex_hierarchy(matrix: Any, candidates: Array, positions: Sequence[Index]) -> pyamg.MultilevelSolver:
@@ -70,6 +70,7 @@ def _hierarchy(matrix: Any, candidates: Array, positions: Sequence[Index]) -> py
         presmoother=[None, below],
         postsmoother=[None, below],
         max_coarse=COARSEST,
+        coarse_solver="splu",
     )
     if len(hierarchy.levels) > 1:
         finest = hierarchy.levels[0]
@@ -79,15 +80,15 @@ def _hierarchy(matrix: Any, candidates: Array, positions: Sequence[Index]) -> py
 
 
 def hierarchy_bytes(hierarchy: pyamg.MultilevelSolver) -> int:
-    """Bytes of a hierarchy: its matrices, candidates and smoothers, and the dense inverse on the coarsest level.
+    """Bytes of a hierarchy: its matrices, candidates and smoothers, and the factors of the coarsest level.
 
     Examples
     --------
-    >>> hierarchy = pyamg.smoothed_aggregation_solver(sparse.csr_array(np.eye(10)))  # one level: 10 x 10 inverse
-    >>> hierarchy_bytes(hierarchy) - 8 * 10**2  # values and indices of the matrix 164, candidates 80
+    >>> hierarchy = pyamg.smoothed_aggregation_solver(sparse.csr_array(np.eye(10)))  # one level
+    >>> hierarchy_bytes(hierarchy) - 12 * 20  # values and indices of the matrix 164, candidates 80
     244
     """
-    total = 8 * hierarchy.levels[-1].A.shape[0] ** 2
+    total = 12 * factorise(sparse.csr_array(hierarchy.levels[-1].A)).nnz
     for level in hierarchy.levels:
         total += sum(sparse_bytes(getattr(level, name)) for name in ("A", "P", "R") if hasattr(level, name))
         total += level.B.nbytes

@@ -33,13 +33,13 @@ COARSE_CYCLES = 4
 
 def _grid_positions(half_space: HalfSpace) -> tuple[Index, Index]:
     """Column and row of every vertex and edge function, shape (N,): even on grid lines, odd between them."""
-    basis, grid = half_space.basis, half_space.grid
-    mesh = basis.mesh
+    dofs, grid = half_space.dofs, half_space.grid
+    mesh = dofs.topo
     places = 2 * np.searchsorted(grid.r, mesh.p[0]), 2 * np.searchsorted(grid.z, mesh.p[1])
-    column, row = np.zeros(basis.N, np.intp), np.zeros(basis.N, np.intp)
+    column, row = np.zeros(dofs.N, np.intp), np.zeros(dofs.N, np.intp)
     for position, value in zip((column, row), places, strict=True):
-        position[basis.nodal_dofs[0]] = value
-        position[basis.facet_dofs] = value[mesh.facets].sum(axis=0) // 2
+        position[dofs.nodal_dofs[0]] = value
+        position[dofs.facet_dofs] = value[mesh.facets].sum(axis=0) // 2
     return column, row
 
 
@@ -77,8 +77,8 @@ class ElasticPreconditioner:
 
     def _build_coarse(self, half_space: HalfSpace) -> tuple[Index, pyamg.MultilevelSolver]:
         """Galerkin matrix of the vertex functions, in 2 x 2 blocks, and its aggregation hierarchy."""
-        basis, free = half_space.basis, half_space.free
-        rows = 2 * basis.nodal_dofs[0][:, None] + np.arange(2)
+        dofs, free = half_space.dofs, half_space.free
+        rows = 2 * dofs.nodal_dofs[0][:, None] + np.arange(2)
         position = np.full(half_space.matrix.shape[0], -1)
         position[free] = np.arange(free.size)
         vertices = position[rows.ravel()]
@@ -97,7 +97,7 @@ class ElasticPreconditioner:
         candidates = np.zeros((size, 2))
         candidates[0::2, 0], candidates[1::2, 1] = unit[0::2], unit[1::2]
         # Grid lines have even positions.
-        places = [index[basis.nodal_dofs[0]] // 2 for index in _grid_positions(half_space)]
+        places = [index[dofs.nodal_dofs[0]] // 2 for index in _grid_positions(half_space)]
         return vertices, vertex_hierarchy(coarse, candidates, places)
 
     def __call__(self, b: Array) -> Array:
@@ -109,10 +109,12 @@ class ElasticPreconditioner:
             strips.correct(x, residual)
         present = self._vertices >= 0
         vertices = self._vertices[present]
+        # A single level is solved directly.
+        cycles = COARSE_CYCLES if len(self._coarse.levels) > 1 else 1
         for column, left in zip(x.T, residual.T, strict=True):
             coarse = np.zeros(self._vertices.size)
             coarse[present] = left[vertices]
-            correction = self._coarse.solve(coarse, tol=1e-300, maxiter=COARSE_CYCLES, cycle="W")[present]
+            correction = self._coarse.solve(coarse, tol=1e-300, maxiter=cycles, cycle="W")[present]
             column[vertices] += correction
             left -= self._vertex_columns @ correction
         for strips in reversed(self._strips):

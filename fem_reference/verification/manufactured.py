@@ -102,7 +102,7 @@ def manufactured_error(grid: Grid, modulus: Modulus, nu: float, order: int, fiel
     basis = Basis(mesh, ElementQuadP(order), ChartMapping(mesh, body.chart), quadrature=(points[::-1], weights))
     r, z = np.asarray(basis.global_coordinates())
     load = _load(basis, modulus(z), nu, field)
-    fixed = np.append(2 * line_unknowns(basis, 0, 0.0), 2 * line_unknowns(basis, 1, grid.extent)[0] + 1)
+    fixed = np.append(2 * line_unknowns(basis.dofs, 0, 0.0), 2 * line_unknowns(basis.dofs, 1, grid.extent)[0] + 1)
     values = np.zeros(matrix.shape[0])
     values[fixed[-1]] = float(field.displacement(np.array(0.0), np.array(grid.extent))[1])
     free = np.setdiff1d(np.arange(values.size), fixed)

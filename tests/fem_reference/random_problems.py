@@ -67,12 +67,12 @@ def rows(number: int, accuracy: str = "quick") -> list[dict[str, object]]:
     finer = replace(
         spec,
         order=spec.order + 1,
-        density=0.95 * choice.level.densities[-1],
+        density=0.95 * choice.level.density,
         surface_depth=spec.surface_depth / 4.0,
         extent=2.0 * spec.extent,
         apex_width=0.25 * (spec.apex_width or 0.0),
     )
-    reference = ResolvedEvents(events_on_meshes(choice, spec, size).path, choice.contact(finer, size))
+    reference = ResolvedEvents(events_on_meshes(choice, spec, size).fine, choice.contact(finer, size))
     table: list[dict[str, object]] = []
     for name, solution in found.items():
         row = {**head, "quantity": name, "status": type(solution).__name__}

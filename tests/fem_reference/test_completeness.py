@@ -147,7 +147,7 @@ def test_the_path_begins_beyond_the_jump_out_of_contact():
     On the coarsest mesh of the choice alone.
     """
     choice, spec, size = chosen(problem_with(0.0, 8.0), ("zero_load",), "quick")
-    points = choice.traced(spec, size).points
+    points = choice.search_path(spec, size).points
     assert points[0].state.displacement < min(p.state.displacement for p in points if p.branch.touching) < -12.0
 
 

@@ -1,18 +1,14 @@
 """Conjugate gradients on pyamg: iterations, agreement with the factorisation, refusal to return a bad
 iterate."""
 
-import gc
-import tracemalloc
 from dataclasses import replace
 
 import numpy as np
-import pyamg
 import pytest
 
 from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import Grid, MeshSpec, graded_grid
-from fem_reference._linear.hierarchy import hierarchy_bytes
 from fem_reference._linear.linear_solver import solve_cg, solve_direct
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference.errors import NotConverged
@@ -68,7 +64,7 @@ def _unknowns(row):
 def test_a_cycle_of_the_hierarchy_reduces_every_error(k, nu):
     """On elements of every aspect ratio, too; otherwise the iterations grow with the mesh."""
     half_space = assemble_half_space(
-        MeshSpec(1e-3, 1e-4, 128.0, 0.9, 4).grid(), PowerLawModulus(1.0, 1.0, k), nu, order=4
+        MeshSpec(1e-3, 1e-4, 128.0, 0.35, 2).grid(), PowerLawModulus(1.0, 1.0, k), nu, order=2
     )
     hierarchy = ElasticPreconditioner(half_space)._coarse
     error = np.random.default_rng(1).normal(size=hierarchy.levels[0].A.shape[0])
@@ -114,29 +110,6 @@ def test_the_hierarchy_has_the_same_numbers_in_every_run():
         applied.append(ElasticPreconditioner(half_space)(b))
         assert np.random.random() == drawn  # noqa: NPY002
     assert np.array_equal(*applied)
-
-
-def test_the_hierarchy_is_as_large_as_what_the_allocator_gave_for_it():
-    """Views of larger buffers are counted by what they show: measured 7 % below the allocator."""
-    A, B = pyamg.gallery.linear_elasticity((60, 60))
-    smoother = ("block_gauss_seidel", {"sweep": "symmetric", "iterations": 1})
-
-    def built():
-        made = pyamg.smoothed_aggregation_solver(
-            A.tobsr((2, 2)).copy(), B.copy(), presmoother=smoother, postsmoother=smoother
-        )
-        made.solve(np.ones(A.shape[0]), tol=1e-300, maxiter=1)  # the coarsest level is inverted on first use
-        gc.collect()
-        return made
-
-    built()  # what is made once for all hierarchies
-    tracemalloc.start()
-    try:
-        hierarchy = built()
-        allocated, _ = tracemalloc.get_traced_memory()
-    finally:
-        tracemalloc.stop()
-    assert 0.8 * allocated <= hierarchy_bytes(hierarchy) <= allocated
 
 
 def test_too_few_iterations_raise(half_space):

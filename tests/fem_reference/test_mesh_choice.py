@@ -1,7 +1,6 @@
 """Choice of the mesh where contact begins on a small spot, where the edge is very narrow, and where a path fails."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -54,20 +53,6 @@ def test_a_mesh_that_is_fine_enough_is_found_from_one_that_is_far_too_coarse():
     assert choice.traced(spec, size).at("pull_off").state.load == pytest.approx(-19.428, rel=1e-3)
 
 
-def test_finer_meshes_are_taken_where_only_the_finest_path_fails(monkeypatch):
-    monkeypatch.setattr(MeshChoice, "adapted", lambda choice, events, start=None: (choice, "the mesh", 1.0))
-    tried = []
-
-    def usable(choice, *mesh):
-        tried.append(choice.level)
-        if choice.level != level_for("fine"):
-            raise NotConverged("the path stops")
-
-    choice, *_ = chosen(problem_with(0.4, 1.0), ("pull_off",), "quick", usable)
-    assert choice.level == level_for("fine")
-    assert tried == [level_for(name) for name in ("quick", "default", "fine")]
-
-
 def test_far_elements_have_a_share_of_the_density():
     plain, finer = (graded_grid(1.0, 0.01, 0.01, 1000.0, 1.2, 0.05, far_share=share).r for share in (1.0, 0.5))
     assert np.array_equal(graded_grid(1.0, 0.01, 0.01, 1000.0, 1.2, 0.05).r, plain)
@@ -96,7 +81,7 @@ def test_an_edge_that_does_not_settle_is_searched_with_a_mesh_for_each_radius():
     choice, spec, size = _rounded_flat(0.05).adapted(("pull_off",))
     assert choice.event == "pull_off"
     assert spec.edge_width > 1e-3
-    finest = choice.traced(replace(spec, density=choice.level.densities[-1]), size)
+    finest = choice.traced(spec, size)
     assert finest.at("pull_off").edge_radius == pytest.approx(size, rel=0.01)
     assert finest.at("pull_off").state.load == pytest.approx(-3.7757154e-3, rel=1e-5)
 

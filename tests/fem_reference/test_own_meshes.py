@@ -8,10 +8,7 @@ import pytest
 
 import fem_reference.solution as solution_module
 from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, Solution, solve, solve_together
-from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
-from fem_reference._contact.mesh_choice import chosen
-from fem_reference._elastic.mesh import MeshSpec
-from fem_reference.depth_profiles import ExponentialModulus, TableModulus
+from fem_reference.depth_profiles import ExponentialModulus
 from fem_reference.quantities import LOSSES, TABLE
 from tests.fem_reference.profile_solid import ProfileSolid
 
@@ -25,7 +22,7 @@ CONE = replace(GRADED, solid=ProfileSolid(ExponentialModulus(0.9, 0.3, 5.0), 0.1
 
 
 def _solution(u_num):
-    return Solution(1.0, u_num, 1, 1, 0.0, 1.0, 6.0, 6.0, (1.0, 0.8, 0.6), (1.0, 1.0, 1.0), {"mesh": u_num})
+    return Solution(1.0, u_num, 1, 1, 0.0, 1.0, (4, 6, 7), (1.0, 1.0, 1.0), {"mesh": u_num})
 
 
 def _own(problem, points, missed=(), monkeypatch=None):
@@ -75,15 +72,6 @@ def test_a_loss_of_two_edges_is_the_sum_of_both(monkeypatch):
     assert (loss["hysteresis_energy"].value, loss["hysteresis_energy"].u_num) == (2.0, 2e-8)
 
 
-@pytest.mark.parametrize(
-    ("change", "scaling", "degree"), [(5e-7, False, "low"), (2e-6, False, "full"), (1.0, True, "low")]
-)
-def test_a_feature_takes_the_full_degree_where_the_lower_one_shows_too_large_a_change(change, scaling, degree):
-    stub = SimpleNamespace(features={"apex": 1.0 + change}, base=1.0, scaling=scaling, full_degree=lambda _: 9.0)
-    found = EventsOnMeshes._change(stub, lambda value: value, "apex", (2.0, 1.0, 1.0))
-    assert found == pytest.approx(change if degree == "low" else 7.0)
-
-
 @pytest.mark.heavy
 def test_the_jumps_of_a_cone_are_as_certain_together_as_alone():
     """On the mesh of the pull-off the jump out of contact is not found on all densities."""
@@ -91,26 +79,3 @@ def test_the_jumps_of_a_cone_are_as_certain_together_as_alone():
     assert all(together[name].u_num <= 1e-4 * abs(together[name].value) for name in NAMES)
     alone = solve(CONE, JUMP_OUT, "quick")
     assert abs(alone.value - together[JUMP_OUT].value) <= alone.parts["algebra"] + together[JUMP_OUT].parts["algebra"]
-
-
-def test_a_mesh_with_an_interval_of_one_element_is_not_a_refined_one():
-    """Rows of a table that are close to each other: the meshes differ in the other intervals only."""
-    table = ProfileSolid(TableModulus((0.0, 1.0, 1.2, 1.5, 9.0), (1.0, 2.0, 2.1, 2.5, 3.0)), 0.3)
-    for problem, refined in ((replace(GRADED, solid=table), False), (GRADED, True)):
-        choice, spec, _ = chosen(problem, ("pull_off",), "quick")
-        densities = choice.level.densities
-        fine, medium = (replace(spec, density=density) for density in reversed(densities[1:]))
-        assert fine.refines(medium) is refined
-
-
-def test_lines_of_the_punch_count_as_well():
-    spec = MeshSpec(0.1, 0.05, 100.0, 1.0, 4, kinks=(2.0, 2.01))
-    assert not replace(spec, density=0.99).refines(spec)
-    assert replace(spec, density=0.01).refines(spec)
-
-
-def test_the_bound_of_a_problem_knows_whether_its_meshes_are_refined(monkeypatch):
-    monkeypatch.setattr(MeshSpec, "refines", lambda fine, coarser: False)
-    meshes = events_on_meshes(*chosen(GRADED, ("pull_off",), 2e-6))
-    assert not meshes.refined
-    assert not meshes.scaling

@@ -4,6 +4,7 @@ import statistics
 
 import pytest
 
+from tests.fem_reference import bounds_against_fscm
 from tests.fem_reference.random_problems import COUNT, ratio, rows, stored
 
 #: Of bound to error: beyond it a bound says nothing.
@@ -50,3 +51,21 @@ def test_no_error_of_the_table_is_above_its_bound():
     ratios = [ratio(row) for row in table if row["status"] == "value"]
     assert all(1.0 <= found <= LARGEST_RATIO for found in ratios)
     assert statistics.median(ratios) <= LARGEST_MEDIAN
+
+
+#: A problem of `bounds_against_fscm` that takes two seconds, and a coating.
+SAMPLE = list(bounds_against_fscm.cases())[2], list(bounds_against_fscm.cases())[-3]
+
+
+@pytest.mark.parametrize("name", SAMPLE)
+def test_the_error_against_the_integral_equation_is_below_the_bound(name):
+    found = list(bounds_against_fscm.rows(name))
+    assert {"pull_off_force", "pull_off_displacement"} <= {row.quantity for row in found}
+    assert [row for row in found if not row.holds] == []
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("accuracy", ["quick", "default"])
+@pytest.mark.parametrize("name", bounds_against_fscm.cases())
+def test_every_error_against_the_integral_equation_is_below_its_bound(name, accuracy):
+    assert [row for row in bounds_against_fscm.rows(name, accuracy) if not row.holds] == []

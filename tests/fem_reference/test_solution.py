@@ -263,14 +263,14 @@ def test_a_quantity_that_does_not_exist_does_not_hide_the_others():
 
 
 def test_accuracy_names_are_those_of_numbers():
-    """The densities fall with the number between the names."""
+    """The degree rises with it and the density falls with the number between the names."""
     for name, number in ACCURACIES.items():
         assert level_for(name) == level_for(number)
     numbers = (1e-3, 1e-6, 5e-7, 2e-7, 1e-7, 5e-8, 1e-8)
-    finest = [level_for(number).densities[-1] for number in numbers]
-    assert finest == sorted(finest, reverse=True)
-    assert finest[0] == finest[1]
-    assert len(set(finest)) == len(numbers) - 1
+    levels = [(-level_for(number).order, level_for(number).density) for number in numbers]
+    assert levels == sorted(levels, reverse=True)
+    assert levels[0] == levels[1]
+    assert len(set(levels)) == len(numbers) - 1
     result, exact = _pull_off(0.4, 1.0, accuracy="quick"), math.pi * PULL_OFF[0.4, 1.0]
     assert abs(result.value - exact) <= min(ACCURACIES["quick"] * exact, result.u_num) + DIGITS * exact
 
@@ -347,8 +347,7 @@ def test_a_finer_accuracy_is_never_less_certain(monkeypatch):
         calls.append((accuracy, tuple(rows)))
         u_num = bounds[accuracy]
         return {
-            name: Solution(1.0, u_num, 1, 1, 0.0, 1.0, 6.0, 6.0, (1.0, 0.8, 0.6), (1.0, 1.0, 1.0), {"mesh": u_num})
-            for name in rows
+            name: Solution(1.0, u_num, 1, 1, 0.0, 1.0, (4, 6, 7), (1.0, 1.0, 1.0), {"mesh": u_num}) for name in rows
         }
 
     monkeypatch.setattr(solution_module, "_solved_together", computed)

@@ -123,7 +123,7 @@ def test_the_whole_system_agrees_with_a_right_condensation(soft_path, soft_syste
         assert whole.value != row.functional(soft_path), name
         assert whole.value == pytest.approx(row.functional(soft_path), abs=ALGEBRA), name
         assert whole.algebra <= ALGEBRA, name
-        assert 0 < whole.iterations <= 20, name
+        assert whole.iterations <= 20, name
 
 
 def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeypatch):
@@ -256,7 +256,7 @@ def test_a_solution_holds_the_value_of_the_whole_system(solved):
     problem, right = solved
     assert right.value != right.values[-1]
     assert right.parts["algebra"] <= ALGEBRA
-    assert 0 < right.iterations <= 25
+    assert right.iterations <= 5
     assert 0.0 < right.residual <= uncondensed.RESIDUAL_TOLERANCE
     assert right.u_num == pytest.approx(sum(right.parts.values()))
     _, point = event_state(problem, "pull_off", "quick")
