@@ -85,7 +85,7 @@ def level_for(accuracy: float | str) -> Level:
     >>> level_for(1e-7) == level_for("default")
     True
     >>> level_for(3e-7).order, round(level_for(3e-7).density, 3)
-    (7, 0.997)
+    (7, 0.996)
     """
     number = min(relative_error(accuracy), max(_LEVELS))
     if number in _LEVELS:
