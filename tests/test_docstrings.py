@@ -21,7 +21,6 @@ MODULES = sorted(
 #: Modules whose examples solve several problems, or of other solids than power laws, half a second or more;
 #: the functions that users call are not among them.
 LONG = {
-    "comparisons.graded_agreement.solving",
     "comparisons.paper.figures.fig11_gradient_effect",
     "comparisons.paper.studies.errors",
     "comparisons.paper.values.printed_values",

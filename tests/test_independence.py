@@ -38,8 +38,6 @@ ALLOWED = {
     "comparisons.problem.consistency": ("fscm",),
     # Derivatives of a value, which are no quantity of a model.
     "comparisons.description.propagation": ("fscm",),
-    # Solves the same graded solids by both.
-    "comparisons.graded_agreement.solving": ("fscm", "fem_reference"),
     # The Stieltjes scheme from an accurate surface on.
     "comparisons.paper.values.scheme_forces": ("fscm",),
     # Only the adapters know the solvers.
@@ -120,7 +118,7 @@ LAYERS = {
         ("output",),
         ("paper",),
         ("pipeline",),
-        ("bench", "graded_agreement"),
+        ("bench",),
         ("baseline",),
         ("cli", "pytest_entry", "build_step"),
         ("__main__",),

@@ -34,6 +34,9 @@ __all__ = [
     "load_grids",
 ]
 
+#: The standing cases and their problem files.
+_DATA = Path(str(files("comparisons.data")))
+
 #: A tier holds its own grids and those of every tier before it.
 TIERS = ("quick", "full")
 
@@ -140,7 +143,11 @@ def _cases_of_file(table: dict[str, Any], where: str, folder: Path | None) -> se
 
 
 def load_grids(
-    text: str, tier: str | None = None, source: str = "the case file", folder: Path | None = None
+    text: str,
+    tier: str | None = None,
+    source: str = "the case file",
+    folder: Path | None = None,
+    tiers: Sequence[str] = TIERS,
 ) -> list[Grid]:
     """Read grids from TOML text.
 
@@ -154,6 +161,8 @@ def load_grids(
         What the text is of, for the sentence that refuses it.
     folder : Path, optional
         That the problem files are in; without it no grid may name one.
+    tiers : sequence of str
+        The tiers that are read; grids of others are left out.
 
     Raises
     ------
@@ -182,6 +191,7 @@ def load_grids(
     read = [
         _grid(table, f"{source}: {label('grid', table, number)}", tier, folder)
         for number, table in enumerate(tables["grid"], start=1)
+        if table.get("tier", tiers[0]) in tiers
     ]
     ids = [grid.id for grid in read]
     if len(set(ids)) < len(ids):
@@ -194,10 +204,10 @@ def cases_text() -> str:
 
     Examples
     --------
-    >>> load_grids(cases_text()) == grids("full")
+    >>> load_grids(cases_text(), tiers=["quick"]) == grids("quick")
     True
     """
-    return files("comparisons.data").joinpath("cases.toml").read_text(encoding="utf-8")
+    return _DATA.joinpath("cases.toml").read_text(encoding="utf-8")
 
 
 def grids_for(chosen: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
@@ -219,9 +229,9 @@ def grids(tier: str) -> list[Grid]:
     >>> [grid.id for grid in grids("quick")][0]
     'transition'
     """
-    return [grid for grid in _standing(cases_text()) if TIERS.index(grid.tier) <= TIERS.index(tier)]
+    return list(_standing(cases_text(), tier))
 
 
-@lru_cache(maxsize=1)
-def _standing(text: str) -> tuple[Grid, ...]:
-    return tuple(load_grids(text))
+@lru_cache(maxsize=len(TIERS))
+def _standing(text: str, tier: str) -> tuple[Grid, ...]:
+    return tuple(load_grids(text, folder=_DATA, tiers=TIERS[: TIERS.index(tier) + 1]))
