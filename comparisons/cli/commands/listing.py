@@ -70,7 +70,7 @@ def _cases(exact: bool) -> pd.DataFrame:
     standing = grids(TIERS[-1])
     if exact:
         return pd.DataFrame(
-            {"grid": grid.id, "tier": grid.tier, **{name: case[name] for name in PARAMETERS}}
+            {"grid": grid.id, "tier": grid.tier, **{name: case[name] for name in PARAMETERS}, "problem": case.name}
             | {"reference": grid.reference, "models": " ".join(grid.models), "quantities": " ".join(grid.quantities)}
             for grid in standing
             for case in grid.cases

@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 #: Folders of committed tables.
 FOLDERS = ("results/baseline", "comparisons/data", "fscm/interpolation/data")
-TABLES = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.csv"))
+TABLES = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.csv") if path.parent.name != "graded")
 
 #: Files whose tables are all committed; those of a run are in `columns.toml`, and a test of the data package has them.
 COMMITTED = [name for name in FILES if name != "columns.toml"]
