@@ -64,13 +64,14 @@ POINTS = {"fem": 15, "fscm": 45}
 
 def made_up(task):
     """One result for every task, by the case alone: two models agree on it."""
-    numbers = dict(zip(("n", "k", "mu", "nu"), task.problem.key, strict=False))
+    problem = task.problem
+    of_task = {"problem": problem.name, "parameters": problem.parameters}
     if task.quantity not in CURVES:
-        value = sum(numbers[name] for name in ("n", "k", "mu"))
-        return row(task.model, task.quantity, **numbers, value=value, u_num=U_NUM)
+        value = sum(number for name, number in problem.parameters.items() if name != "nu")
+        return row(task.model, task.quantity, **of_task, value=value, u_num=U_NUM)
     t = np.linspace(0.0, 1.0, POINTS[task.model])
     points = (list(3.0 * t - 2.0), list(np.sin(3.0 * t)), U_DISTANCE)
-    return row(task.model, task.quantity, **numbers, value=None, u_num=None, points=points)
+    return row(task.model, task.quantity, **of_task, value=None, u_num=None, points=points)
 
 
 @cache
