@@ -4,6 +4,7 @@ import hashlib
 import shutil
 import time
 import tomllib
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -117,19 +118,19 @@ class Model:
 """
 
 
+def model_file(folder, body=GOOD, name="stranger", more=""):
+    """Write a model with a body of `evaluate` and further members; return its SPEC."""
+    file = folder / f"{name}.py"
+    lines = "\n".join(f"        {line}" for line in body.splitlines())
+    members = "\n".join(f"    {line}" for line in more.splitlines())
+    text = f"{HEAD.format(name=name)}\n    def evaluate(self, problem, quantity):\n{lines}\n{members}\n"
+    file.write_text(text, encoding="utf-8")
+    return f"{file}:Model"
+
+
 @pytest.fixture
 def write_model(tmp_path):
-    """Return a function that writes a model with a given body of `evaluate` and returns its SPEC."""
-
-    def write(body=GOOD, name="stranger", more=""):
-        file = tmp_path / f"{name}.py"
-        lines = "\n".join(f"        {line}" for line in body.splitlines())
-        members = "\n".join(f"    {line}" for line in more.splitlines())
-        text = f"{HEAD.format(name=name)}\n    def evaluate(self, problem, quantity):\n{lines}\n{members}\n"
-        file.write_text(text, encoding="utf-8")
-        return f"{file}:Model"
-
-    return write
+    return partial(model_file, tmp_path)
 
 
 MANIFEST = """

@@ -1,17 +1,17 @@
 """Verdicts that a model cannot get round: each kind of model has its own plain sentence."""
 
-import re
-
 import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
 from comparisons.domain import Domain
+from comparisons.external.model_source import close_models
 from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import draw
 from comparisons.judging.gates import load_gates
-from comparisons.judging.report_card import verdict_sentence
-from comparisons.pipeline import inputs, report_cards
+from comparisons.judging.report_card import card_lines, verdict_sentence
+from comparisons.pipeline import inputs
+from comparisons.pipeline.run import run
 from comparisons.runs.cases import load_grids
 from comparisons.runs.record import read_record
 
@@ -27,61 +27,6 @@ from comparisons.models.dmt import DMT
 value = DMT().evaluate(problem, quantity).value
 """
 TABLE = {1.0: 2.8803743, 2.0: 2.0, 5.0: 1.6694535}
-
-
-@pytest.fixture
-def run(tmp_path, monkeypatch, capsys):
-    """Return a function that runs a model in the cases above; it returns status, output and folder."""
-    monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
-    (tmp_path / "gates").mkdir()
-
-    def called(spec, *arguments, out="out", gate=GATE):
-        (tmp_path / "gates" / "gates.toml").write_text(gate)
-        folder = tmp_path / "runs" / out
-        options = ["--jobs", "1", "--out", str(folder), "--gates", str(tmp_path / "gates" / "gates.toml")]
-        status = main(["run", "--verbose", *options, "--model", spec, *arguments])
-        return status, capsys.readouterr(), folder
-
-    return called
-
-
-def verdict_of(shown):
-    """The verdict in the report card, on one line."""
-    text = " ".join(re.sub(r"\n(?!   )", "|", shown.out).split())
-    return re.search(r"\| verdict ([^|]*)", text)[1].strip()
-
-
-def test_an_honest_model_passes_and_its_card_states_everything(run, write_model):
-    spec = write_model(f"{EXACT}\nreturn Result(1.01 * value, 1e-12)", more=DOMAIN)
-    status, shown, folder = run(spec, "--random", "4", "--seed", "7")
-    assert status == 0, shown.err
-    assert verdict_of(shown).startswith("PASS: it is within the limits in all 16 judged cases")
-    text = " ".join(shown.out.split())
-    for part in (
-        "pull_off_force for 1 <= n <= 5, 0 <= k <= 0.4, 0.1 <= mu <= 1",
-        "PASS, a value in 12 of 12",
-        "PASS, a value in 4 of 4",
-        "8 results are the same in a new process and in another order",
-        "not those of the reference",
-        "kept: 5 of 5 checks",
-    ):
-        assert part in text
-    record = read_record(folder / "run.json")
-    assert (record["arguments"]["random"], record["arguments"]["seed"]) == (4, 7)
-    counts = {"asked": 12, "answered": 12, "not_applicable": 0, "failed": 0, "outside": 0}
-    assert record["coverage"][0] == {"gate": "GIVEN", "candidate": "stranger", "verdict": "PASS"} | counts
-    assert {"CARD-SAME-AGAIN", "CARD-DIFFERS", "GIVEN-RANDOM"} <= {one["gate"] for one in record["coverage"]}
-    # The fresh cases are rows as others, are found again, and are the same again.
-    assert len(pd.read_csv(folder / "results.csv")) == 2 * (12 + 4)
-    status, again, _ = run(spec, "--random", "4", "--seed", "7")
-    assert status == 0
-    assert "0 computations" in again.err
-    # A page and a new judgement have it, too, and nothing is computed for them.
-    before = (folder / "verdicts.csv").read_bytes()
-    assert main(["judge", str(folder)]) == 0
-    assert (folder / "verdicts.csv").read_bytes() == before
-    assert main(["report", str(folder)]) == 0
-    assert "Report cards of the given models" in (folder / "report.html").read_text()
 
 
 def drawn(domain, count=20, seed=1, gate=GATE, grid=GRID):
@@ -174,80 +119,114 @@ NOISE = f"{EXACT}\nimport random\nreturn Result(value * (1 + 1e-3 * random.rando
 STATE = f"""{EXACT}
 last, self.last = getattr(self, "last", 0.0), value
 return Result(value * (1 + 1e-6 * last), 1e-12)"""
-POINTS = f"applies_to = {[box(*case, 0.0) for case in STANDING]}"
-
-
-@pytest.mark.parametrize(
-    ("body", "domain", "status", "verdict"),
-    [
-        (NEAREST, DOMAIN, 1, "FAIL: right at the standing cases and wrong between them"),
-        (NEAREST, POINTS, 3, "INCONCLUSIVE: 12 of 12 standing cases"),
-        (NOISE, DOMAIN, 1, "a random number or a clock"),
-        (STATE, DOMAIN, 1, "it is another one when the evaluations come in another order"),
-    ],
-)
-def test_what_seems_right_at_the_standing_cases_does_not_pass(run, write_model, body, domain, status, verdict):
-    fresh = () if body in (NOISE, STATE) else ("--random", "5", "--seed", "1")
-    found, shown, folder = run(write_model(body, more=domain), *fresh)
-    assert found == status
-    assert verdict in verdict_of(shown)
-    assert main(["judge", str(folder)]) == status
-
-
-def test_a_model_of_easy_cases_only_is_judged_by_its_coverage(run, write_model):
-    body = f"""{EXACT}
+EASY = f"""{EXACT}
 if problem.n != 2 or problem.mu > 0.5:
     raise NotApplicable("too hard")
 return Result(value, 1e-12)"""
-    declared = 'applies_to = {"quantities": ["pull_off_force"], "n": [2, 2], "mu": [0.01, 0.5]}'
-    # None, one that it keeps, and one that it does not keep.
-    for name, domain, expected, coverage in (
-        ("silent", "", 1, "2 of 12 (10 n/a)"),
-        ("declared", declared, 0, "2 of 2 (10 outside)"),
-        ("broken", DOMAIN.replace("[1, 5]", "[2, 2]"), 1, "2 of 4 (2 n/a, 8 outside)"),
-    ):
-        status, shown, _ = run(write_model(body, name, domain), out=name)
-        assert status == expected
-        assert coverage in " ".join(shown.out.split())
-        assert expected == 0 or "the gate requires 90 %" in verdict_of(shown)
+HONEST = f"{EXACT}\nreturn Result(1.01 * value, 1e-12)"
+POINTS = f"applies_to = {[box(*case, 0.0) for case in STANDING]}"
+EASY_DOMAIN = 'applies_to = {"quantities": ["pull_off_force"], "n": [2, 2], "mu": [0.01, 0.5]}'
+BROKEN = DOMAIN.replace("[1, 5]", "[2, 2]")
+
+#: Name -> its body and domain; how its verdict begins; what is in its card.
+MODELS = {
+    "honest": (HONEST, f'{DOMAIN}\nlimits = ("jkr",)', "PASS: it is within the limits in all", "a value in 12 of 12"),
+    "nearest": (NEAREST, DOMAIN, "FAIL: right at the standing cases and wrong between them", "a value in 12 of 12"),
+    "points": (NEAREST, POINTS, "INCONCLUSIVE: 12 of 12 standing cases", "a value in 12 of 12"),
+    "noise": (NOISE, DOMAIN, "FAIL: it gives another number when it is evaluated again: a random number", "a clock"),
+    "state": (STATE, DOMAIN, "FAIL: it gives another number when", "when the evaluations come in another order"),
+    "silent": (EASY, "", "FAIL: ", "2 of 12 (10 n/a)"),
+    "declared": (EASY, EASY_DOMAIN, "PASS: ", "2 of 2 (10 outside)"),
+    "broken": (EASY, BROKEN, "FAIL: ", "2 of 4 (2 n/a, 8 outside)"),
+}
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """The run of all these models, and the gates file and the folder."""
+    folder = tmp_path_factory.mktemp("cards")
+    (folder / "models").mkdir()
+    (folder / "gates.toml").write_text(GATE)
+    specs = [conftest.model_file(folder / "models", body, name, more) for name, (body, more, *_) in MODELS.items()]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
+        yield run("quick", folder / "gates.toml", specs, folder / "out", random=5, seed=1).judgement
+        close_models()
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_each_kind_of_model_has_its_verdict(finished, name):
+    *_, verdict, part = MODELS[name]
+    lines = dict(card_lines(name, finished.verdicts, finished.cards[name], finished.domains.get(name)))
+    assert lines["verdict"].startswith(verdict), lines
+    assert part in str(lines)
+    if verdict == "FAIL: ":
+        assert "the gate requires 90 %" in lines["verdict"]
+    if name == "honest":
+        assert lines["domain"] == "pull_off_force for 1 <= n <= 5, 0 <= k <= 0.4, 0.1 <= mu <= 1"
+        assert "a value in 5 of 5" in lines["GIVEN-RANDOM"]
+        assert lines["evaluated again"] == "8 results are the same in a new process and in another order"
+        assert lines["digits"] == "not those of the reference"
+        # What check-model finds stands beside the verdict.
+        assert "not kept: is right in the limit jkr" in lines["check-model"]
+    if name == "declared":
         # The digits of a closed form are stated and no more.
-        assert expected or "2 of 2 values are those of dmt in every digit" in " ".join(shown.out.split())
+        assert "2 of 2 values are those of dmt in every digit" in lines["digits"]
 
 
-def test_the_digits_of_a_numerical_reference_are_no_pass(run, write_model, monkeypatch):
-    monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID.replace('"dmt"', '"atlas"')))
+def test_the_record_has_coverage_and_fresh_cases_and_a_new_judgement_is_the_same(finished):
+    record = read_record(finished.folder / "run.json")
+    assert (record["arguments"]["random"], record["arguments"]["seed"]) == (5, 1)
+    counts = {"asked": 12, "answered": 12, "not_applicable": 0, "failed": 0, "outside": 0}
+    assert {"gate": "GIVEN", "candidate": "honest", "verdict": "PASS"} | counts in record["coverage"]
+    assert {"CARD-SAME-AGAIN", "CARD-DIFFERS", "GIVEN-RANDOM"} <= {row["gate"] for row in record["coverage"]}
+    rows = pd.read_csv(finished.folder / "results.csv")
+    assert (rows["model"] == "honest").sum() == 12 + 5
+    before = (finished.folder / "verdicts.csv").read_bytes()
+    assert main(["judge", str(finished.folder)]) == 1
+    assert (finished.folder / "verdicts.csv").read_bytes() == before
+    assert main(["report", str(finished.folder)]) == 0
+    assert "Report cards of the given models" in (finished.folder / "report.html").read_text()
+
+
+@pytest.fixture
+def one_run(tmp_path, monkeypatch):
+    """Return a function that runs a model in the cases above, and returns the judgement."""
+
+    def called(spec, gate=GATE, reference="dmt"):
+        monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID.replace('"dmt"', f'"{reference}"')))
+        (tmp_path / "gates").mkdir(exist_ok=True)
+        (tmp_path / "gates" / "gates.toml").write_text(gate)
+        return run("quick", tmp_path / "gates" / "gates.toml", [spec], tmp_path / "runs").judgement
+
+    return called
+
+
+def test_the_digits_of_a_numerical_reference_are_no_pass(one_run, write_model):
     body = EXACT.replace("comparisons.models.dmt import DMT", "comparisons.registry import create")
     body = body.replace("DMT()", 'create("atlas")') + "return Result(value * (1 + 1e-15 * (problem.n == 2)), 1e-6)"
     gate = GATE.replace('"dmt"', '"atlas"').replace("1e-6", "1e-3")
-    status, shown, _ = run(write_model(body, more=DOMAIN), gate=gate)
-    assert status == 3
-    assert verdict_of(shown).startswith("INCONCLUSIVE: 8 of 12 values are those of atlas")
+    judgement = one_run(write_model(body, more=DOMAIN), gate, "atlas")
+    assert judgement.verdict == "INCONCLUSIVE"
+    sentence = verdict_sentence("stranger", judgement.verdicts)
+    assert sentence.startswith("INCONCLUSIVE: 8 of 12 values are those of atlas")
 
 
-OTHERS = GATE.replace('id = "GIVEN"', 'id = "OTHERS"').replace('"given"', '"jkr"')
+def test_a_run_without_a_gate_on_a_given_model_is_an_error(one_run, write_model):
+    others = GATE.replace('id = "GIVEN"', 'id = "OTHERS"').replace('"given"', '"jkr"')
+    judgement = one_run(write_model(HONEST, more=DOMAIN), others)
+    assert verdict_sentence("stranger", judgement.verdicts) == "no gate was evaluated"
+    assert read_record(judgement.folder / "run.json")["verdicts"]["all"] == "ERROR"
+    assert main(["judge", str(judgement.folder)]) == 4
 
 
-def test_a_run_without_a_gate_on_a_given_model_is_an_error(run, write_model, tmp_path):
-    spec = write_model(f"{EXACT}\nreturn Result(1.01 * value, 1e-12)", more=f'{DOMAIN}\nlimits = ("jkr",)')
-    status, shown, folder = run(spec, gate=OTHERS)
-    assert status == 4
-    assert verdict_of(shown) == "no gate was evaluated"
-    assert read_record(folder / "run.json")["verdicts"]["all"] == "ERROR"
-    assert main(["judge", str(folder)]) == 4
-    # What check-model finds stands beside the verdict.
-    status, shown, folder = run(spec, out="given")
-    assert status == 0
-    assert "not kept: is right in the limit jkr" in " ".join(shown.out.split())
-    (tmp_path / "others.toml").write_text(OTHERS)
-    assert main(["judge", str(folder), "--gates", str(tmp_path / "others.toml")]) == 4
-
-
-def test_data_have_a_card_without_evaluations(run, write_data):
+def test_data_have_a_card_without_evaluations(one_run, write_data):
     rows = [f"pull_off_force,2,{k},{mu},2.0,1e-6" for k in (0, 0.4) for mu in (0.1, 1)]
-    status, shown, _ = run(str(write_data(rows)))
-    assert status == 0
-    assert "a value in 4 of 4 (8 outside)" in shown.out
-    assert "nothing: data do not change" in shown.out
+    judgement = one_run(str(write_data(rows)))
+    assert judgement.verdict == "PASS"
+    lines = dict(card_lines("measured", judgement.verdicts, judgement.cards["measured"], Domain(())))
+    assert "a value in 4 of 4 (8 outside)" in lines["GIVEN"]
+    assert lines["evaluated again"] == "nothing: data do not change"
 
 
 @pytest.mark.parametrize(
@@ -273,9 +252,3 @@ def test_the_sentence_of_each_verdict_names_the_first_reason():
     assert beyond == "FAIL: its error is beyond the limits in 1 of 2 cases, at worst 0.3 in A"
     assert verdict_sentence("mine", pd.DataFrame([failed, broken])) == "ERROR: mine has no row"
     assert verdict_sentence("other", pd.DataFrame([passed])) == "no gate was evaluated"
-
-
-def test_what_takes_as_long_as_the_model_does_is_announced_where_no_bar_is_shown(monkeypatch, capsys):
-    monkeypatch.setattr(report_cards, "_card", lambda identity, rows, exact, cases: {})
-    assert report_cards.make_cards({"mine": None}, [], [], {}) == {"mine": {}}
-    assert "checking mine" in capsys.readouterr().err
