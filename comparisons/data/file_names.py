@@ -35,6 +35,7 @@ __all__ = [
     "VERDICTS_MARKDOWN",
     "VERDICT_FILES",
     "VERDICT_TABLES",
+    "is_of_verdicts",
 ]
 
 #: Type, unit and meaning of every column of the tables of a folder.
@@ -91,3 +92,14 @@ RUN_FILES = (
     *VERDICT_FILES,
     *COMPARISON_FILES,
 )
+
+
+def is_of_verdicts(name: str) -> bool:
+    """Whether a file is written when a run is judged: one of `VERDICT_FILES`, or the verdicts in any other format.
+
+    Examples
+    --------
+    >>> [is_of_verdicts(name) for name in ("verdicts.adoc", "junit.xml", "gates.toml")]
+    [True, True, False]
+    """
+    return name in VERDICT_FILES or name.startswith(f"{VERDICTS}.")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
@@ -25,7 +25,7 @@ from comparisons.runs.folder import RunFolder
 from comparisons.runs.rows import Key
 from comparisons.runs.tables import write_table
 
-__all__ = ["GATE_COLUMNS", "command", "write_verdicts"]
+__all__ = ["FORMATS", "GATE_COLUMNS", "command", "write_verdicts"]
 
 #: What is stored of each gate beside its verdicts: what was required, in which unit, and on what grounds.
 GATE_COLUMNS = ("id", "requirement", "metric", "basis", "grounds")
@@ -34,6 +34,12 @@ GATE_COLUMNS = ("id", "requirement", "metric", "basis", "grounds")
 _WORST_CASES = columns(
     *("verdict", "gate", *CASE, "candidate", "candidate's value", "reference", "reference's value", "E(U)")
 )
+
+#: Suffix of a file of verdicts -> its text, made of the table of the gates and of that of their worst cases.
+FORMATS: dict[str, Callable[[Table, Table], str]] = {
+    "md": lambda gates, worst: markdown(gates.texts, gates.caption),
+    "tex": lambda gates, worst: latex(worst.texts, worst.caption, worst.id),
+}
 
 
 def command(row: Record, specs: Mapping[str, str]) -> str:
@@ -92,13 +98,12 @@ def write_verdicts(
         *columns("reason"),
         Column("requirement", lambda row: requirement.get(row["gate"], "")),
     ]
-    page = markdown(Table("verdicts", "Verdicts", shown, summary).texts, "Verdicts")
+    by_gate = Table("verdicts", "Verdicts", shown, summary)
     worst = Table("verdicts", "Verdicts of fscm-bench, worst first, each in its worst case", _WORST_CASES, summary)
-    for path, text in (
-        (files.verdicts_markdown, page.encode()),
-        (files.verdicts_latex, latex(worst.texts, worst.caption, worst.id).encode()),
-        (files.junit, junit(judged, partial(command, specs=specs), seconds)),
-    ):
+    texts = {files.verdicts.with_suffix(f".{suffix}"): made(by_gate, worst) for suffix, made in FORMATS.items()}
+    for path, text in texts.items():
         with atomic(path) as file:
-            file.write(text)
-    return page
+            file.write(text.encode())
+    with atomic(files.junit) as file:
+        file.write(junit(judged, partial(command, specs=specs), seconds))
+    return texts[files.verdicts_markdown]

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.data.contained_paths import path_inside
-from comparisons.data.file_names import COMPARISON_FILES, GATES_TEXT, GRID_TEXT, INPUTS, RUN_FILES, VERDICT_FILES
+from comparisons.data.file_names import COMPARISON_FILES, GATES_TEXT, GRID_TEXT, INPUTS, RUN_FILES, is_of_verdicts
 from comparisons.data.input_files import LARGEST_TABLE, read_bytes
 from comparisons.judging.decision import Verdict
 from comparisons.pipeline.inputs import Cases, Gates, RunInputs, names_of_inputs
@@ -88,8 +88,8 @@ def write_run(
     if rules is not None:
         cards = make_cards(external, rows, completed.parts, {task.key: task.problem for task in inputs.plan()})
         judgement = judge_and_write(target, inputs, tables.results, tables.curves, cards)
-    stale = {GRID_TEXT} if rules is not None else {GATES_TEXT, *VERDICT_FILES}
-    _remove_stale(target, {*stale, *COMPARISON_FILES}, texts)
+    stale = {GRID_TEXT} if rules is not None else {GATES_TEXT}
+    _remove_stale(target, {*stale, *COMPARISON_FILES}, texts, judged=rules is not None)
     counts = {"all": len(rows), "resumed": completed.resumed, **_statuses(rows)}
     content = record_content(
         "sweep" if rules is None else "run",
@@ -133,7 +133,7 @@ def kept_texts(folder: RunFolder, cases: Cases, gates: Gates | None) -> dict[Pat
     return texts
 
 
-def _remove_stale(folder: RunFolder, names: Collection[str], kept: Collection[Path]) -> None:
+def _remove_stale(folder: RunFolder, names: Collection[str], kept: Collection[Path], *, judged: bool) -> None:
     """Remove files that an earlier run of the folder has written and that this one does not have."""
     try:
         written = read_record(folder.record)["files"]
@@ -141,7 +141,8 @@ def _remove_stale(folder: RunFolder, names: Collection[str], kept: Collection[Pa
         return
     for name in written:
         path = path_inside(folder.path, name)
-        if (name in names or name.startswith(f"{INPUTS}/")) and path not in kept:
+        stale = name in names or name.startswith(f"{INPUTS}/") or (is_of_verdicts(name) and not judged)
+        if stale and path not in kept:
             path.unlink(missing_ok=True)
 
 

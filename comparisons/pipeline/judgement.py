@@ -12,7 +12,7 @@ from typing import Any
 import pandas as pd
 
 from comparisons.console.progress import log, note
-from comparisons.data.file_names import RUN_FILES, VERDICT_FILES
+from comparisons.data.file_names import RUN_FILES
 from comparisons.domain import Domain
 from comparisons.judging.card_gates import card_gates, every_verdict, judge_cards, judge_digits, overall
 from comparisons.judging.decision import Verdict
@@ -138,7 +138,7 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
         raise ValueError(f"{folder} holds figures of the paper, which no gate judges: give the folder of a run")
     if name == "sweep" and gates is None:
         raise ValueError(f"{folder} is the folder of a sweep, which has no gates: give some with --gates FILE")
-    check_files(record, folder, written_again=VERDICT_FILES)
+    check_files(record, folder, written_again=True)
     other_code = warn_of_other_code(record, folder)
     models, specs = arguments["model"], arguments["external"]
     cases = stored_cases(stored, arguments["tier"], models)

@@ -22,7 +22,7 @@ from jsonschema.exceptions import best_match
 
 from comparisons.console.progress import log
 from comparisons.data.contained_paths import path_inside
-from comparisons.data.file_names import DATA_PACKAGE, RECORD, RUN_FILES
+from comparisons.data.file_names import DATA_PACKAGE, RECORD, RUN_FILES, VERDICTS, is_of_verdicts
 from comparisons.data.input_files import LARGEST_ROWS, LARGEST_TABLE, read_bytes
 from comparisons.runs.atomic_files import write_json
 from comparisons.runs.data_package import write_data_package
@@ -121,6 +121,7 @@ def write_record(content: dict[str, Any], path: Path, files: Collection[str] = R
     """
     if write_data_package(path.parent, files):
         files = [*files, DATA_PACKAGE]
+    files = [*files, *(file.name for file in path.parent.glob(f"{VERDICTS}.*"))]
     sums = {name: _sum_of(path.parent / name) for name in files if (path.parent / name).is_file()}
     content = content | {"files": sums}
     content["sha256"] = _own_sum(content)
@@ -171,7 +172,7 @@ def _check_paths(content: Mapping[str, Any], path: Path) -> None:
         raise ValueError(f"{path} is not the record of a run: {error}") from None
 
 
-def check_files(record: dict[str, Any], folder: Path, written_again: Collection[str] = ()) -> None:
+def check_files(record: dict[str, Any], folder: Path, written_again: bool = False) -> None:
     """Check the files of a run against the checksums in its record; a file that is missing is left to its reader.
 
     Parameters
@@ -180,8 +181,8 @@ def check_files(record: dict[str, Any], folder: Path, written_again: Collection[
         As `read_record` returns it.
     folder : Path
         Of the run.
-    written_again : collection of str
-        Files that the caller replaces without reading them.
+    written_again : bool
+        Whether the caller writes the files of verdicts again, without reading them.
 
     Raises
     ------
@@ -191,7 +192,7 @@ def check_files(record: dict[str, Any], folder: Path, written_again: Collection[
     for name, stated in record["files"].items():
         path = path_inside(folder, name)
         remedy = f"write it again by fscm-bench {record['command_name']} with --out {quote(str(folder))}"
-        if name in written_again or not path.exists():
+        if (written_again and is_of_verdicts(name)) or not path.exists():
             continue
         if not path.is_file():
             raise ValueError(f"{path} is not a regular file, as the run has written it: {remedy}")
