@@ -88,17 +88,17 @@ def of_model(table: pd.DataFrame, *models: str, column: str = "model") -> list[p
 
 def by_model(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
     """Draw the FSCM and both Maugis-Dugdale models, each in its style."""
-    for model, part in zip(MODEL_LINES, of_model(table, *MODEL_LINES), strict=True):
-        axes.plot(part[x], part[y], label=MODEL_NAMES[model], **MODEL_LINES[model])
+    for model, rows in zip(MODEL_LINES, of_model(table, *MODEL_LINES), strict=True):
+        axes.plot(rows[x], rows[y], label=MODEL_NAMES[model], **MODEL_LINES[model])
 
 
 def line_a_value(
     axes: Axes, table: pd.DataFrame, name: str, x: str, y: str, scale: float = 1.0, label: str = "", **style: Any
 ) -> None:
     """Draw a line for each value of a parameter."""
-    for index, (value, part) in enumerate(table.groupby(name)):
+    for index, (value, rows) in enumerate(table.groupby(name)):
         text = label + (gradient(value) if name == "k" else held(**{name: value}))
-        axes.plot(part[x], scale * part[y], **{"label": text} | dashed(index) | style)
+        axes.plot(rows[x], scale * rows[y], **{"label": text} | dashed(index) | style)
 
 
 def crosses(axes: Axes, x: Any, y: Any, **style: Any) -> None:

@@ -235,5 +235,5 @@ def _width(state: State) -> float:
 
         return float(brentq(excess, 0.0, float(state.radius[-1]), xtol=1e-14))
 
-    near, far = (radius_of(gap) for gap in half_strength_gaps())
-    return (far - near) / radius_of(_PEAK)
+    inner, far = (radius_of(gap) for gap in half_strength_gaps())
+    return (far - inner) / radius_of(_PEAK)

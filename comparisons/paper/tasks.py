@@ -110,10 +110,10 @@ def profile(model: str, n: float, k: float, mu: float) -> Json:
         tracing = create(model)
         if not isinstance(tracing, HasProfile):
             raise NotApplicable(f"{model} has no profile at pull-off")
-        whole = tracing.pull_off_profile(Problem.dimensionless(n, k, mu))
-        inside = whole.gap <= FARTHEST_GAP
-        columns = {name: _numbers(getattr(whole, name)[inside]) for name in ("radius", "pressure", "gap")}
-        return columns | {"u_distance": float(whole.u_distance)}
+        surface = tracing.pull_off_profile(Problem.dimensionless(n, k, mu))
+        inside = surface.gap <= FARTHEST_GAP
+        columns = {name: _numbers(getattr(surface, name)[inside]) for name in ("radius", "pressure", "gap")}
+        return columns | {"u_distance": float(surface.u_distance)}
 
     return _with_status(traced)
 

@@ -68,8 +68,8 @@ def _arrows(axes: Axes) -> None:
     ):
         arrow = {"arrowstyle": style, "color": "black", "shrinkA": 0, "shrinkB": 0}
         axes.annotate("", head, tail, arrowprops=arrow, annotation_clip=False)
-        place = np.array(tail) + share * (np.array(head) - np.array(tail))
-        axes.annotate(text, place, (5, 0), textcoords="offset points", va="center", annotation_clip=False)
+        position = np.array(tail) + share * (np.array(head) - np.array(tail))
+        axes.annotate(text, position, (5, 0), textcoords="offset points", va="center", annotation_clip=False)
 
 
 @paper_figure(_picture, size=(7.2, 4.9))

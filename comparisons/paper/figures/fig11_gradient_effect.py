@@ -92,10 +92,10 @@ def _picture(figure: Figure, tables: Tables) -> None:
     left.legend()
     right.plot(tables["largest"]["n"], 100 * tables["largest"]["chi_max"], color=COLOURS[0])
     level(right, 100 * _LIMIT, ls="--")
-    for row, place in zip(tables["regions"].itertuples(), ((1.3, 2.0), (3.5, 17.0)), strict=True):
+    for row, position in zip(tables["regions"].itertuples(), ((1.3, 2.0), (3.5, 17.0)), strict=True):
         right.axvspan(row.n_from, row.n_to, color=COLOURS[1], alpha=0.2, lw=0)
         ends, arrow = f"{row.n_from:.3f} ≤ $n$ ≤ {row.n_to:.3f}", {"arrowstyle": "-", "lw": 0.6, "color": "0.3"}
-        right.annotate(ends, (0.5 * (row.n_from + row.n_to), 100 * _LIMIT), place, fontsize=8, arrowprops=arrow)
+        right.annotate(ends, (0.5 * (row.n_from + row.n_to), 100 * _LIMIT), position, fontsize=8, arrowprops=arrow)
     right.set(xlabel=LABELS["n"], ylabel=r"largest deviation $\chi_{\max}$ (%)", ylim=(0, 50), xlim=(0.9, 8))
 
 

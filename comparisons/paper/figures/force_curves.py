@@ -53,11 +53,11 @@ def curves(cases: Iterable[Case]) -> Plan[Tables]:
 
 
 def _family(axes: Axes, table: pd.DataFrame, name: str, ranges: tuple[Range, Range]) -> None:
-    for index, (value, part) in enumerate(table.groupby(name)):
+    for index, (value, path) in enumerate(table.groupby(name)):
         # Dashes would hide folds; markers at equal distances tell the curves apart in grey.
         marked: Any = {"color": COLOURS[index], "marker": MARKERS[index], "markevery": (0.03 * (1 + index), 0.24)}
         label = gradient(value) if name == "k" else held(mu=value)
-        axes.plot(part["displacement"], part["load"], ms=3.0, mfc="white", lw=1.0, label=label, **marked)
+        axes.plot(path["displacement"], path["load"], ms=3.0, mfc="white", lw=1.0, label=label, **marked)
     level(axes)
     axes.set(xlim=ranges[0], ylim=ranges[1])
 

@@ -34,17 +34,17 @@ _OFFSETS = {"displacement": ((12, 10), (32, 2)), "gap": ((-28, 10), (-75, 6))}
 
 def _branches(figure: Figure, tables: Tables) -> None:
     table, lattice = tables[""], panels(figure, 1, 2, (held(n=_N),) * 2, LABELS["mu"])
-    for axes, (kind, place) in zip(lattice, _INSETS.items(), strict=True):
+    for axes, (kind, position) in zip(lattice, _INSETS.items(), strict=True):
         # Where the branches begin, enlarged.
-        inset = axes.inset_axes(place)
+        inset = axes.inset_axes(position)
         names = [f"jump_{name}_{kind}" for name in ("in", "out")]
         for index, (k, mu) in enumerate(zip(_GRADIENTS, tables["critical"]["mu"], strict=True)):
             # Both branches begin in one point, at the critical Tabor number, between their first points.
-            part = table[table["k"] == k]
-            meeting = part[names].iloc[0].mean()
+            rows_of_k = table[table["k"] == k]
+            meeting = rows_of_k[names].iloc[0].mean()
             for panel in (axes, inset):
                 for name, label in zip(names, (rf"{held(k=k)}, $\mu_c$ = {mu:.5f}", "_"), strict=True):
-                    panel.plot([mu, *part["mu"]], [meeting, *part[name]], label=label, **dashed(index))
+                    panel.plot([mu, *rows_of_k["mu"]], [meeting, *rows_of_k[name]], label=label, **dashed(index))
                 panel.plot(mu, meeting, marker="o", ms=4, color=COLOURS[index], mfc="white")
         inset.set(xlim=(0.65, 0.95), ylim=_INSET_RANGES[kind])
         inset.tick_params(labelsize=7, pad=2)

@@ -68,8 +68,8 @@ def _transition(figure: Figure, tables: Tables) -> None:
     thin: Any = {"ls": (0, (2, 1.5)), "lw": 0.7}
     for axes, (n, limits) in zip(lattice, _SHAPES.items(), strict=True):
         fscm, jkr, bradley = of_model(forces[forces["n"] == n], "fscm", "jkr", "bradley")
-        for index, (k, part) in enumerate(fscm.groupby("k")):
-            axes.plot(*_smooth(part), label=f"FSCM, {gradient(k)}", **dashed(index))
+        for index, (k, line) in enumerate(fscm.groupby("k")):
+            axes.plot(*_smooth(line), label=f"FSCM, {gradient(k)}", **dashed(index))
             axes.plot("mu", "value", data=jkr[jkr["k"] == k], color=COLOURS[index], label="_", **thin)
         axes.plot(bradley["mu"], bradley["value"], color="0.5", ls="--", lw=0.9, label=MODEL_NAMES["bradley"])
         axes.plot([], [], color=COLOURS[0], **thin, label=f"{MODEL_NAMES['jkr']}, colours as FSCM")
@@ -127,18 +127,19 @@ def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str, d
     for axes, (_, of_shape) in zip(lattice, table.groupby("n"), strict=True):
         draw(axes, of_shape)
         by_model(axes, of_shape, "mu", y)
-        own = of_shape.loc[of_shape["model"].isin(MODEL_LINES), y]
+        forces_of_models = of_shape.loc[of_shape["model"].isin(MODEL_LINES), y]
         axes.set(xscale="log", xlim=(0.008, 12.0))
         # A tenth of the range and at least 2 % beyond it.
-        beyond = max((own.max() / own.min()) ** 0.1, 1.02)
-        _log_forces(axes, own.min() / beyond, own.max() * beyond)
+        beyond = max((forces_of_models.max() / forces_of_models.min()) ** 0.1, 1.02)
+        _log_forces(axes, forces_of_models.min() / beyond, forces_of_models.max() * beyond)
     legend_below(figure, 5)
 
 
 def _with_limits(figure: Figure, tables: Tables) -> None:
     def limits(axes: Axes, of_shape: pd.DataFrame) -> None:
-        for part, name, line in zip(of_model(of_shape, "bradley", "jkr"), ("bradley", "jkr"), ("-.", ":"), strict=True):
-            axes.plot(part["mu"], part["value"], color="0.55", lw=0.9, ls=line, label=MODEL_NAMES[name])
+        for name, dashes in (("bradley", "-."), ("jkr", ":")):
+            (line,) = of_model(of_shape, name)
+            axes.plot(line["mu"], line["value"], color="0.55", lw=0.9, ls=dashes, label=MODEL_NAMES[name])
 
     _panels_of_models(figure, tables[""], "value", LABELS["force"], limits)
 
@@ -171,18 +172,18 @@ def _by_soft(figure: Figure, tables: Tables) -> None:
     for index, (n, of_shape) in enumerate(tables[""].groupby("n")):
         marked: Any = {"color": COLOURS[index], "marker": MARKERS[index], "ms": 3.5, "mfc": "white"}
         handles.append(Line2D([], [], label=held(n=n), **marked))
-        for model, part in zip(MODEL_LINES, of_model(of_shape, *MODEL_LINES), strict=True):
+        for model, line in zip(MODEL_LINES, of_model(of_shape, *MODEL_LINES), strict=True):
             places = {"markevery": (2 * index, 8)} if model == "md-improved" else {"marker": ""}
-            axes.plot(part["mu"], part["ratio"], **MODEL_LINES[model] | marked | places)
+            axes.plot(line["mu"], line["ratio"], **MODEL_LINES[model] | marked | places)
     axes.axhline(1.0, color="0.55", lw=0.9, ls=":")
     axes.set(xscale="log", xlim=(0.008, 12.0), xlabel=LABELS["mu"], ylabel=r"$P_c/P_c^{\mathrm{JKR}}$")
     _log_forces(axes, tables[""]["ratio"].min() / 1.2, tables[""]["ratio"].max() * 1.2)
     above.legend(handles=handles, loc="outside right center")
-    whole, enlarged = below.subplots(1, 2)
-    kappa_panels(whole, enlarged, tables["kappa"])
+    complete, enlarged = below.subplots(1, 2)
+    kappa_panels(complete, enlarged, tables["kappa"])
     for panel, letter, words in (
         (axes, "a", f"scaled by the soft limit, {held(k=_K)}"),
-        (whole, "b", f"relative error, {held(k=_K)}"),
+        (complete, "b", f"relative error, {held(k=_K)}"),
         (enlarged, "c", "enlarged"),
     ):
         lettered(panel, letter, words)

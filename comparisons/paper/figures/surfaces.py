@@ -36,8 +36,8 @@ def _surfaces(cases: Iterable[tuple[float, float, float]]) -> Plan[Tables]:
     results = yield {case: CachedCall.of(surface, *case) for case in cases}
     parts = []
     for (n, k, mu), shape in sorted(results.items()):
-        part = pd.DataFrame({"n": n, "k": k, "mu": mu} | shape)
-        parts.append(part.assign(punch=part["radius"] ** n / n - part["displacement"]))
+        profile_rows = pd.DataFrame({"n": n, "k": k, "mu": mu} | shape)
+        parts.append(profile_rows.assign(punch=profile_rows["radius"] ** n / n - profile_rows["displacement"]))
     return {"": pd.concat(parts, ignore_index=True)}
 
 
@@ -47,8 +47,8 @@ def _draw(figure: Figure, table: pd.DataFrame, name: str, words: str, farthest: 
     line_a_value(left, table, name, "radius", "punch", **_PUNCH)
     line_a_value(right, table, name, "radius", "pressure")
     level(right, -THEORETICAL_STRENGTH, ls="--")
-    place = (farthest, -THEORETICAL_STRENGTH)
-    right.annotate(r"$-\sigma_{\mathrm{th}}$", place, (-4, 3), textcoords="offset points", ha="right")
+    corner = (farthest, -THEORETICAL_STRENGTH)
+    right.annotate(r"$-\sigma_{\mathrm{th}}$", corner, (-4, 3), textcoords="offset points", ha="right")
     left.set(xlim=(0.0, farthest), ylim=(-0.2, top), ylabel=LABELS["height"])
     right.set(ylabel=LABELS["pressure"])
     left.plot([], [], color="0.4", **_PUNCH | {"label": r"punch $f-\delta$"})

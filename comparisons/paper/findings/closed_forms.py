@@ -51,10 +51,10 @@ def near_the_end(up_to: float) -> list[float]:
 
 def _draw_chi_range(figure: Figure, tables: Tables) -> None:
     axes = figure.subplots()
-    for index, (last, end) in enumerate(tables["ends"].to_numpy()):
-        part = tables[""][tables[""]["last_k"] == last]
-        label = rf"$k \leq$ {last:g}: 10 % at $n$ = {end:.4f}"
-        axes.plot(part["n"], 100.0 * part["chi_max"], label=label, marker="o", ms=3, **dashed(index))
+    for index, (last_k, end) in enumerate(tables["ends"].to_numpy()):
+        line = tables[""][tables[""]["last_k"] == last_k]
+        label = rf"$k \leq$ {last_k:g}: 10 % at $n$ = {end:.4f}"
+        axes.plot(line["n"], 100.0 * line["chi_max"], label=label, marker="o", ms=3, **dashed(index))
     level(axes, _LIMIT, ls="--")
     axes.axvline(_PRINTED, color="0.4", lw=0.8, ls=":", label=f"printed: {_PRINTED}")
     axes.set(xlabel=LABELS["n"], ylabel=r"largest deviation $\chi_{\max}$ (%)")
@@ -65,18 +65,18 @@ def _draw_chi_range(figure: Figure, tables: Tables) -> None:
 def finding_chi_range() -> Plan[Tables]:
     """End of the second range of small chi, for three largest gradient exponents."""
     functions = (near_the_end, insensitive_regions)
-    results = yield {(of, last): CachedCall.of(of, last) for last in _LAST for of in functions}
+    results = yield {(of, last_k): CachedCall.of(of, last_k) for last_k in _LAST for of in functions}
     parts = [pd.DataFrame({"last_k": at, "n": _CHI_SHAPES, "chi_max": results[near_the_end, at]}) for at in _LAST]
-    ends = [{"last_k": last, "n_to": results[insensitive_regions, last][3]} for last in _LAST]
+    ends = [{"last_k": last_k, "n_to": results[insensitive_regions, last_k][3]} for last_k in _LAST]
     return {"": pd.concat(parts, ignore_index=True), "ends": pd.DataFrame(ends)}
 
 
 def _draw_cohesive_errors(figure: Figure, tables: Tables) -> None:
     left, right = panels(figure, 1, 2, (held(k=_K), held(n=5, k=_K)), LABELS["mu"])
     for axes, shapes in ((left, _SHAPES), (right, (5.0,))):
-        for (model, n), part in tables[""].groupby(["model", "n"]):
+        for (model, n), line in tables[""].groupby(["model", "n"]):
             if n in shapes:
-                exact, fem = of_model(part, "fscm", "fem", column="reference")
+                exact, fem = of_model(line, "fscm", "fem", column="reference")
                 index, label = _SHAPES.index(n), f"{model.removeprefix('md-')}, {held(n=n)}"
                 style = {"color": COLOURS[index], "marker": MARKERS[index], "ls": MODEL_LINES[model]["ls"]}
                 axes.plot(exact["mu"], 100.0 * exact["error"], label=label, ms=3, **style)
@@ -99,8 +99,8 @@ def finding_cohesive_errors() -> Plan[Tables]:
 def _draw_semi_rigid(figure: Figure, tables: Tables) -> None:
     lattice = panels(figure, 1, 2, (held(k=_K),) * 2, LABELS["mu"])
     for axes, column, scale in zip(lattice, ("deformation", "error"), (1.0, 100.0), strict=True):
-        for index, (n, part) in enumerate(tables[""].groupby("n")):
-            exact, fem = of_model(part, "fscm", "fem", column="reference")
+        for index, (n, line) in enumerate(tables[""].groupby("n")):
+            exact, fem = of_model(line, "fscm", "fem", column="reference")
             style: Any = {"marker": MARKERS[index], "ms": 3.5, "label": f"fscm, {held(n=n)}"}
             axes.plot(exact["mu"], scale * exact[column], **dashed(index), **style)
             crosses(axes, fem["mu"], scale * fem[column])
@@ -129,8 +129,8 @@ def _draw_surface_inside(figure: Figure, tables: Tables) -> None:
     level(axes)
     inner = tables["radii"]["contact_radius"].min()
     axes.axvspan(0.0, inner, color="0.5", alpha=0.12, lw=0)
-    place = (0.5 * inner, 0.93)
-    axes.annotate("contact of both models", place, xycoords=("data", "axes fraction"), ha="center", fontsize=8)
+    position = (0.5 * inner, 0.93)
+    axes.annotate("contact of both models", position, xycoords=("data", "axes fraction"), ha="center", fontsize=8)
     axes.set(xlim=(0.0, 3.0), xlabel=LABELS["radius"], ylabel=r"difference of the surfaces from fscm, in $z_0$")
     axes.legend(loc="upper right", fontsize=8)
 

@@ -99,9 +99,9 @@ def _draw_onset(figure: Figure, tables: Tables) -> None:
         axes.annotate(f"Fig. 6: μ = {mu:g}", (0.6, mu), (0, 3), textcoords="offset points", ha="right", fontsize=8)
     (fem,) = of_model(tables["energies"], "fem")
     for status, face, label in (("ok", COLOURS[2], "jumps"), ("not-applicable", "white", "no jump")):
-        part = fem[fem["status"] == status]
+        squares = fem[fem["status"] == status]
         square = {"marker": "s", "ms": 7, "color": COLOURS[2], "mfc": face}
-        crosses(axes, part["k"], part["mu"], label=f"{label} (both references)", **square)
+        crosses(axes, squares["k"], squares["mu"], label=f"{label} (both references)", **square)
     axes.set(xlabel=LABELS["k"], ylabel=LABELS["mu"], ylim=(0.2, 1.1), xlim=(-0.03, 0.63))
     axes.legend(loc="lower left", fontsize=8)
 

@@ -170,12 +170,12 @@ def verdict(evidence: Iterable[Evidence]) -> str:
     >>> verdict(rows[:1]), verdict(rows[2:]), verdict(rows), verdict(rows[:2])
     ('true', 'false', 'true in part', 'not decided')
     """
-    known = set(clauses(evidence).values())
-    if known <= {HOLDS}:
-        return TRUE if known else ""
-    if FAILS not in known:
+    outcomes = set(clauses(evidence).values())
+    if outcomes <= {HOLDS}:
+        return TRUE if outcomes else ""
+    if FAILS not in outcomes:
         return UNDECIDED
-    return IN_PART if HOLDS in known else FALSE
+    return IN_PART if HOLDS in outcomes else FALSE
 
 
 def evidence_frame(statement: str, evidence: Iterable[Evidence]) -> pd.DataFrame:

@@ -43,9 +43,9 @@ def phi_slope(reference: str, case: dict[str, float], nearest: str) -> Made:
 
 
 @measure("derivative of Phi_k at s = 1 + {0} over that at 1 + {1}", "formula")
-def phi_sharpness(reference: str, case: dict[str, float], near: str, far: str) -> Made:
+def phi_sharpness(reference: str, case: dict[str, float], inner: str, far: str) -> Made:
     yield {}
-    slopes = fscm.ring_response(case["k"], np.ones(2), 1.0 + np.array([float(near), float(far)]))
+    slopes = fscm.ring_response(case["k"], np.ones(2), 1.0 + np.array([float(inner), float(far)]))
     ratio = slopes[0] / slopes[1]
     return ratio, _KERNEL_ROUNDING * ratio
 
@@ -126,8 +126,8 @@ def force_at(n: float, k: float, mu: float, nu: float) -> dict[str, float]:
 @measure("difference of the pull-off forces for nu = {0} and {1}", "fem")
 def poisson_difference(reference: str, case: dict[str, float], *ratios: str) -> Made:
     forces = yield from together({nu: result_of(force_at, *of_case(case), float(nu)) for nu in ratios})
-    first, second = forces.values()
-    return abs(first["value"] - second["value"]), first["u_num"] + second["u_num"]
+    low, high = forces.values()
+    return abs(low["value"] - high["value"]), low["u_num"] + high["u_num"]
 
 
 @measure(f"change of the pull-off force by N = {SEGMENTS} segments", "fscm-stieltjes")

@@ -114,8 +114,8 @@ def _together(named: Sequence[tuple[str, ...]], position: int) -> list[tuple[str
 
 
 def _beyond(outcomes: dict[str, str]) -> str:
-    known = [outcome for outcome in (HOLDS, FAILS, UNDECIDED) if outcome in outcomes.values()]
-    return ", ".join(f"{outcome} for {_named(outcomes, outcome)}" for outcome in known)
+    present = [outcome for outcome in (HOLDS, FAILS, UNDECIDED) if outcome in outcomes.values()]
+    return ", ".join(f"{outcome} for {_named(outcomes, outcome)}" for outcome in present)
 
 
 def _sentences(rows: Sequence[Evidence]) -> str:
@@ -147,8 +147,8 @@ def readable(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def _texts(tables: Tables) -> dict[str, str]:
-    shown = readable(tables[""])
-    return texts_of(shown, shown[_ON_PAPER], _TITLE, _NOTES, "paper-statements")
+    texts = readable(tables[""])
+    return texts_of(texts, texts[_ON_PAPER], _TITLE, _NOTES, "paper-statements")
 
 
 # The turning points are counted at the points that the solver places.

@@ -24,11 +24,11 @@ def _listed(values: Iterable[Iterable[float]]) -> list[Case]:
     return [tuple(zip(_PARAMETERS, map(float, case), strict=False)) for case in values]
 
 
-def _cases(given: Test) -> list[Case]:
+def _cases(parameters: Test) -> list[Case]:
     """The ``cases`` of a test, and every combination of its parameters."""
-    names = [name for name in _PARAMETERS if name in given]
-    lattice = product(*(map(float, given[name]) for name in names)) if names else ()
-    return _listed(given.get("cases", ())) + [tuple(zip(names, values, strict=True)) for values in lattice]
+    names = [name for name in _PARAMETERS if name in parameters]
+    lattice = product(*(map(float, parameters[name]) for name in names)) if names else ()
+    return _listed(parameters.get("cases", ())) + [tuple(zip(names, values, strict=True)) for values in lattice]
 
 
 def _families(cases: Iterable[Case], along: str) -> dict[str, list[Case]]:
@@ -40,7 +40,7 @@ def _families(cases: Iterable[Case], along: str) -> dict[str, list[Case]]:
 
 
 def _numbers(terms: Iterable[str], places: Sequence[tuple[str, Case]]) -> Plan[dict[tuple[str, str, Case], Number]]:
-    return together({(term, *place): measured(term, *place) for term in terms for place in places})
+    return together({(term, *at): measured(term, *at) for term in terms for at in places})
 
 
 def _limit(test: Test) -> Number:
@@ -82,7 +82,7 @@ def trend(test: Test) -> Plan[list[Evidence]]:
     return rows
 
 
-def extrapolated(first: Number, second: Number, third: Number) -> Number:
+def extrapolated(earliest: Number, second: Number, third: Number) -> Number:
     """Return the limit of a sequence from its last three members (Aitken), with the bound that theirs give it.
 
     It is exact for a power of a parameter that changes by one factor from each member to the next.
@@ -93,14 +93,14 @@ def extrapolated(first: Number, second: Number, third: Number) -> Number:
     >>> round(extrapolated(*members).value, 12)
     0.3
     """
-    bend = first.value + third.value - 2.0 * second.value
+    bend = earliest.value + third.value - 2.0 * second.value
     what = f"limit of the sequence that ends with {third.what}"
     if bend == 0.0:
         return Number(third.value, third.u, what)
-    limit = (first.value * third.value - second.value**2) / bend
+    limit = (earliest.value * third.value - second.value**2) / bend
     # Derivatives by the three members.
-    parts = (third.value - limit, 2.0 * (limit - second.value), first.value - limit)
-    u = sum(abs(part / bend) * member.u for part, member in zip(parts, (first, second, third), strict=True))
+    parts = (third.value - limit, 2.0 * (limit - second.value), earliest.value - limit)
+    u = sum(abs(slope / bend) * member.u for slope, member in zip(parts, (earliest, second, third), strict=True))
     return Number(limit, u, what)
 
 

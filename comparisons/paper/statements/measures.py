@@ -124,7 +124,7 @@ def table_of(places: list[tuple[str, dict[str, str], Case]], **terms: str) -> Pl
     )
     rows = [
         {"reference": reference, **keys, **dict(case)}
-        | dict(zip(columns, (part for name in terms for part in numbers[index, name][:2]), strict=True))
+        | dict(zip(columns, (number for name in terms for number in numbers[index, name][:2]), strict=True))
         for index, (reference, keys, case) in enumerate(places)
     ]
     return pd.DataFrame(rows)
@@ -144,10 +144,10 @@ def quantity_of(reference: str, case: dict[str, float], name: str, model: str = 
     return result["value"], result["u_num"], what
 
 
-def two(reference: str, case: dict[str, float], first: str, second: str) -> Plan[tuple[Number, Number]]:
+def two(reference: str, case: dict[str, float], term: str, against: str) -> Plan[tuple[Number, Number]]:
     """Plan two terms of the same case."""
-    both = yield from together({term: measured(term, reference, tuple(case.items())) for term in (first, second)})
-    return both[first], both[second]
+    both = yield from together({name: measured(name, reference, tuple(case.items())) for name in (term, against)})
+    return both[term], both[against]
 
 
 @measure("displacement at jump-in minus that at jump-out")

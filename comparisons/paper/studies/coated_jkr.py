@@ -151,9 +151,9 @@ def coated_pull_off(ratio: float, thickness: float, nu_coating: float, nu_substr
         return coated_load(math.exp(log_radius), ratio, thickness, nu_coating, nu_substrate)
 
     places = np.log(_RADII)
-    loads = [load(place) for place in places]
+    loads = [load(log_radius) for log_radius in places]
     least = int(np.argmin(loads))
     if not 0 < least < len(places) - 1:
         raise ComputationFailed(f"the load is smallest at the contact radius {_RADII[least]:g}, an end of the search")
-    found = minimize_scalar(load, bracket=tuple(places[least - 1 : least + 2]), tol=1e-8)
-    return {"force": -float(found.fun) / math.pi, "radius": math.exp(float(found.x)), "u_num": U_NUM}
+    minimum = minimize_scalar(load, bracket=tuple(places[least - 1 : least + 2]), tol=1e-8)
+    return {"force": -float(minimum.fun) / math.pi, "radius": math.exp(float(minimum.x)), "u_num": U_NUM}

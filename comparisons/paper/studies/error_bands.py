@@ -87,8 +87,8 @@ def bands(table: pd.DataFrame) -> pd.DataFrame:
 
 def _series(table: pd.DataFrame, *columns: str) -> Iterator[tuple[dict[str, Any], list[list[float]]]]:
     """Points with an error of one quantity of one model at one n and k, by rising Tabor numbers."""
-    for key, part in table.groupby(_KEY, sort=False):
-        points = part[part["kappa"].notna()].sort_values("mu")[list(columns)].to_numpy(float).tolist()
+    for key, line in table.groupby(_KEY, sort=False):
+        points = line[line["kappa"].notna()].sort_values("mu")[list(columns)].to_numpy(float).tolist()
         if points:
             yield dict(zip(_KEY, key, strict=True)), points
 
@@ -96,15 +96,15 @@ def _series(table: pd.DataFrame, *columns: str) -> Iterator[tuple[dict[str, Any]
 def _spans(points: list[list[float]], limit: float) -> list[dict[str, float]]:
     """Ranges of mu within the limit; a sign change between two points beyond the limit is not a range."""
     spans: list[dict[str, float]] = []
-    first, last = points[0][0], points[-1][0]
-    start = {"mu_from": first, "from_below": first, "from_above": first}
+    lowest, highest = points[0][0], points[-1][0]
+    start = {"mu_from": lowest, "from_below": lowest, "from_above": lowest}
     for a, b in pairwise(points):
         if abs(a[1]) > limit >= abs(b[1]):
             start = {"mu_from": _crossing(a, b, limit), "from_below": a[0], "from_above": b[0]}
         elif abs(a[1]) <= limit < abs(b[1]):
             spans.append(start | {"mu_to": _crossing(a, b, limit), "to_below": a[0], "to_above": b[0]})
     if abs(points[-1][1]) <= limit:
-        spans.append(start | {"mu_to": last, "to_below": last, "to_above": last})
+        spans.append(start | {"mu_to": highest, "to_below": highest, "to_above": highest})
     return spans
 
 
@@ -177,9 +177,9 @@ def _picture(figure: Figure, tables: Tables) -> None:
     for axes, pair in zip(lattice, pairs, strict=True):
         table = jumps.loc[pair]
         for (i, n), (j, k) in product(enumerate((1.0, 1.5, 2.0, 5.0)), enumerate((0.0, 0.4))):
-            part = table[(table["n"] == n) & (table["k"] == k)].sort_values("mu")
+            line = table[(table["n"] == n) & (table["k"] == k)].sort_values("mu")
             style: Any = {"color": COLOURS[i], "ls": LINES[j], "marker": MARKERS[i], "ms": 3.5, "lw": 1.0}
-            axes.plot(part["mu"], 100.0 * part["kappa"], label=held(n=n, k=k), **style)
+            axes.plot(line["mu"], 100.0 * line["kappa"], label=held(n=n, k=k), **style)
         # The scale of kappa passes zero linearly and is logarithmic beyond.
         axes.set_yscale("symlog", linthresh=0.1, linscale=0.5)
         level(axes)

@@ -204,7 +204,7 @@ def by_elements(event: str, kind: str, parameter: float, k: float = OFFSET[0], m
     return {
         name: str(solution)
         if isinstance(solution, fem_reference.NoSuchEvent)
-        else [part / scales[_UNITS.get(name, "displacement")] for part in (solution.value, solution.u_num)]
+        else [number / scales[_UNITS.get(name, "displacement")] for number in (solution.value, solution.u_num)]
         for name, solution in events.items()
     }
 

@@ -62,11 +62,11 @@ def _picture(figure: Figure, tables: Tables) -> None:
     fem: Any = {"color": COLOURS[5], "ms": 8, "mfc": "none", "ls": "none"}
     for axes, ((_, names), kind) in zip(lattice, product(_ROWS, SERIES), strict=True):
         for name, marker in zip(names, "o^", strict=False):
-            part = tables[""][(tables[""]["solid"] == kind) & (tables[""]["quantity"] == name)]
+            rows = tables[""][(tables[""]["solid"] == kind) & (tables[""]["quantity"] == name)]
             for column, (_, line, colour) in _STYLES.items():
-                axes.plot(part["parameter"], part[column], color=colour, ls=line, lw=1.1)
-            axes.plot(part["parameter"], part["fscm"], marker=marker, **fscm)
-            axes.plot(part["parameter"], part["fem"], marker=marker, **fem)
+                axes.plot(rows["parameter"], rows[column], color=colour, ls=line, lw=1.1)
+            axes.plot(rows["parameter"], rows["fscm"], marker=marker, **fscm)
+            axes.plot(rows["parameter"], rows["fem"], marker=marker, **fem)
         axes.set_xscale("log")
     for axes, depth in zip(lattice[6:], _DEPTHS, strict=True):
         axes.set(xlabel=depth, yscale="log")
@@ -89,29 +89,35 @@ def graded_solids() -> Plan[Tables]:
     """Solids that are no power law: pull-off, jumps and hysteresis, and what simpler solids get wrong."""
     calls: dict[Any, CachedCall] = {}
     places = [(kind, parameter) for kind, (parameters, _) in SERIES.items() for parameter in parameters]
-    for place in places:
-        with_jumps = place[1] in SERIES[place[0]][1]
+    for solid in places:
+        with_jumps = solid[1] in SERIES[solid[0]][1]
         calls |= {
-            (place, of): CachedCall.of(by_elements, of, *place) for of in EVENTS if with_jumps or of == "pull-off"
+            (solid, of): CachedCall.of(by_elements, of, *solid) for of in EVENTS if with_jumps or of == "pull-off"
         }
-        calls[place, "fscm"] = CachedCall.of(by_fscm, *place)
-        case = case_of(*place)
-        calls[place, "surface"] = CachedCall.of(of_power_law, 0.0, case.mu)
-        calls[place, "depth"] = CachedCall.of(of_power_law, *case.depth)
-        calls[place, "power_law"] = CachedCall.of(of_equivalent, *place)
+        calls[solid, "fscm"] = CachedCall.of(by_fscm, *solid)
+        case = case_of(*solid)
+        calls[solid, "surface"] = CachedCall.of(of_power_law, 0.0, case.mu)
+        calls[solid, "depth"] = CachedCall.of(of_power_law, *case.depth)
+        calls[solid, "power_law"] = CachedCall.of(of_equivalent, *solid)
     results = yield calls
     rows = []
-    for place, name in product(places, QUANTITIES):
-        reference = results[place, "fscm"]
-        elements = {k: v for event in EVENTS for k, v in results.get((place, event), {}).items()}
-        row: dict[str, Any] = {"solid": place[0], "parameter": place[1], "quantity": name}
+    for solid, name in product(places, QUANTITIES):
+        reference = results[solid, "fscm"]
+        elements = {k: v for event in EVENTS for k, v in results.get((solid, event), {}).items()}
+        row: dict[str, Any] = {"solid": solid[0], "parameter": solid[1], "quantity": name}
         row["fscm"], row["u_fscm"] = number_of(reference, name)
         row["fem"], row["u_fem"] = number_of(elements, name)
-        for other in _STYLES:
-            solved = results[place, other]
-            k, mu = (solved["k"], solved["mu"]) if other == "power_law" else calls[place, other].arguments
+        for column in _STYLES:
+            solved = results[solid, column]
+            k, mu = (solved["k"], solved["mu"]) if column == "power_law" else calls[solid, column].arguments
             value, u_num = number_of(solved, name)
             error = relative_difference(value, row["fscm"])
-            row |= {f"{other}_k": k, f"{other}_mu": mu, other: value, f"u_{other}": u_num, f"{other}_error": error}
+            row |= {
+                f"{column}_k": k,
+                f"{column}_mu": mu,
+                column: value,
+                f"u_{column}": u_num,
+                f"{column}_error": error,
+            }
         rows.append(row | {"reason": reference[name] if isinstance(reference[name], str) else ""})
     return {"": pd.DataFrame(rows)}

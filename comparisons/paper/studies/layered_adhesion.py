@@ -82,8 +82,8 @@ def coated_force(ratio: float, thickness: float, mu: float) -> list[float]:
     """
     solid = Coating(1.0, ratio, thickness * mu**0.5, 0.0, NU)
     with translated(NoSuchEvent, NotConverged):
-        found = solve(Problem(2.0, 0.0, mu, graded=solid), "pull_off_force")
-    return [found.value, found.u_num]
+        force = solve(Problem(2.0, 0.0, mu, graded=solid), "pull_off_force")
+    return [force.value, force.u_num]
 
 
 def layer_compliance(q: float, ratio: float, nu_coating: float, nu_substrate: float) -> float:
@@ -117,10 +117,10 @@ def extrapolated(mu: Sequence[float], forces: Sequence[Sequence[float]]) -> Numb
     """
     m, x = np.asarray(mu, float), np.array(forces)
 
-    def limit(part: slice) -> Number:
+    def limit(selection: slice) -> Number:
         # The row of the inverse that gives the constant: its entries are the weights of the forces.
-        weights = np.linalg.inv(_terms(m[part]))[0]
-        return float(weights @ x[part, 0]), float(np.abs(weights) @ x[part, 1])
+        weights = np.linalg.inv(_terms(m[selection]))[0]
+        return float(weights @ x[selection, 0]), float(np.abs(weights) @ x[selection, 1])
 
     before, (value, u_forces) = limit(slice(-_TERMS - 1, -1)), limit(slice(-_TERMS, None))
     return value, combined(abs(value - before[0]), u_forces)
@@ -165,7 +165,7 @@ def layered_adhesion() -> Plan[Tables]:
     rows.append(("thin coating", "published", "coated JKR", (_RIGID, 0.0), (2.0, 0.0), limit))
     columns = ("check", "origin", "by", "modulus_ratio", "thickness", "expected", "u_expected", "found", "u_found")
     table = pd.DataFrame(
-        [(*words, *case, *expected, *found) for *words, case, expected, found in rows], columns=columns
+        [(*words, *case, *expected, *force) for *words, case, expected, force in rows], columns=columns
     )
     apart, bound = table["found"] - table["expected"], combined(table["u_expected"], table["u_found"])
     return {"": table.assign(agreement=np.where(apart.abs() <= bound, "agrees", "disagrees"))}

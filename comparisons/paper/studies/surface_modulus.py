@@ -84,9 +84,11 @@ def limits(table: pd.DataFrame) -> pd.DataFrame:
             factor, of_depth = (column / column.shift() for column in (difference, ends["depth"]))
             rate = (np.log(factor.abs()) / np.log(of_depth)).abs()
             columns = {"depth": ends["depth"], "value": ends["value"], "limit_value": ends[f"{name}_value"]}
-            part = ends[["k", "mu", "quantity"]].assign(limit=name, **columns, difference=difference, u_num=u_num)
+            table_of_limit = ends[["k", "mu", "quantity"]].assign(
+                limit=name, **columns, difference=difference, u_num=u_num
+            )
             expected = 1.0 - ends["k"] if name == "graded" else 1.0
-            parts.append(part.assign(rate=rate.where(difference.abs() > 4.0 * u_num), expected=expected))
+            parts.append(table_of_limit.assign(rate=rate.where(difference.abs() > 4.0 * u_num), expected=expected))
     return pd.concat(parts, ignore_index=True)
 
 
@@ -128,13 +130,15 @@ def _picture(figure: Figure, tables: Tables) -> None:
     for axes, (label, names, axis) in zip(lattice, _PANELS.values(), strict=True):
         axes.set(ylabel=label, xscale="log", **axis)
         for name in names:
-            for index, (_, part) in enumerate(table[table["quantity"] == name].groupby(["k", "mu"], sort=False)):
-                colour, depth = COLOURS[index], part["depth"]
+            for index, (_, table_of_limit) in enumerate(
+                table[table["quantity"] == name].groupby(["k", "mu"], sort=False)
+            ):
+                colour, depth = COLOURS[index], table_of_limit["depth"]
                 face = "white" if name == "jump_in_displacement" else colour
-                axes.plot(depth, part["value"], color=colour, marker=MARKERS[index], ms=4, lw=1.1, mfc=face)
+                axes.plot(depth, table_of_limit["value"], color=colour, marker=MARKERS[index], ms=4, lw=1.1, mfc=face)
                 # The limit of thin skins, as far as it is one.
-                axes.plot(depth, part["graded_value"].where(depth <= 1.0), color=colour, ls=":", lw=0.9)
-                axes.plot(depth, part["homogeneous_value"], color=colour, ls="--", lw=0.9)
+                axes.plot(depth, table_of_limit["graded_value"].where(depth <= 1.0), color=colour, ls=":", lw=0.9)
+                axes.plot(depth, table_of_limit["homogeneous_value"], color=colour, ls="--", lw=0.9)
     figure.suptitle(r"$E=E_0((z+z_s)/c_0)^k$, $n=2$, $\nu=0.3$; $\mu$ of the limit $z_s=0$", fontsize=9)
     handles = [
         Line2D([], [], color=COLOURS[i], marker=MARKERS[i], ms=4, label=held(k=k, mu=mu))
@@ -155,8 +159,8 @@ def surface_modulus() -> Plan[Tables]:
         calls |= {(case, event): CachedCall.of(by_elements, event, _KIND, *case) for event in EVENTS}
         calls[case, "fscm"] = CachedCall.of(by_fscm, _KIND, *case)
     uniform = [(0.0, mu_homogeneous[case]) for case in cases if case[0] >= _THICK]
-    for place in (*_SERIES, *uniform):
-        calls |= {(name, *place): CachedCall.of(quantity, "fscm", name, 2.0, *place) for name in QUANTITIES}
+    for power_law in (*_SERIES, *uniform):
+        calls |= {(name, *power_law): CachedCall.of(quantity, "fscm", name, 2.0, *power_law) for name in QUANTITIES}
     results = yield calls
 
     def limit(name: str, k: float, mu: float) -> tuple[float, float]:

@@ -82,11 +82,11 @@ def largest_error(model: TaborCurve, exact: TaborCurve) -> Extreme:
     mu = np.geomspace(*RANGE, _SEARCH)
     kappa = model(mu) / exact(mu) - 1.0
     at = int(np.argmax(np.abs(kappa)))
-    value, place = float(kappa[at]), float(mu[at])
+    value, at_mu = float(kappa[at]), float(mu[at])
     if 0 < at < _SEARCH - 1:
         value, log_mu = _parabola(np.log(mu[at - 1 : at + 2]), kappa[at - 1 : at + 2])
-        place = float(np.exp(log_mu))
-    return Extreme(value, (1.0 + abs(value)) * (model.error + exact.error), place)
+        at_mu = float(np.exp(log_mu))
+    return Extreme(value, (1.0 + abs(value)) * (model.error + exact.error), at_mu)
 
 
 def _parabola(x: Array, y: Array) -> tuple[float, float]:

@@ -50,9 +50,9 @@ def test_a_picture_is_whole_and_its_panels_are_lettered_in_order(name):
     files = [path for path in figure.files_in(FOLDER) if path.suffix == ".csv"]
     picture = figure.draw({path.stem[len(figure.stem) :].removeprefix("_"): pd.read_csv(path) for path in files})
     picture.draw_without_rendering()
-    shown, (width, height) = picture.get_tightbbox(), picture.get_size_inches()
+    box, (width, height) = picture.get_tightbbox(), picture.get_size_inches()
     # Rounding to pixels.
-    assert min(shown.x0, shown.y0, width - shown.x1, height - shown.y1) > -0.01
+    assert min(box.x0, box.y0, width - box.x1, height - box.y1) > -0.01
     titles = [axes.get_title(loc="left") for axes in picture.axes]
     # Twice where a panel is shown again, enlarged.
     letters = "".join(dict.fromkeys(title[1] for title in titles if title))

@@ -52,8 +52,8 @@ def test_each_clause_model_and_kind_of_limit_keeps_the_largest_failure_before_wh
     (decisive,) = by_clause(rows)
     assert (decisive.value.value, decisive.outcome, decisive.comparisons) == (2.0, FAILS, 4)
     assert [row.outcome for row in by_clause(rows[:2])] == [UNDECIDED]
-    others = [comparison(-2.0, clause="n = 1"), comparison(-3.0, model="fem"), comparison(-4.0, what=READING)]
-    assert [row.value.value for row in by_clause([*rows, *others])] == [2.0, -2.0, -3.0, -4.0]
+    more = [comparison(-2.0, clause="n = 1"), comparison(-3.0, model="fem"), comparison(-4.0, what=READING)]
+    assert [row.value.value for row in by_clause([*rows, *more])] == [2.0, -2.0, -3.0, -4.0]
     with pytest.raises(ValueError, match="no comparison"):
         by_clause([])
 

@@ -107,8 +107,8 @@ def test_the_surface_is_in_equilibrium(n, k, mu):
 def test_the_pressure_carries_the_pull_off_force_and_the_strength_is_reached():
     shape = surface(2.0, 0.4, 1.0)
     # p = -(8/3) (f + 1)^-3 beyond r = 6, where f is 18.
-    rest = 8 / 3 / (18 + 1 - shape["displacement"]) ** 2
-    load = np.trapezoid(shape["pressure"], np.array(shape["radius"]) ** 2) - rest
+    beyond = 8 / 3 / (18 + 1 - shape["displacement"]) ** 2
+    load = np.trapezoid(shape["pressure"], np.array(shape["radius"]) ** 2) - beyond
     assert -load == pytest.approx(of_model("fscm", "pull_off_force", 2.0, 0.4, 1.0).value, abs=2e-3)
     assert min(shape["pressure"]) == pytest.approx(-STRENGTH, abs=1e-6)
 
@@ -116,12 +116,12 @@ def test_the_pressure_carries_the_pull_off_force_and_the_strength_is_reached():
 def test_the_branches_part_as_at_a_cusp():
     critical = near_critical(2.0, 0.4)
     assert round(critical["mu"], 2) == 0.78
-    near, far = critical["jumps"][0], critical["jumps"][3]
-    assert near["mu"] / critical["mu"] - 1 == pytest.approx(1e-4, rel=1e-6)
-    ratio = (far["mu"] - critical["mu"]) / (near["mu"] - critical["mu"])
+    at_cusp, far = critical["jumps"][0], critical["jumps"][3]
+    assert at_cusp["mu"] / critical["mu"] - 1 == pytest.approx(1e-4, rel=1e-6)
+    ratio = (far["mu"] - critical["mu"]) / (at_cusp["mu"] - critical["mu"])
     # Two roots of a square part like its root, and their values like the power 3/2.
     for kind, power, tolerance in (("gap", 0.5, 0.02), ("displacement", 1.5, 0.05)):
-        of_near, of_far = (row[f"jump_in_{kind}"] - row[f"jump_out_{kind}"] for row in (near, far))
+        of_near, of_far = (row[f"jump_in_{kind}"] - row[f"jump_out_{kind}"] for row in (at_cusp, far))
         assert of_far / of_near == pytest.approx(ratio**power, rel=tolerance)
 
 
@@ -137,8 +137,8 @@ def test_jumps_are_the_quantities_of_the_model_and_there_is_none_below_the_criti
 def test_coefficients_of_the_asymptotes_and_the_asymptotes_beside_the_model():
     for n in (1.0, 2.0, 5.0):
         # Sec. 3.3: 8/3 and 2 as k -> 1, whatever n.
-        last = coefficients(n)[-1]
-        assert (last["k"], last["C_in"], last["C_out"]) == (1.0, pytest.approx(8 / 3), pytest.approx(2))
+        gibson = coefficients(n)[-1]
+        assert (gibson["k"], gibson["C_in"], gibson["C_out"]) == (1.0, pytest.approx(8 / 3), pytest.approx(2))
     # Eq. 49, and JKR's (3/4) (pi^2)^(1/3) of a sphere in our units.
     homogeneous = coefficients(2.0)[0]
     assert homogeneous["C_in"] == pytest.approx(1.4 * (5 * math.pi / math.sqrt(2)) ** (2 / 7), rel=1e-13)
@@ -197,10 +197,10 @@ def test_surfaces_touch_inside_a_part_by_the_work_of_adhesion_at_c_and_are_what_
     tables = made_of(fig17_surface_models)
     table, radii = tables[""], tables["radii"].set_index("model")
     for model, stress in STRESSES.items():
-        part = table[table["model"] == model]
+        surface_rows = table[table["model"] == model]
         a, c = radii.loc[model]
-        assert (part["height"] == part["punch"])[part["radius"] < a].all()
-        assert stress * np.interp(c, part["radius"], part["gap"]) == pytest.approx(1.0, abs=1e-6)
+        assert (surface_rows["height"] == surface_rows["punch"])[surface_rows["radius"] < a].all()
+        assert stress * np.interp(c, surface_rows["radius"], surface_rows["gap"]) == pytest.approx(1.0, abs=1e-6)
     # -w(r) of the FSCM by Eqs. 5 and 6 from the pressure in the table, beyond the contact where F is regular.
     fscm, k, M, r = table[table["model"] == "fscm"], 0.4, 2.0, 3.0
     t = np.linspace(0.0, fscm["radius"].max(), 100001)[1:]

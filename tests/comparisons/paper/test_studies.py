@@ -75,7 +75,7 @@ def test_the_map_of_a_jump_begins_at_the_critical_tabor_number():
     jumps = pd.read_csv(FOLDER / "error_maps_jumps.csv")
     figure = FIGURES["error-maps-jumps"].draw({"": jumps})
     for axes in figure.axes[:2]:
-        (hatched,) = [part for part in axes.collections if part.get_hatch()]
+        (hatched,) = [artist for artist in axes.collections if artist.get_hatch()]
         (path,) = hatched.get_paths()
         assert path.contains_point((2.0, 0.69))
         assert not path.contains_points([(2.0, 0.70), (2.0, 0.75)]).any()
@@ -89,10 +89,10 @@ def table_of(kappa, mu=(0.1, 1.0, 10.0), **columns):
 
 def test_bands_are_bracketed_and_not_too_precise():
     of_limit = bands(table_of([0.03, -0.003, 0.08])).set_index("limit")
-    one = of_limit.loc[0.01]
-    assert one[["from_below", "from_above", "to_below", "to_above"]].tolist() == [0.1, 1.0, 1.0, 10.0]
+    of_one_percent = of_limit.loc[0.01]
+    assert of_one_percent[["from_below", "from_above", "to_below", "to_above"]].tolist() == [0.1, 1.0, 1.0, 10.0]
     # 0.03 -> -0.003 passes 0.01 at 20/33 of the decade, -0.003 -> 0.08 at 13/83 of the next.
-    assert one[["mu_from", "mu_to"]].tolist() == [round(10 ** (20 / 33 - 1), 2), round(10 ** (13 / 83), 1)]
+    assert of_one_percent[["mu_from", "mu_to"]].tolist() == [round(10 ** (20 / 33 - 1), 2), round(10 ** (13 / 83), 1)]
     assert of_limit.loc[0.05, ["mu_from", "from_below", "from_above", "to_below"]].tolist() == [0.1, 0.1, 0.1, 1.0]
     assert (of_limit["largest_kappa"].unique(), of_limit["at_mu"].unique()) == ([0.08], [10.0])
 
@@ -263,12 +263,12 @@ def test_the_compliance_of_a_layer_is_that_published():
 @pytest.mark.parametrize("index", range(3))
 def test_a_coated_solid_approaches_its_own_limit(index):
     row = LAYERED[LAYERED["check"] == "coated JKR"].iloc[index]
-    place = row["modulus_ratio"], row["thickness"]
-    value, u_num = extrapolated(TABOR_NUMBERS, [coated_force(*place, mu) for mu in TABOR_NUMBERS])
+    layer = row["modulus_ratio"], row["thickness"]
+    value, u_num = extrapolated(TABOR_NUMBERS, [coated_force(*layer, mu) for mu in TABOR_NUMBERS])
     assert value == pytest.approx(row["found"], abs=u_num)
     # A coating that is one in a thousand thicker is told apart.
-    other = coated_pull_off(place[0], 1.001 * place[1], 0.3, 0.3)["force"]
-    assert abs(value - row["expected"]) <= u_num < abs(value - other)
+    thicker = coated_pull_off(layer[0], 1.001 * layer[1], 0.3, 0.3)["force"]
+    assert abs(value - row["expected"]) <= u_num < abs(value - thicker)
 
 
 def test_the_bound_of_the_limit_covers_a_neglected_term_and_the_bounds_of_the_forces():

@@ -63,9 +63,9 @@ def test_the_committed_verdicts_are_those_of_the_committed_numbers_and_of_the_re
     assert "of 34 numbers 24 agree, 4 agree if truncated (40.8 %, 1.056, 3.5 %, 15.9 %) and 6 differ" in text
     # One scheme gives all numbers but those of the cone.
     of_scheme = table[table["scheme"] != ""]
-    others = of_scheme[of_scheme["scheme_verdict"] != "agrees"]
-    assert (len(of_scheme), others["printed"].tolist()) == (16, ["65.0", "5.8"])
-    for row in others.itertuples():
+    not_given = of_scheme[of_scheme["scheme_verdict"] != "agrees"]
+    assert (len(of_scheme), not_given["printed"].tolist()) == (16, ["65.0", "5.8"])
+    for row in not_given.itertuples():
         assert f"{abs(row.by_scheme):.2f} % for {row.printed} %" in text
     for suffix, page in FIGURES["numbers"].texts({"": table}).items():
         assert (FOLDER / f"paper_values{suffix}").read_text(encoding="utf-8") == page
