@@ -130,30 +130,30 @@ LAYERS = {
 @cache
 def modules() -> dict[str, Path]:
     """Every module of the three packages, by dotted name."""
-    found = {}
+    paths = {}
     for package in PACKAGES:
         for path in sorted((ROOT / package).rglob("*.py")):
             parts = path.relative_to(ROOT).with_suffix("").parts
-            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
-    return found
+            paths[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return paths
 
 
 @cache
 def imported(name: str, source: str, is_package: bool = False) -> set[str]:
     """Every module that `source` imports, also inside functions, relatively, or by `import_module("...")`."""
-    found = set()
+    names = set()
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
+            names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             base = node.module or ""
             if node.level:
                 above = name.split(".")[: (1 if is_package else 0) - node.level or None]
                 base = ".".join([*above, *filter(None, [node.module])])
-            found |= {base} | {f"{base}.{alias.name}" for alias in node.names}
+            names |= {base} | {f"{base}.{alias.name}" for alias in node.names}
         elif isinstance(node, ast.Call) and called(node.func) in {"import_module", "__import__"}:
-            found |= {argument.value for argument in node.args if isinstance(argument, ast.Constant)}
-    return found
+            names |= {argument.value for argument in node.args if isinstance(argument, ast.Constant)}
+    return names
 
 
 def called(function: ast.expr) -> str:
@@ -169,37 +169,37 @@ def within(name: str, starts: tuple[str, ...]) -> bool:
 @cache
 def ours(name: str, path: Path) -> set[str]:
     """The modules of the three packages that a module imports (not the names in them)."""
-    every = modules()
+    all_modules = modules()
     return {
         module
         for module in imported(name, path.read_text(encoding="utf-8"), path.name == "__init__.py")
-        if module in every and module != name
+        if module in all_modules and module != name
     }
 
 
 @pytest.mark.parametrize("name", modules())
 def test_packages_import_only_what_they_may(name):
-    own = name.split(".")[0]
+    own_package = name.split(".")[0]
     rule = max((start for start in ALLOWED if within(name, (start,))), key=len)
-    others = {module for module in ours(name, modules()[name]) if module.split(".")[0] != own}
+    modules_of_others = {module for module in ours(name, modules()[name]) if module.split(".")[0] != own_package}
     # "from fscm.problem import ..." also names the package itself.
-    assert {module for module in others if not within(module, ALLOWED[rule]) and "." in module} == set()
+    assert {module for module in modules_of_others if not within(module, ALLOWED[rule]) and "." in module} == set()
     if not any("." not in allowed for allowed in ALLOWED[rule]):
         source = modules()[name].read_text(encoding="utf-8")
-        bare = {module for module in imported(name, source) if module in PACKAGES and module != own}
+        bare = {module for module in imported(name, source) if module in PACKAGES and module != own_package}
         assert bare == set(), "imports a whole package"
 
 
 def layer(name: str) -> int:
     """Index of the layer of a module in its package."""
-    package, part = name.split(".")[:2]
-    return next(index for index, names in enumerate(LAYERS[package]) if part in names)
+    package, top = name.split(".")[:2]
+    return next(index for index, names in enumerate(LAYERS[package]) if top in names)
 
 
 @pytest.mark.parametrize("name", [name for name in modules() if "." in name])
 def test_a_module_imports_from_its_own_layer_or_those_before_it(name):
-    own = [module for module in ours(name, modules()[name]) if module.startswith(name.split(".")[0] + ".")]
-    assert [module for module in own if layer(module) > layer(name)] == []
+    siblings = [module for module in ours(name, modules()[name]) if module.startswith(name.split(".")[0] + ".")]
+    assert [module for module in siblings if layer(module) > layer(name)] == []
 
 
 @pytest.mark.parametrize("package", PACKAGES)

@@ -11,9 +11,9 @@ TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 LARGEST = pd.read_csv(ROOT / "results" / "baseline" / "largest_kappa.csv")
 _ERRORS = re.findall(r"^([a-z-]+)((?: +-?\d+\.\d+\(5\)){4})\n((?: +[\d.]+, [\d.]+){4})$", TEXT, flags=re.MULTILINE)
 PRINTED = [
-    (model, n, float(kappa[:-3]), *map(float, place.split(", ")))
+    (model, n, float(kappa[:-3]), *map(float, case.split(", ")))
     for model, kappas, places in _ERRORS
-    for n, kappa, place in zip((1.0, 1.5, 2.0, 5.0), kappas.split(), re.findall(r"[\d.]+, [\d.]+", places), strict=True)
+    for n, kappa, case in zip((1.0, 1.5, 2.0, 5.0), kappas.split(), re.findall(r"[\d.]+, [\d.]+", places), strict=True)
 ]
 
 
@@ -21,11 +21,11 @@ def test_it_is_one_screen_and_a_half():
     assert len(TEXT.splitlines()) <= 95
 
 
-@pytest.mark.parametrize("part", ["fscm-bench run", "-m pytest"])
-def test_each_command_is_one_line(part):
+@pytest.mark.parametrize("command", ["fscm-bench run", "-m pytest"])
+def test_each_command_is_one_line(command):
     """The script that tests a change takes the lines from here."""
-    (line,) = [line for line in TEXT.splitlines() if line.startswith("python3 -m venv ") and part in line]
-    assert line.endswith(part) or line.endswith(f"{part} -n 2")
+    (line,) = [line for line in TEXT.splitlines() if line.startswith("python3 -m venv ") and command in line]
+    assert line.endswith(command) or line.endswith(f"{command} -n 2")
 
 
 def test_the_python_has_about_eight_lines():

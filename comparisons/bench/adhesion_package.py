@@ -82,7 +82,7 @@ def pull_off(mu: float, half_width: float, points: int, displacement: float) -> 
 
     def load(delta: float) -> float:
         nonlocal evaluations
-        start = states[min(states, key=lambda other: abs(other - delta))] if states else None
+        start = states[min(states, key=lambda solved: abs(solved - delta))] if states else None
         # The package measures the gap from the singularity of the law, which is 1 below H = 0.
         state = system.minimize_proxy(offset=delta - 1.0, initial_displacements=start, options=options)
         evaluations += int(state.nfev)

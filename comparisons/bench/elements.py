@@ -68,7 +68,8 @@ def measure(settings: Settings) -> Numbers:
     method = METHODS[settings["method"]]
     # The first factorisation and the first set-up of pyamg import modules.
     _solve(method, MeshSpec(0.5, 0.05, 32.0, 1.5, _ORDER), settings)
-    return _solve(method, MeshSpec(*settings.get("shape", _EDGE), settings["density"], _ORDER), settings)
+    edge_width, surface_depth, extent = settings.get("shape", _EDGE)
+    return _solve(method, MeshSpec(edge_width, surface_depth, extent, settings["density"], _ORDER), settings)
 
 
 def _solve(method: _Method, spec: MeshSpec, settings: Settings) -> Numbers:
@@ -169,8 +170,8 @@ def draw(rows: pd.DataFrame) -> Figure:
 
 def summary(rows: pd.DataFrame) -> list[str]:
     """Return time and memory of the other methods over those of "pyamg", and the iterations of that."""
-    others = _of_every_run(rows[rows["method"] != "pyamg"])
-    table = others.pivot_table(index="unknowns", columns="method", values=["ratio", "memory_ratio"])
+    other_methods = _of_every_run(rows[rows["method"] != "pyamg"])
+    table = other_methods.pivot_table(index="unknowns", columns="method", values=["ratio", "memory_ratio"])
     table.columns = pd.Index([f"{name.removesuffix('_ratio')} {method}" for name, method in table.columns])
     iterations = rows.loc[rows["method"] == "pyamg", "iterations"].max()
     text = table.to_string(float_format="%.2f").splitlines() if len(table) else []

@@ -78,13 +78,13 @@ def measure(settings: Settings) -> Numbers:
     done = [timed for _, timed in processes(_timed, tasks, settings["workers"]) if timed]
     if lost := len(tasks) - sum(timed.status == "ok" for timed in done):
         raise RuntimeError(f"{lost} of {len(tasks)} cases have no value")
-    first, last = min(timed.begin for timed in done), max(timed.end for timed in done)
+    begin_of_tasks, end_of_tasks = min(timed.begin for timed in done), max(timed.end for timed in done)
     busy = sum(timed.end - timed.begin for timed in done) / len({timed.process for timed in done})
     return {
-        "seconds": last - begin,
-        "seconds_of_tasks": last - first,
+        "seconds": end_of_tasks - begin,
+        "seconds_of_tasks": end_of_tasks - begin_of_tasks,
         "cpu_seconds": sum(timed.cpu_seconds for timed in done),
-        "idle_seconds": last - first - busy,
+        "idle_seconds": end_of_tasks - begin_of_tasks - busy,
     }
 
 

@@ -99,18 +99,18 @@ def draw(rows: pd.DataFrame) -> Figure:
     rows = rows.assign(error=np.maximum(rows["error"], rows["u_reference"]))
     labels = "CPU time (s)", "relative error of the pull-off force"
     panels = [
-        Panel(part, "cpu_seconds", "error", "model", labels, "xy", rf"$\mu$ = {mu:g}")
-        for mu, part in rows.groupby("mu")
+        Panel(panel_rows, "cpu_seconds", "error", "model", labels, "xy", rf"$\mu$ = {mu:g}")
+        for mu, panel_rows in rows.groupby("mu")
     ]
     return lines(panels, "Pull-off force for $n$ = 2, $k$ = 0: error against CPU time, one thread", len(panels))
 
 
 def summary(rows: pd.DataFrame) -> list[str]:
     """Return the finest setting of each other solver: its CPU time over that of `fscm` at a smaller error."""
-    ours, others = rows[rows["model"] == "fscm"], rows[rows["model"] != "fscm"]
+    ours, other_solvers = rows[rows["model"] == "fscm"], rows[rows["model"] != "fscm"]
     text = ["CPU time / CPU time of fscm whose error is smaller (pull-off, n = 2, k = 0):"]
-    if len(others):
-        finest = others.sort_values(["model", "mu", "unknowns"]).groupby(["model", "mu"]).tail(1)
+    if len(other_solvers):
+        finest = other_solvers.sort_values(["model", "mu", "unknowns"]).groupby(["model", "mu"]).tail(1)
         columns = ["model", "setting", "mu", "ratio", "cpu_seconds", "error"]
         text += finest[columns].to_string(index=False, float_format="%.2g").splitlines()
     if not adhesion_package.installed() and "adhesion" not in set(rows["model"]):

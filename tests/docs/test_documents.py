@@ -135,15 +135,15 @@ def test_the_example_of_the_pad_prints_the_quoted_numbers(tmp_path, monkeypatch)
 
 @pytest.mark.heavy
 def test_the_stored_force_of_the_pad_is_that_of_the_finite_elements():
-    found = fem_reference.solve(PAD, "pull_off_force", accuracy="quick")
-    assert abs(PAD_FORCE.value - found.value) <= found.u_num <= 1.5 * PAD_FORCE.u_num
+    computed = fem_reference.solve(PAD, "pull_off_force", accuracy="quick")
+    assert abs(PAD_FORCE.value - computed.value) <= computed.u_num <= 1.5 * PAD_FORCE.u_num
 
 
 def test_the_page_of_the_measured_curve_quotes_what_is_printed():
     text = (DOCS / "measured_curve.md").read_text(encoding="utf-8")
-    *lines, last = QUOTED["measured_curve.py"]
+    *lines, distance_line = QUOTED["measured_curve.py"]
     assert "```\n" + "\n".join(lines) + "\n```" in text
-    assert last.split()[-2] + " nN (r.m.s.)" in text
+    assert distance_line.split()[-2] + " nN (r.m.s.)" in text
     assert len(QUOTED["model_choice.py"]) == 32
 
 
@@ -237,12 +237,12 @@ def test_the_tabor_number_is_that_of_the_code():
 def test_the_gates_of_the_documents_are_judged():
     (example,) = [text for text in tables_with("gate") if "BETTER-THAN-JKR" in text]
     rows, curves = read_baseline(ROOT / "results" / "baseline")
-    chosen = grids_for(grids("quick"), ["md-improved", "jkr"])
-    planned = {task.key for task in plan(chosen, ["md-improved", "jkr"])}
+    cases = grids_for(grids("quick"), ["md-improved", "jkr"])
+    planned = {task.key for task in plan(cases, ["md-improved", "jkr"])}
     keys = rows[["model", "quantity", "n", "k", "mu"]].itertuples(index=False, name=None)
     rows = rows[[(*key, None, "") in planned for key in keys]]
-    assert skipped_gates(load_gates(example), chosen, ["md-improved", "jkr"]) == []
-    judged = summarise(judge(load_gates(example), chosen, rows, curves, ["md-improved", "jkr"]))
+    assert skipped_gates(load_gates(example), cases, ["md-improved", "jkr"]) == []
+    judged = summarise(judge(load_gates(example), cases, rows, curves, ["md-improved", "jkr"]))
     assert judged[["gate", "candidate"]].to_numpy().tolist() == [
         ["SOFT-PARABOLOID", "md-improved"],
         ["SOFT-PARABOLOID", "jkr"],
@@ -250,16 +250,16 @@ def test_the_gates_of_the_documents_are_judged():
     ]
     assert set(judged["verdict"]) == {"PASS"}
     with pytest.raises(ValueError, match=r"gate BETTER-THAN-JKR needs jkr, .*: add --model jkr"):
-        skipped_gates(load_gates(example), chosen, ["md-improved"])
+        skipped_gates(load_gates(example), cases, ["md-improved"])
 
 
 def test_every_key_of_a_gate_is_explained():
     """In one table of one document, the one with the key of the candidate."""
     (table,) = [
-        part
+        paragraph
         for path in DOCUMENTS
-        for part in path.read_text(encoding="utf-8").split("\n\n")
-        if part.startswith("| key |") and "| `candidate`" in part
+        for paragraph in path.read_text(encoding="utf-8").split("\n\n")
+        if paragraph.startswith("| key |") and "| `candidate`" in paragraph
     ]
     explained = {name for line in table.splitlines() for name in re.findall(r"`(\w+)`", line.split("|")[1])}
     assert explained == {field.name for field in fields(Gate)}

@@ -34,14 +34,14 @@ def no_window():
 def test_a_script_of_the_gallery_draws(path, monkeypatch, tmp_path):
     from matplotlib import pyplot
 
-    shown = []
-    monkeypatch.setattr(pyplot, "show", lambda: shown.append(pyplot.gcf()))
+    figures = []
+    monkeypatch.setattr(pyplot, "show", lambda: figures.append(pyplot.gcf()))
     monkeypatch.chdir(tmp_path)
     text = path.read_text(encoding="utf-8")
     title, line, *_ = ast.get_docstring(ast.parse(text)).splitlines()
     assert line == "=" * len(title)
     exec(compile(text, str(path), "exec"), {"__name__": "__main__"})
-    (figure,) = shown
+    (figure,) = figures
     figure.canvas.draw()
     for axes in figure.axes:
         assert axes.has_data()
@@ -67,10 +67,10 @@ def printed_by(cells):
             if cell["cell_type"] == "code":
                 lines = joined(cell["source"]).splitlines()
                 text = "\n".join(line for line in lines if not line.startswith("%"))
-                *rest, last = ast.parse(text).body
-                shown = isinstance(last, ast.Expr) and not text.endswith(";")
-                exec(compile(ast.Module(rest if shown else [*rest, last], []), "cell", "exec"), names)
-                value = eval(compile(ast.Expression(last.value), "cell", "eval"), names) if shown else None
+                *statements, final = ast.parse(text).body
+                is_value = isinstance(final, ast.Expr) and not text.endswith(";")
+                exec(compile(ast.Module(statements if is_value else [*statements, final], []), "cell", "exec"), names)
+                value = eval(compile(ast.Expression(final.value), "cell", "eval"), names) if is_value else None
                 if value is not None:
                     print(repr(value))
     return output.getvalue()
@@ -93,8 +93,8 @@ def numbers(cells):
 
 def assert_same(before, after):
     assert len(before) == len(after) > 10
-    for one, other in zip(before, after, strict=True):
-        assert other == pytest.approx(one, rel=1e-6) or max(abs(one), abs(other)) < _BOUND
+    for stored, computed in zip(before, after, strict=True):
+        assert computed == pytest.approx(stored, rel=1e-6) or max(abs(stored), abs(computed)) < _BOUND
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)

@@ -60,15 +60,15 @@ def public(package):
 @pytest.mark.parametrize("package", [fscm, fem_reference, comparisons], ids=lambda package: package.__name__)
 def test_the_reference_has_every_name_of_a_package_and_of_its_public_modules(package, reference):
     described = documented(reference)
-    own = {f"{package.__name__}.{name}" for name in package.__all__}
+    names_of_package = {f"{package.__name__}.{name}" for name in package.__all__}
     objects = {id(getattr(package, name)) for name in package.__all__}
-    others = {
+    names_of_modules = {
         f"{module}.{name}"
         for module in public(package)
         for name in getattr(import_module(module), "__all__", ())
         if id(getattr(import_module(module), name)) not in objects
     }
-    assert (own | others) - described == set()
+    assert (names_of_package | names_of_modules) - described == set()
     assert [name for name in described if any(part.startswith("_") for part in name.split("."))] == []
 
 
@@ -77,9 +77,13 @@ def test_every_name_of_the_reference_has_a_text(api, reference):
     text = "\n".join(reference.values())
     data = [name.rpartition(".") for name in re.findall(r"^\.\. py:data:: (\S+)$", text, re.M)]
     assert len(data) >= 250
-    silent = [f"{place}.{name}" for place, _, name in data if not api.comment(place, name)]
-    others = [name.rpartition(".") for name in re.findall(r"^\.\. auto(?:class|function):: (\S+)$", text, re.M)]
-    silent += [f"{place}.{name}" for place, _, name in others if not getattr(import_module(place), name).__doc__]
+    silent = [f"{module}.{name}" for module, _, name in data if not api.comment(module, name)]
+    documented_objects = [
+        name.rpartition(".") for name in re.findall(r"^\.\. auto(?:class|function):: (\S+)$", text, re.M)
+    ]
+    silent += [
+        f"{module}.{name}" for module, _, name in documented_objects if not getattr(import_module(module), name).__doc__
+    ]
     assert silent == []
 
 

@@ -40,18 +40,18 @@ def test_the_file_has_twelve_lines_and_the_page_three_commands():
 
 def test_describe_prints_what_the_page_shows_without_the_uncertain_values(folder, capsys):
     assert main([word for word in COMMANDS[0] if word != "--uncertain"]) == 0
-    found, shown = capsys.readouterr().out.splitlines(), PRINTED[0].splitlines()
-    assert [stable(line)[:60] for line in found] == [stable(line)[:60] for line in shown[: len(found)]]
-    assert found[3].startswith(f"  pull-off force {FORCE}")
-    assert shown[len(found)].startswith("uncertainty of pull_off_force")
+    printed, on_page = capsys.readouterr().out.splitlines(), PRINTED[0].splitlines()
+    assert [stable(line)[:60] for line in printed] == [stable(line)[:60] for line in on_page[: len(printed)]]
+    assert printed[3].startswith(f"  pull-off force {FORCE}")
+    assert on_page[len(printed)].startswith("uncertainty of pull_off_force")
 
 
 @pytest.mark.heavy
 def test_the_finite_elements_print_what_the_page_shows(folder, capsys):
     assert main(COMMANDS[1]) == 0
-    found = capsys.readouterr().out.splitlines()
-    assert [stable(line) for line in found] == [stable(line) for line in PRINTED[1].splitlines()]
-    assert f"{FORCE}(" in found[1]
+    printed = capsys.readouterr().out.splitlines()
+    assert [stable(line) for line in printed] == [stable(line) for line in PRINTED[1].splitlines()]
+    assert f"{FORCE}(" in printed[1]
 
 
 @pytest.mark.heavy

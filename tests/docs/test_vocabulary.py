@@ -38,11 +38,11 @@ def texts() -> dict[Path, str]:
 
 @pytest.mark.parametrize("word", replaced_words())
 def test_a_replaced_word_is_not_used(word):
-    found = [
+    uses = [
         f"{path.relative_to(ROOT)}:{number}: {line.strip()[:80]}"
         for path, text in texts().items()
         if pattern(word).search(text)
         for number, line in enumerate(text.splitlines(), start=1)
         if pattern(word).search(line)
     ]
-    assert found == []
+    assert uses == []

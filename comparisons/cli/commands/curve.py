@@ -58,15 +58,15 @@ def call(args: argparse.Namespace) -> int:
         writable_file(picture_path(args.plot))
     if file_of_points and args.plot and file_of_points.resolve() == args.plot.resolve():
         raise ValueError(f"--csv and --plot are both {args.plot}: one would replace the other; give two files")
-    found, status = _evaluated(models, args.quantity, problem)
-    table, quantity = _table(found, args.quantity), CURVES[args.quantity]
+    points_of_models, status = _evaluated(models, args.quantity, problem)
+    table, quantity = _table(points_of_models, args.quantity), CURVES[args.quantity]
     if problem.name:
         table, quantity = table.rename(columns=quantity.columns_in_si), quantity.in_si
     if file_of_points:
         with atomic(file_of_points) as written:
             written.write(csv_text(table).encode())
     if args.plot:
-        save(curves.draw(found, quantity, problem.label), args.plot)
+        save(curves.draw(points_of_models, quantity, problem.label), args.plot)
     if to_stdout:
         print(csv_text(table), end="")
     return status
@@ -74,24 +74,25 @@ def call(args: argparse.Namespace) -> int:
 
 def _evaluated(models: dict[str, Model], quantity: str, problem: Problem) -> tuple[dict[str, Points], int]:
     """Return the points of the models that have them, and the exit status; the others are named on stderr."""
-    found: dict[str, Points] = {}
+    points_of_models: dict[str, Points] = {}
     status = OK
     for name, model in models.items():
         try:
             with waiting(f"{name}, {problem.label}"):
-                found[name] = cast(Points, evaluated(problem, model, quantity))
+                points_of_models[name] = cast(Points, evaluated(problem, model, quantity))
         except NotApplicable as refusal:
             log(f"{name}: not-applicable: {refusal}")
         except ComputationFailed as failure:
             log(f"{name}: failed: {failure}")
             status = FAILED
-    return found, status
+    return points_of_models, status
 
 
-def _table(found: dict[str, Points], quantity: str) -> pd.DataFrame:
+def _table(points_of_models: dict[str, Points], quantity: str) -> pd.DataFrame:
     """One row a point, in the order of each path; a column that a model does not know is empty."""
     x, y = CURVES[quantity].x.name, CURVES[quantity].y.name
     frames = [
-        pd.DataFrame({"model": name, x: points.x, y: points.y, **points.columns}) for name, points in found.items()
+        pd.DataFrame({"model": name, x: points.x, y: points.y, **points.columns})
+        for name, points in points_of_models.items()
     ]
     return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=["model", x, y])

@@ -44,8 +44,15 @@ def test_a_resumed_run_measures_what_is_missing_and_keeps_the_record_of_the_mach
     with pytest.raises(KeyboardInterrupt):
         run_bench(tmp_path)
     assert not (tmp_path / "tiny.csv").exists()
-    other = {"host": "another machine", "cpu": "another CPU", "python": "3", "numpy": "2", "scipy": "1", "system": "x"}
-    monkeypatch.setattr("comparisons.runs.store.computing_environment", lambda: other)
+    other_machine = {
+        "host": "another machine",
+        "cpu": "another CPU",
+        "python": "3",
+        "numpy": "2",
+        "scipy": "1",
+        "system": "x",
+    }
+    monkeypatch.setattr("comparisons.runs.store.computing_environment", lambda: other_machine)
     tiny(measure=measuring_sizes(sizes))
     assert run_bench(tmp_path).tables["tiny"]["size"].tolist() == [1, 2]
     assert sizes == [1, 2]

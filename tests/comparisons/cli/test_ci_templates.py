@@ -100,16 +100,16 @@ def test_the_examples_of_the_page_use_what_there_is(examples, action, job):
 
 
 def step(action, name):
-    (found,) = [one for one in action["runs"]["steps"] if one["name"] == name]
-    return found
+    (match,) = [ci_step for ci_step in action["runs"]["steps"] if ci_step["name"] == name]
+    return match
 
 
-def environment(one, inputs, tmp_path):
+def environment(ci_step, inputs, tmp_path):
     """The environment of a step: the expressions of GitHub with these inputs."""
     values = {f"inputs.{name}": value for name, value in inputs.items()} | {"github.action_path": str(ACTION.parent)}
     filled = {
-        name: re.sub(r"\$\{\{ ([\w.-]+) \}\}", lambda found: values[found[1]], text)
-        for name, text in one.get("env", {}).items()
+        name: re.sub(r"\$\{\{ ([\w.-]+) \}\}", lambda match: values[match[1]], text)
+        for name, text in ci_step.get("env", {}).items()
     }
     return filled | {"GITHUB_OUTPUT": str(tmp_path / "output.txt")}
 
@@ -131,19 +131,19 @@ def shell(script, folder, variables, path=None):
 
 
 def defaults(action, **inputs):
-    given = {name: str(value.get("default", "")) for name, value in action["inputs"].items()}
-    return given | {name.replace("_", "-"): value for name, value in inputs.items()}
+    inputs_by_default = {name: str(value.get("default", "")) for name, value in action["inputs"].items()}
+    return inputs_by_default | {name.replace("_", "-"): value for name, value in inputs.items()}
 
 
 def test_the_action_is_whole(action):
     assert action["runs"]["using"] == "composite"
     assert {name for name, value in action["inputs"].items() if value.get("required")} == {"model"}
-    for one in action["runs"]["steps"]:
-        assert ("run" in one) != ("uses" in one)
+    for ci_step in action["runs"]["steps"]:
+        assert ("run" in ci_step) != ("uses" in ci_step)
         # A composite action has no default shell.
-        assert one.get("shell") == ("bash" if "run" in one else None)
+        assert ci_step.get("shell") == ("bash" if "run" in ci_step else None)
         # An input is no part of a script: it comes as a variable, which no shell takes for a command.
-        assert "${{" not in one.get("run", "")
+        assert "${{" not in ci_step.get("run", "")
     named = set(re.findall(r"inputs\.([\w-]+)", ACTION.read_text(encoding="utf-8")))
     assert named == action["inputs"].keys()
 
@@ -152,7 +152,7 @@ def test_every_version_is_pinned(action, job, tmp_path):
     assert main(["new-model", str(tmp_path / "my-model")]) == 0
     (written,) = tmp_path.rglob("*.yml")
     author = yaml.safe_load(written.read_text())["jobs"]["judge"]
-    used = [one["uses"] for one in [*action["runs"]["steps"], *author["steps"]] if "uses" in one]
+    used = [ci_step["uses"] for ci_step in [*action["runs"]["steps"], *author["steps"]] if "uses" in ci_step]
     assert len(used) == 7
     assert "latest" not in author["runs-on"]
     assert [name for name in used if not re.fullmatch(r"actions/[a-z-]+@[0-9a-f]{40}", name)] == []
@@ -217,7 +217,9 @@ def test_nothing_is_installed_by_its_bare_name(job, tmp_path):
     assert done.stdout.splitlines()[0] == "-m pip install git+https://a/b/c@v1"
     assert main(["new-model", str(tmp_path / "my-model")]) == 0
     workflow = yaml.safe_load((tmp_path / "my-model" / ".github" / "workflows" / "judge.yml").read_text())
-    (install,) = [one["run"] for one in workflow["jobs"]["judge"]["steps"] if "pip install" in one.get("run", "")]
+    (install,) = [
+        ci_step["run"] for ci_step in workflow["jobs"]["judge"]["steps"] if "pip install" in ci_step.get("run", "")
+    ]
     program = stub(tmp_path, "pip", 'echo "$@"')
     done = shell(install, tmp_path, workflow["env"], program.parent)
     assert (done.returncode != 0, done.stdout) == (True, "")
@@ -260,8 +262,8 @@ def test_the_steps_judge_a_model_and_write_the_report(action, tmp_path):
     program = stub(tmp_path, "fscm-bench", f'PYTHONPATH="{ROOT}" exec "{sys.executable}" -m comparisons "$@"')
     inputs = defaults(action, model="mine.py:Mine", gates="gates.toml")
     for name in ("Judge", "Write the report"):
-        one = step(action, name)
-        done = shell(one["run"], tmp_path, environment(one, inputs, tmp_path), program.parent)
+        ci_step = step(action, name)
+        done = shell(ci_step["run"], tmp_path, environment(ci_step, inputs, tmp_path), program.parent)
         assert done.returncode == 0, done.stderr
     written = {path.name for path in (tmp_path / "fscm-bench-results").iterdir()}
     assert {"run.json", "junit.xml", "report.html"} <= written

@@ -83,11 +83,11 @@ PATIENCE = 60.0
 
 
 def read_until(terminal, text):
-    shown = ""
-    while text not in shown:
+    screen = ""
+    while text not in screen:
         ready, _, _ = select.select([terminal], [], [], PATIENCE)
-        assert ready, f"{text!r} is not in {shown!r}"
-        shown += os.read(terminal, 4096).decode(errors="replace")
+        assert ready, f"{text!r} is not in {screen!r}"
+        screen += os.read(terminal, 4096).decode(errors="replace")
 
 
 @pytest.mark.parametrize("script", INTERACTIVE, indirect=True)

@@ -97,9 +97,9 @@ def complete(grid, out, undisturbed):
 @needs_proc
 @pytest.mark.parametrize("kills", [1, pytest.param(10, marks=pytest.mark.heavy)])
 def test_the_command_is_killed(grid, undisturbed, tmp_path, kills):
-    chosen = random.Random(SEED)
+    rng = random.Random(SEED)
     stored = 0
-    for end in (chosen.random() for _ in range(kills)):
+    for end in (rng.random() for _ in range(kills)):
         with start(grid, tmp_path) as process:
             if wait_for(process, tmp_path, end):
                 children = workers(process)
@@ -118,12 +118,12 @@ def test_the_command_is_killed(grid, undisturbed, tmp_path, kills):
 @pytest.mark.heavy
 @pytest.mark.parametrize("kills", [1, 10])
 def test_workers_are_killed(grid, undisturbed, tmp_path, kills):
-    chosen = random.Random(SEED)
+    rng = random.Random(SEED)
     killed = 0
     with start(grid, tmp_path) as process:
-        for end in sorted(0.8 * chosen.random() for _ in range(kills)):
+        for end in sorted(0.8 * rng.random() for _ in range(kills)):
             if wait_for(process, tmp_path, end) and (children := workers(process)):
-                os.kill(chosen.choice(children), signal.SIGKILL)
+                os.kill(rng.choice(children), signal.SIGKILL)
                 killed += 1
         _, message = process.communicate()
     assert killed > 0
@@ -176,16 +176,16 @@ def test_a_small_disk_is_full(grid, undisturbed, small_disk, capsys):
 @pytest.mark.parametrize("damages", [2, pytest.param(30, marks=pytest.mark.heavy)])
 def test_a_damaged_store(grid, undisturbed, tmp_path, damages):
     """Cut, or a bit of it flipped, again and again: it is mended, or refused in one sentence."""
-    chosen = random.Random(SEED)
+    rng = random.Random(SEED)
     assert main(["sweep", str(grid), "--jobs", "1", "--out", str(tmp_path), "--quiet"]) == 0
-    whole = (tmp_path / STORE).read_bytes()
+    intact = (tmp_path / STORE).read_bytes()
     for number in range(damages):
-        content = bytearray(whole)
+        content = bytearray(intact)
         if number % 3 == 0:
-            del content[chosen.randrange(8192, len(content)) :]
+            del content[rng.randrange(8192, len(content)) :]
         else:
-            content[chosen.randrange(len(content))] ^= 1 << chosen.randrange(8)
+            content[rng.randrange(len(content))] ^= 1 << rng.randrange(8)
         (tmp_path / STORE).write_bytes(content)
         status = main(["sweep", str(grid), "--jobs", "1", "--out", str(tmp_path), "--quiet"])
-        assert status == 0 or content[:8192] != whole[:8192]
+        assert status == 0 or content[:8192] != intact[:8192]
         assert tables(tmp_path) == undisturbed

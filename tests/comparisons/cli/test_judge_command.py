@@ -48,16 +48,16 @@ def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, 
     before = {name: (folder / name).read_bytes() for name in VERDICT_FILES}
     monkeypatch.setattr("comparisons.registry.create", None)
     monkeypatch.setattr("comparisons.runs.tasks.evaluate_task", None)
-    shown = []
+    captured = []
     for _ in range(2):
         assert main(["judge", str(folder), "--verbose"]) == 0
-        shown.append(capsys.readouterr().out)
+        captured.append(capsys.readouterr().out)
         assert {name: (folder / name).read_bytes() for name in VERDICT_FILES} == before
-    assert shown[0] == shown[1]
-    assert "TEN-PERCENT" in shown[0]
-    printed = shown[0].replace(" \\\n   ", "")
+    assert captured[0] == captured[1]
+    assert "TEN-PERCENT" in captured[0]
+    printed = captured[0].replace(" \\\n   ", "")
     assert "fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0" in printed
-    assert shown[0].rstrip().endswith("1 of 1 gate passes, 0 fail as declared, 0 unexpected (4 cases: 4 PASS)")
+    assert captured[0].rstrip().endswith("1 of 1 gate passes, 0 fail as declared, 0 unexpected (4 cases: 4 PASS)")
 
 
 #: The error of the model, and another one.
@@ -96,10 +96,12 @@ def test_the_exit_status_is_the_verdict(small_grid, request, tmp_path, capsys, c
     else:
         arguments = ["run", "--jobs", "1", "--out", str(tmp_path / "run")]
     assert main([*arguments, *gates(small_grid, tmp_path, *changes)]) == status
-    shown = capsys.readouterr()
-    assert verdict in shown.out or "no gate was evaluated" in shown.err
+    captured = capsys.readouterr()
+    assert verdict in captured.out or "no gate was evaluated" in captured.err
     # Status 4 is explained on stderr.
-    assert ("a gate is in error: TEN-PERCENT of " in shown.err) == (verdict == "ERROR" and "no gate" not in shown.err)
+    assert ("a gate is in error: TEN-PERCENT of " in captured.err) == (
+        verdict == "ERROR" and "no gate" not in captured.err
+    )
     if command == "run":
         assert json.loads((tmp_path / "run" / "run.json").read_text())["verdicts"]["all"] == verdict
 
@@ -121,8 +123,8 @@ def test_other_gates_than_those_of_the_run_are_named_and_the_record_agrees(folde
 
 @pytest.mark.parametrize("models", [[], ["--model", "ten-percent"]])
 def test_a_run_is_judged_again_by_the_gates_it_was_made_with(small_grid, tmp_path, capsys, models):
-    other = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
-    rules = gates(small_grid + other * bool(models), tmp_path, ("upper = 0.11", "upper = 0.095"))
+    other_gate = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
+    rules = gates(small_grid + other_gate * bool(models), tmp_path, ("upper = 0.11", "upper = 0.095"))
     assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), *models, *rules]) == 1
     before = {name: (tmp_path / "run" / name).read_bytes() for name in (*VERDICT_FILES, "run.json", "gates.toml")}
     (tmp_path / "gates.toml").unlink()
@@ -157,12 +159,12 @@ def test_a_gate_whose_rival_is_not_computed_is_refused_and_adding_it_helps(
         assert main(["run", *out]) == 0
         capsys.readouterr()
     assert main(["run", *out, *rules] if command == "run" else ["judge", str(tmp_path / "run"), *rules]) == 2
-    shown = capsys.readouterr()
-    assert shown.err == (
+    captured = capsys.readouterr()
+    assert captured.err == (
         "fscm-bench: gate TEN-PERCENT needs twelve-percent, which this run does not compute: "
         "add --model twelve-percent\n"
     )
-    assert shown.out == ""
+    assert captured.out == ""
     out[-1:] = ["ten-percent", "twelve-percent"]
     out[out.index("--out") + 1] = str(tmp_path / "both")
     assert main(["run", *out, *rules]) == 0
@@ -173,9 +175,9 @@ def test_a_gate_whose_rival_is_not_computed_is_refused_and_adding_it_helps(
 
 @pytest.mark.parametrize("command", ["run", "judge"])
 def test_gates_that_are_left_out_are_counted(small_grid, tmp_path, capsys, command):
-    other = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
+    other_gate = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
     later = small_grid.replace("TEN-PERCENT", "LATER").replace('"quick"', '"full"')
-    rules = gates(small_grid + other + later, tmp_path)
+    rules = gates(small_grid + other_gate + later, tmp_path)
     arguments = ["run", "--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]
     assert main([*arguments, *rules]) == 0
     if command == "judge":
@@ -203,50 +205,50 @@ def test_results_spoilt_after_the_run_are_an_error(folder, capsys):
 FLIPS, SEED = 12, 20262
 
 
-def flipped(content, chosen):
+def flipped(content, rng):
     damaged = bytearray(content)
-    damaged[chosen.randrange(len(damaged))] ^= 1 << chosen.randrange(8)
+    damaged[rng.randrange(len(damaged))] ^= 1 << rng.randrange(8)
     return bytes(damaged)
 
 
 def test_no_flipped_bit_of_any_stored_file_is_judged_in_silence(folder, capsys):
-    chosen = random.Random(SEED)
-    whole = {path.name: path.read_bytes() for path in folder.iterdir() if path.stat().st_size}
-    assert whole.keys() - {"store.sqlite", "run.json"} == set(read_record(folder / "run.json")["files"])
-    not_read = {name for name in whole if name == "store.sqlite" or name in VERDICT_FILES}
-    for name in sorted(whole.keys() - not_read):
+    rng = random.Random(SEED)
+    intact = {path.name: path.read_bytes() for path in folder.iterdir() if path.stat().st_size}
+    assert intact.keys() - {"store.sqlite", "run.json"} == set(read_record(folder / "run.json")["files"])
+    not_read = {name for name in intact if name == "store.sqlite" or name in VERDICT_FILES}
+    for name in sorted(intact.keys() - not_read):
         for _ in range(FLIPS):
-            (folder / name).write_bytes(flipped(whole[name], chosen))
+            (folder / name).write_bytes(flipped(intact[name], rng))
             statuses = main(["judge", str(folder)]), main(["report", str(folder)])
             message = capsys.readouterr().err
             assert statuses == (2, 2), name
             assert message.count("\n") == 2
             assert name in message
-            (folder / name).write_bytes(whole[name])
-    damaged = {name: flipped(whole[name], chosen) for name in sorted(not_read)}
+            (folder / name).write_bytes(intact[name])
+    damaged = {name: flipped(intact[name], rng) for name in sorted(not_read)}
     for name, content in damaged.items():
         (folder / name).write_bytes(content)
     assert (main(["judge", str(folder)]), main(["report", str(folder)])) == (0, 0)
     # Neither command reads the journal, and the judge writes the others again.
     for name in damaged:
-        assert (folder / name).read_bytes() == (damaged if name == "store.sqlite" else whole)[name], name
+        assert (folder / name).read_bytes() == (damaged if name == "store.sqlite" else intact)[name], name
 
 
 def test_after_a_change_the_run_writes_its_tables_again(folder, capsys):
-    whole = (folder / "results.parquet").read_bytes()
-    (folder / "results.parquet").write_bytes(whole[:-1])
+    intact = (folder / "results.parquet").read_bytes()
+    (folder / "results.parquet").write_bytes(intact[:-1])
     assert main(["judge", str(folder)]) == 2
     assert f"run with --out {folder}" in capsys.readouterr().err
     assert main(["run", "--jobs", "1", "--out", str(folder)]) == 0
-    assert (folder / "results.parquet").read_bytes() == whole
+    assert (folder / "results.parquet").read_bytes() == intact
     assert main(["judge", str(folder)]) == 0
 
 
 @pytest.mark.parametrize("command", ["judge", "report"])
 def test_results_of_other_code_are_named_as_such(folder, capsys, command):
     record = read_record(folder / "run.json")
-    other = re.sub("NumPy .*?,", "NumPy 0.1,", record["package"]["fingerprint"])
-    write_record(record | {"package": record["package"] | {"fingerprint": other}}, folder / "run.json")
+    other_gate = re.sub("NumPy .*?,", "NumPy 0.1,", record["package"]["fingerprint"])
+    write_record(record | {"package": record["package"] | {"fingerprint": other_gate}}, folder / "run.json")
     assert main([command, str(folder)]) == 0
     assert "computed by another version of the code, of NumPy or of SciPy (NumPy 0.1, now" in capsys.readouterr().err
     if command == "judge":

@@ -33,10 +33,10 @@ def solve(model, *more, case=CASE):
 @pytest.mark.parametrize("nu", [None, 0.3])
 def test_json_is_one_object_on_stdout_and_nothing_else(capsys, nu):
     assert solve("jkr", "--format", "json", *([] if nu is None else ["--nu", str(nu)])) == 0
-    shown = capsys.readouterr()
-    assert shown.err == ""
-    assert shown.out.count("\n") == 1
-    content = json.loads(shown.out)
+    captured = capsys.readouterr()
+    assert captured.err == ""
+    assert captured.out.count("\n") == 1
+    content = json.loads(captured.out)
     assert list(content) == ["model", "quantity", "case", "value", "u_num", "status", "unit", "seconds"]
     assert content["case"] == {"n": 2.0, "k": 0.4, "mu": 1.0} | ({} if nu is None else {"nu": nu})
     assert content["value"] == pytest.approx(1.7, abs=1e-12)  # (k + 3) / 2, Eq. 57 at n = 2
@@ -50,9 +50,9 @@ def test_text_shows_the_digits_the_uncertainty_leaves(toys, capsys):
 
 
 @pytest.mark.parametrize(("k", "shown"), [("0", True), ("0.4", False)])
-def test_text_shows_maugis_lambda_beside_the_tabor_number(capsys, k, shown):
+def test_text_shows_maugis_lambda_beside_the_tabor_number(capsys, k, captured):
     assert solve("jkr", case=["--n", "2", "--k", k, "--mu", "2"]) == 0
-    assert ("lambda = 2.314" in capsys.readouterr().out) == shown
+    assert ("lambda = 2.314" in capsys.readouterr().out) == captured
 
 
 def test_csv_is_a_header_and_a_row(capsys):
@@ -69,11 +69,11 @@ def test_csv_is_a_header_and_a_row(capsys):
 )
 def test_a_refusal_is_an_answer_and_a_failure_has_status_4(toys, capsys, model, status, word, form):
     assert solve(model, "--format", form) == status
-    shown = capsys.readouterr()
-    assert word in shown.out
-    assert "Traceback" not in shown.out + shown.err
+    captured = capsys.readouterr()
+    assert word in captured.out
+    assert "Traceback" not in captured.out + captured.err
     if form == "json":
-        content = json.loads(shown.out)
+        content = json.loads(captured.out)
         assert (content["value"], content["u_num"], content["status"]) == (None, None, word)
         assert content["reason"]
 
@@ -113,11 +113,11 @@ def with_case(**changed):
 def test_wrong_input_gets_one_sentence_and_status_2(capsys, tmp_path, monkeypatch, arguments, word):
     monkeypatch.chdir(tmp_path)
     assert main(arguments) == 2
-    shown = capsys.readouterr()
-    assert shown.out == ""
-    assert shown.err.startswith("fscm-bench: ")
-    assert shown.err.count("\n") == 1
-    assert word in shown.err
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.startswith("fscm-bench: ")
+    assert captured.err.count("\n") == 1
+    assert word in captured.err
     assert list(tmp_path.rglob("*.*")) == []
 
 
@@ -141,39 +141,39 @@ def test_an_output_that_cannot_be_written_is_refused_before_computing(tmp_path, 
     assert "cannot be written" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("what", ["models", "quantities", "cases", "gates"])
-def test_every_list_has_a_form_for_people_and_two_for_programs(capsys, what):
-    shown = {}
+@pytest.mark.parametrize("listed_kind", ["models", "quantities", "cases", "gates"])
+def test_every_list_has_a_form_for_people_and_two_for_programs(capsys, listed_kind):
+    captured = {}
     for form in ("text", "csv", "json"):
-        assert main(["list", what, "--format", form]) == 0
-        shown[form] = capsys.readouterr().out
+        assert main(["list", listed_kind, "--format", form]) == 0
+        captured[form] = capsys.readouterr().out
     names = {"models": MODELS, "quantities": QUANTITIES, "cases": ["transition"], "gates": ["JKR-LIMIT-PULL-OFF"]}
-    assert all(name in shown["text"] for name in names[what])
-    objects = json.loads(shown["json"])
-    header, *rows = csv.reader(io.StringIO(shown["csv"]))
+    assert all(name in captured["text"] for name in names[listed_kind])
+    objects = json.loads(captured["json"])
+    header, *rows = csv.reader(io.StringIO(captured["csv"]))
     assert [list(row) for row in objects] == [header] * len(rows)
-    if what == "cases":
+    if listed_kind == "cases":
         declared = [(grid.id, *problem.key) for grid in grids("full") for problem in grid.cases]
         assert [tuple(row[name] for name in ("grid", "n", "k", "mu", "nu", "problem")) for row in objects] == declared
         columns = [header.index(name) for name in ("n", "k", "mu")]
         numbers = [tuple(float(row[column] or "nan") for column in columns) for row in rows]
         assert str(numbers) == str([tuple(float("nan") if x is None else x for x in key[1:4]) for key in declared])
-    if what == "gates":
+    if listed_kind == "gates":
         limits = {(gate.id, gate.lower, gate.upper) for gate in load_gates(gates_text())}
         assert {(row[0], float(row[-2]), float(row[-1])) for row in rows} == limits
 
 
 def test_a_narrow_terminal_shows_every_name_whole(capsys, monkeypatch):
     monkeypatch.setattr("comparisons.cli.screen._WIDTH", 60)
-    for what, names in {
+    for listed_kind, names in {
         "models": MODELS,
         "quantities": QUANTITIES,
         "gates": [g.id for g in load_gates(gates_text())],
     }.items():
-        assert main(["list", what]) == 0
-        shown = capsys.readouterr().out
-        assert max(map(len, shown.splitlines())) <= 60
-        assert set(names) <= set(shown.replace(",", " ").split())
+        assert main(["list", listed_kind]) == 0
+        captured = capsys.readouterr().out
+        assert max(map(len, captured.splitlines())) <= 60
+        assert set(names) <= set(captured.replace(",", " ").split())
 
 
 @pytest.mark.parametrize("more", [[], ["--csv", "-"]])
@@ -193,8 +193,8 @@ def test_curve_writes_and_draws_the_surface_at_pull_off(tmp_path, capsys, quanti
     case = ["--n", "2", "--k", "0", "--mu", "0.3", "--nu", "0.2"]
     files = ["--csv", str(points), "--plot", str(picture)]
     assert main(["curve", "--model", "fscm", "jkr", "--quantity", quantity, *case, *files]) == 0
-    shown = capsys.readouterr()
-    assert (shown.out, "jkr: not-applicable" in shown.err) == ("", True)
+    captured = capsys.readouterr()
+    assert (captured.out, "jkr: not-applicable" in captured.err) == ("", True)
     # Numbers as texts first: the parser of pandas 2 loses the last bit.
     table = pd.read_csv(points, dtype=str).astype({"radius": float, y: float})
     assert list(table) == ["model", "radius", y]
@@ -207,9 +207,9 @@ def test_curve_writes_and_draws_the_surface_at_pull_off(tmp_path, capsys, quanti
 @pytest.mark.parametrize(("model", "status"), [("refuses", 0), ("fails", 4)])
 def test_a_model_without_a_curve_does_not_stop_the_others(toys, capsys, model, status):
     assert main(["curve", "--model", model, "exact", *CASE]) == status
-    shown = capsys.readouterr()
-    assert set(pd.read_csv(io.StringIO(shown.out))["model"]) == {"exact"}
-    assert model in shown.err
+    captured = capsys.readouterr()
+    assert set(pd.read_csv(io.StringIO(captured.out))["model"]) == {"exact"}
+    assert model in captured.err
 
 
 @pytest.mark.parametrize(

@@ -44,21 +44,21 @@ def test_stored_failures_are_computed_again_when_it_is_asked_for(small_grid, tmp
 
 
 def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):
-    here, code = computing._of_this_process()
-    there = here | {"python": "3.99.0", "cpu": "another"}
+    this_machine, code = computing._of_this_process()
+    other_machine = this_machine | {"python": "3.99.0", "cpu": "another"}
     with monkeypatch.context() as patch:
         patch.setattr(computing, "compute", interrupt_after(5, BrokenProcessPool))
-        patch.setattr(computing, "_of_this_process", lambda: (there, code))
+        patch.setattr(computing, "_of_this_process", lambda: (other_machine, code))
         assert run(tmp_path) == 4
     assert run(tmp_path) == 0
     record = read_record(tmp_path / "run.json")
-    first, second = sorted(record["parts"], key=lambda part: part["computations"])
-    assert (first["computations"], second["computations"]) == (5, 7)
-    assert {name: first[name] for name in there} == there
-    assert {name: second[name] for name in here} == here
+    interrupted, resumed = sorted(record["parts"], key=lambda part: part["computations"])
+    assert (interrupted["computations"], resumed["computations"]) == (5, 7)
+    assert {name: interrupted[name] for name in other_machine} == other_machine
+    assert {name: resumed[name] for name in this_machine} == this_machine
     assert record["rows"]["resumed"] == 5
-    assert record["started"] == min(first["started"], second["started"])
-    assert record["seconds"]["run"] == pytest.approx(first["seconds"] + second["seconds"])
+    assert record["started"] == min(interrupted["started"], resumed["started"])
+    assert record["seconds"]["run"] == pytest.approx(interrupted["seconds"] + resumed["seconds"])
     # A command that computes nothing is not a part, and changes none.
     assert run(tmp_path) == 0
     again = read_record(tmp_path / "run.json")
@@ -69,7 +69,7 @@ def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path
 
 def test_a_row_that_is_damaged_is_computed_again(small_grid, tmp_path, capsys):
     assert run(tmp_path) == 0
-    whole = (tmp_path / "results.csv").read_bytes()
+    intact = (tmp_path / "results.csv").read_bytes()
     with closing(sqlite3.connect(tmp_path / STORE)) as database, database:
         database.execute(
             "UPDATE items SET content = replace(content, '\"value\": 2.2', '\"value\": 2.3') "
@@ -80,7 +80,7 @@ def test_a_row_that_is_damaged_is_computed_again(small_grid, tmp_path, capsys):
     message = capsys.readouterr().err
     assert "is damaged" in message
     assert "1 computations on 1 processes, 11 are stored" in message
-    assert (tmp_path / "results.csv").read_bytes() == whole
+    assert (tmp_path / "results.csv").read_bytes() == intact
 
 
 def test_results_with_another_numpy_are_refused_and_it_is_said_which(small_grid, tmp_path, monkeypatch, capsys):

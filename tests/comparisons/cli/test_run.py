@@ -56,12 +56,12 @@ def read(folder, name="results.csv"):
 def test_a_run_leaves_its_tables_and_record(small_grid, tmp_path, capsys):
     assert run(tmp_path / "out") == 0
     assert {path.name for path in (tmp_path / "out").iterdir()} == FILES
-    shown = capsys.readouterr()
-    assert "ten-percent" in shown.out
-    assert "10.000(5)" in shown.out
-    assert "results are in" in shown.err
+    captured = capsys.readouterr()
+    assert "ten-percent" in captured.out
+    assert "10.000(5)" in captured.out
+    assert "results are in" in captured.err
     # Of models that the paper does not know there is nothing to show beside its numbers.
-    assert "the paper prints" not in shown.out
+    assert "the paper prints" not in captured.out
     table = pd.read_parquet(tmp_path / "out" / "results.parquet")
     assert table.groupby("status").size().to_dict() == {"not-applicable": 4, "ok": 8}
     kappa = pd.read_csv(tmp_path / "out" / "kappa.csv")
@@ -151,9 +151,9 @@ def test_a_failed_computation_costs_its_own_rows_and_the_exit_status(small_grid,
         assert set(table.loc[name, "status"]) == {"failed"}
         assert table.loc[name, "reason"].str.contains(why).all()
         assert table.loc[name, "value"].isna().all()
-    shown = capsys.readouterr()
-    assert "16 failed" in shown.out
-    assert "more computations failed" in shown.err
+    captured = capsys.readouterr()
+    assert "16 failed" in captured.out
+    assert "more computations failed" in captured.err
 
 
 def test_without_a_gate_nothing_is_shown_and_that_is_an_error(small_grid, tmp_path, capsys):
@@ -191,18 +191,18 @@ def test_a_row_names_the_case_and_the_work(toys):
 def test_a_run_prints_a_summary(small_grid, tmp_path, capsys, models):
     (tmp_path / "gates.toml").write_text(small_grid.replace('"ten-percent"', '"given"'))
     run(tmp_path / "out", "--model", *models, "--gates", str(tmp_path / "gates.toml"))
-    shown = capsys.readouterr()
-    assert len(shown.out.splitlines()) <= 40
-    assert all(name in shown.out + shown.err for name in models[:4])
-    assert re.search(r"\d+ of \d+ gates? pass(?:es)?, 0 fail as declared, \d+ unexpected", shown.out)
-    assert shown.err.endswith(f"next: fscm-bench report {tmp_path / 'out'}\n")
+    captured = capsys.readouterr()
+    assert len(captured.out.splitlines()) <= 40
+    assert all(name in captured.out + captured.err for name in models[:4])
+    assert re.search(r"\d+ of \d+ gates? pass(?:es)?, 0 fail as declared, \d+ unexpected", captured.out)
+    assert captured.err.endswith(f"next: fscm-bench report {tmp_path / 'out'}\n")
 
 
 def test_verbose_prints_every_case_and_every_gate(small_grid, tmp_path, capsys):
     assert run(tmp_path, "--verbose") == 0
-    shown = capsys.readouterr().out
-    assert shown.count("+10.000") == 4
-    assert "fscm-bench solve --model ten-percent" in shown
+    captured = capsys.readouterr().out
+    assert captured.count("+10.000") == 4
+    assert "fscm-bench solve --model ten-percent" in captured
 
 
 def test_quiet_prints_what_does_not_pass_and_nothing_else(small_grid, tmp_path, capsys):
@@ -210,9 +210,9 @@ def test_quiet_prints_what_does_not_pass_and_nothing_else(small_grid, tmp_path, 
     assert capsys.readouterr() == ("", "")
     (tmp_path / "gates.toml").write_text(small_grid.replace("upper = 0.11", "upper = 0.095"))
     assert run(tmp_path / "wrong", "--quiet", "--gates", str(tmp_path / "gates.toml")) == 1
-    shown = capsys.readouterr()
-    assert shown.out == ""
-    assert shown.err.startswith("FAIL TEN-PERCENT of ten-percent against exact: E = 0.100000(5)")
-    assert "fscm-bench solve --model ten-percent" in shown.err
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.startswith("FAIL TEN-PERCENT of ten-percent against exact: E = 0.100000(5)")
+    assert "fscm-bench solve --model ten-percent" in captured.err
     assert main(["judge", str(tmp_path / "wrong"), "--quiet"]) == 1
     assert capsys.readouterr().err.startswith("FAIL TEN-PERCENT")

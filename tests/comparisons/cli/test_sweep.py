@@ -40,13 +40,13 @@ def test_the_errors_of_every_model(tmp_path, capsys):
 
 def test_quiet_prints_failures_alone(toys, tmp_path, capsys):
     assert sweep(tmp_path, GRID, "--quiet") == 0
-    shown = capsys.readouterr()
-    assert (shown.out, shown.err) == ("", "")
+    captured = capsys.readouterr()
+    assert (captured.out, captured.err) == ("", "")
     assert sweep(tmp_path, GRID, "--quiet", "--model", "fails") == 4
-    shown = capsys.readouterr()
-    assert shown.out == ""
-    assert shown.err.count("100 iterations were not enough") == 3
-    assert shown.err.endswith("5 more computations failed; the tables have their reasons\n")
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.count("100 iterations were not enough") == 3
+    assert captured.err.endswith("5 more computations failed; the tables have their reasons\n")
 
 
 def test_a_latin_hypercube_of_one_model(tmp_path):
