@@ -49,7 +49,7 @@ def test_text_shows_the_digits_the_uncertainty_leaves(toys, capsys):
     assert "-P_c = 2.0000000000(10) pi Q^(2/n)" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(("k", "shown"), [("0", True), ("0.4", False)])
+@pytest.mark.parametrize(("k", "captured"), [("0", True), ("0.4", False)])
 def test_text_shows_maugis_lambda_beside_the_tabor_number(capsys, k, captured):
     assert solve("jkr", case=["--n", "2", "--k", k, "--mu", "2"]) == 0
     assert ("lambda = 2.314" in capsys.readouterr().out) == captured
