@@ -161,7 +161,6 @@ def make_page(stored: Stored) -> Page:
             "results.csv": stored.results,
             "verdicts.csv": stored.verdicts,
             "summary.csv": stored.summary,
-            "paper_statements.csv": tables.STATEMENTS,
             TABLE_FILE: stored.comparison,
             SUMMARY_FILE: summary,
         },
@@ -182,7 +181,6 @@ def _blocks(stored: Stored, summary: pd.DataFrame) -> dict[str, Sequence[Block]]
         "order": _filled([tables.convergence(stored.results)]),
         "numbers": list(tables.numbers_of(stored)),
         "cases": [File(name, text) for name, text in stored.texts.items()],
-        "statements": [tables.statements()],
         "origin": [Facts(_provenance(stored.record))],
     }
 

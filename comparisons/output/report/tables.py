@@ -1,4 +1,4 @@
-"""Tables of a page: verdicts, errors, models, every stored row, and the statements of the paper."""
+"""Tables of a page: verdicts, errors, models, and every stored row."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from functools import partial
 
 import pandas as pd
 
-from comparisons.data import paper_statements
 from comparisons.domain import Domain
 from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import METRICS
@@ -24,20 +23,13 @@ from comparisons.output.verdicts import command
 from comparisons.runs.case_columns import with_problem
 from comparisons.runs.rows import CASE
 
-__all__ = ["STATEMENTS", "convergence", "curve_points", "errors", "gates", "numbers_of", "statements", "values"]
-__all__ += ["worst_cases"]
+__all__ = ["convergence", "curve_points", "errors", "gates", "numbers_of", "values", "worst_cases"]
 
 #: So many rows are shown where fewer than that do not pass, so that a clean run still shows what is nearest
 #: to its limits; and at most the second, because the table of every verdict has the rest.
 _AT_LEAST, _AT_MOST = 12, 60
 
 _PLOT = "Numbers of this plot"
-
-#: The shipped verdicts on the statements of the paper, what does not hold first.
-_ORDER = ("false", "true in part", "not decided", "true")
-STATEMENTS = pd.DataFrame(paper_statements.verdicts()).sort_values(
-    "verdict", key=lambda verdicts: verdicts.map(_ORDER.index), kind="stable", ignore_index=True
-)
 
 
 def _small(column: Column, small: Callable[[Record], str], kind: str = "") -> Column:
@@ -161,29 +153,3 @@ def numbers_of(stored: Stored) -> Iterator[Table]:
     shown += [numbers("dimensionless value", "dimensionless_value"), words("its unit", "dimensionless_unit")]
     shown += columns("status", "reason")
     yield Table("results", "Every computed number", shown, stored.results, "results.csv", fold="Every computed number")
-
-
-def statements() -> Table:
-    """Return one row for each statement of the paper, from the committed verdicts."""
-    shown = [
-        words("verdict", "verdict"),
-        _with(words("holds in", "holds_in"), "of the paper's own cases: {own_cases}"),
-        _with(words("statement, in words of our own", "statement", "prose"), "{section}; {range}"),
-        _with(words("test and evidence", "test", "prose"), "{evidence}"),
-        _with(words("fails for", "fails_for", "prose"), "beyond the paper: {beyond_paper}"),
-        _with(words("other verdict, with the number times a factor", "flips", "prose"), "the number is {number}"),
-        words("computed again by", "command", "code"),
-    ]
-    count = Counter(STATEMENTS["verdict"])
-    counts = ", ".join(f"{count[verdict]} {verdict}" for verdict in _ORDER if count[verdict])
-    note = f"{len(STATEMENTS)} statements: {counts}. The verdicts are those of fscm-bench paper at this version."
-    caption = "Statements of the paper and their verdicts"
-    return Table(
-        "statements", caption, shown, STATEMENTS, "paper_statements.csv", note, fold="Every statement with its verdict"
-    )
-
-
-def _with(column: Column, form: str) -> Column:
-    """Return a column with small print in a form, where every text of the form is stored."""
-    names = [part.partition("}")[0] for part in form.split("{")[1:]]
-    return _small(column, lambda row: form.format_map(row) if all(row[name] for name in names) else "")

@@ -89,11 +89,3 @@ def test_a_wide_table_is_on_its_side(typeset, wide, form):
     assert rf"\begin{{{form}}}" in text
     assert text.count(r"\label{tab:form}") == 1
     typeset(text)
-
-
-def test_texts_wrap_where_the_page_has_no_room(typeset):
-    row = ["fscm", "the pull_off_force at n = 2 is not_certain and/or it has no_value " * 4, "-0.00123(4)", "1.5e-08"]
-    text = latex(pd.DataFrame([row] * 4, columns=["model", "reason", "E", "U"]), "κ", "wraps")
-    assert r"pull\_\allowbreak{}off" in text
-    assert "1.5e-8" in text
-    typeset(text)

@@ -105,16 +105,6 @@ def ranges(browser, plot):
     return browser.execute_script("return Plots.range(arguments[0])", plot)
 
 
-def tips(browser):
-    """The text of all hover values that are shown."""
-    return browser.execute_script("""
-      const inside = (node) => [...(node.shadowRoot?.childNodes ?? []), ...node.childNodes];
-      const text = (node) => (node.nodeType === Node.TEXT_NODE ? node.data : "")
-        + (node.localName === "style" ? "" : inside(node).map(text).join(""));
-      return Array.from(document.querySelectorAll(".bk-Tooltip"), text).join(" ");
-    """)
-
-
 def messages(browser):
     """What the console has beyond information."""
     return [entry for entry in browser.get_log("browser") if entry["level"] not in {"INFO", "DEBUG"}]

@@ -4,16 +4,13 @@ Skipped where there is no Chromium with its driver, unless FSCM_BENCH_BROWSER=re
 """
 
 import re
-from functools import partial
 
-import numpy as np
 import pandas as pd
 import pytest
 
 from comparisons.output.latex import latex
 from comparisons.output.report.page import make_page
 from comparisons.output.report.stored_run import read_folder
-from comparisons.quantities import CURVES
 
 from .browsing import (
     DESKTOP,
@@ -33,7 +30,6 @@ from .browsing import (
     size,
     sorting,
     text_of,
-    tips,
     unfold,
     wait,
     width,
@@ -120,21 +116,6 @@ def test_files_hold_the_rows_that_are_shown_in_their_order(opened, run_folder, t
     rows = [line for line in (tmp_path / "offenders.tex").read_text().split("\n") if "LIMIT" in line]
     assert len(rows) == len(shown)
     assert all(f" {error:.5f}" in row for error, row in zip(shown[:2], rows[:2], strict=True))
-
-
-def test_numbers_shown_are_numbers_stored(opened, run_folder):
-    tables = {name: pd.read_parquet(run_folder / f"{name}.parquet") for name in ("results", "verdicts")}
-    for table in ("results", "verdicts"):
-        unfold(opened, table)
-    for table, label, source, column in (
-        ("results", "value", "results", "value"),
-        ("results", "u_num", "results", "u_num"),
-        ("verdicts", "E(U)", "verdicts", "error"),
-        ("verdicts", "U", "verdicts", "uncertainty"),
-        ("verdicts", "reference's value", "verdicts", "reference_value"),
-    ):
-        shown = [float(text) if text else np.nan for text in cells(opened, table, label)]
-        np.testing.assert_array_equal(shown, tables[source][column])
 
 
 def test_a_plot_zooms(opened):
@@ -235,81 +216,8 @@ def test_it_is_accessible_and_legible_in_light_and_dark_and_on_paper(opened, rul
     opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": []})
 
 
-# The choices of a plot are its selects; a series is drawn when its choice is first made.
-CHOOSE = """
-  const [id, values] = arguments;
-  document.querySelectorAll(`#${id} select`).forEach((select, index) => {
-    select.value = values[index];
-    select.dispatchEvent(new Event("change"));
-  });
-"""
-# A point of each series that is shown: its model, its hover value, and its pixel from the middle of the plot.
-POINTS = """
-  const [id, group] = arguments;
-  const plot = DATA.plots.find((one) => one.id === id);
-  const [x0, x1, y0, y1] = Plots.range(id);
-  const [left, top, width, height] = Plots.inner(id);
-  const box = document.querySelector(`#${id} .canvas`).getBoundingClientRect();
-  const share = (v, a, b, scale) => (scale === "log" ? Math.log(v / a) / Math.log(b / a) : (v - a) / (b - a));
-  return plot.series.filter((series) => series.group === group).map((series) => {
-    const places = series.x.map((x, index) => ({
-      label: series.label, hover: series.hover[index],
-      across: share(x, x0, x1, plot.x_scale), up: share(series.y[index], y0, y1, "linear"),
-    })).filter(({ across, up }) => Math.min(across, up) > 0.02 && Math.max(across, up) < 0.98);
-    const { label, hover, across, up } = places[Math.floor(places.length / 2)];
-    const [right, down] = [left + width * across - box.width / 2, top + height * (1 - up) - box.height / 2];
-    return [label, hover, Math.round(right), Math.round(down)];
-  });
-"""
-
-
-def choices(browser, plot):
-    """Every combination of the options of a plot's menus that has something to show."""
-    return browser.execute_script(
-        "return [...new Set(DATA.plots.find((one) => one.id === arguments[0]).series.map((one) => one.group))]", plot
-    )
-
-
 def plots(browser):
     return browser.execute_script("return DATA.plots.map((one) => one.id)")
-
-
-def point(browser, plot, right, down):
-    canvas = find(browser, f"#{plot} .canvas")
-    browser.execute_script("arguments[0].scrollIntoView({ block: 'center' })", canvas)
-    actions = package("selenium.webdriver.common.action_chains").ActionChains(browser, duration=0)
-    actions.move_to_element_with_offset(canvas, right + 3, down).move_by_offset(-3, 0).perform()
-
-
-def shows(browser, label, hover):
-    text = tips(browser)
-    return label in text and hover in text
-
-
-@pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.heavy)])
-def test_values_are_read_off_after_every_choice(opened, whole):
-    """Of every plot, after its first and its last choice, or after all of them."""
-    assert {f"plot-{name.replace('_', '-')}" for name in CURVES} <= set(plots(opened))
-    read_off = 0
-    for plot in plots(opened):
-        every = choices(opened, plot)
-        chosen = every if whole else list(dict.fromkeys([every[0], every[-1]]))
-        # The first again: a choice that is made again must be as good as the first time.
-        again = len(chosen) > 1 and plot == "plot-kappa"
-        for group in [*chosen, *every[: again or whole]]:
-            opened.execute_script(CHOOSE, plot, group.split("|") if plot == "plot-kappa" else [group])
-            for label, hover, right, down in opened.execute_script(POINTS, plot, group):
-                point(opened, plot, right, down)
-                wait(partial(shows, opened, label, hover))
-                read_off += 1
-    assert read_off >= ((4 * 2 + 2 + 1 + 2) + (2 + 2 + 1) if whole else 3 * 2 + 2 + 1 + 2)
-    # A model that is switched off is not read off.
-    click(opened, find(opened, "#plot-pull-off-gap .models input"))
-    (_, again) = opened.execute_script(POINTS, "plot-pull-off-gap", "2|0.4|1")
-    point(opened, "plot-pull-off-gap", *again[2:])
-    wait(partial(shows, opened, *again[:2]))
-    assert "fscm" not in tips(opened)
-    assert messages(opened) == []
 
 
 @pytest.mark.parametrize(
@@ -343,9 +251,6 @@ def test_interactions_in_every_plot_leave_the_console_empty(opened, tmp_path, ro
     used = opened.execute_script(script, rounds)
     assert set(used) == set(plots(opened))
     assert min(used.values()) >= fewest
-    for plot in plots(opened):
-        for right, down in ((-40, 0), (0, 30), (40, -30)):
-            point(opened, plot, right, down)
     # One by one, and a few: the browser refuses many files that a page saves without a pause.
     for button in opened.find_elements("css selector", "[data-save]")[: 8 if fewest == 50 else 2]:
         table = opened.execute_script("return arguments[0].closest('.table').dataset.table", button)

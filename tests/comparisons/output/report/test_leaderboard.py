@@ -11,7 +11,6 @@ from comparisons.cli.main import main
 from comparisons.output.report.leaderboard import Entry, case_sets, standing
 from comparisons.output.report.stored_run import Stored
 from comparisons.runs.cases import load_grids
-from comparisons.runs.record import read_record, write_record
 
 GATE = """
 [[gate]]
@@ -171,10 +170,3 @@ def test_a_part_of_a_sweep_and_a_wrong_place_are_refused(toys, tmp_path, capsys)
     (row,) = table_of(board([tmp_path / "whole"], tmp_path))
     # Nothing was judged.
     assert (row["model"], row["largest |κ| (%)"], "verdict" in row) == ("ten-percent", "10.00000(5)", False)
-
-
-def test_cases_that_have_changed_since_are_told(folders, tmp_path, capsys):
-    for folder in folders:
-        write_record(read_record(folder / "run.json") | {"cases_sha256": "0" * 64}, folder / "run.json")
-    assert len(table_of(board(folders, tmp_path))) >= 3
-    assert capsys.readouterr().err.count("the standing cases have changed since") == 2

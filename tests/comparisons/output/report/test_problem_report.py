@@ -2,7 +2,6 @@
 
 import csv
 import io
-import json
 import math
 import re
 import shutil
@@ -116,21 +115,6 @@ def test_the_same_folder_gives_the_same_page_and_a_changed_one_none(swept, tmp_p
     assert not (folder / "report.html").exists()
 
 
-def test_keys_with_texts_are_choices(tmp_path):
-    rows = "r [nm],height [nm]\n" + "".join(f"{r},{r * r / 200}\n" for r in range(40))
-    for name in ("a.csv", "b.csv"):
-        (tmp_path / name).write_text(rows)
-    before, _, after = PAD.read_text().partition("[punch]")
-    after = after.partition("[law]")[2]
-    (tmp_path / "tip.toml").write_text(f'{before}[punch]\nkind = "table"\nfile = "a.csv"\n[law]{after}')
-    vary = ["--vary", "punch.file=a.csv, b.csv"]
-    out = ["--model", "bradley", "--quiet", "--out", str(tmp_path / "out")]
-    assert main(["sweep", "--problem", str(tmp_path / "tip.toml"), *vary, *out]) == 0
-    page = make_page(read_folder(tmp_path / "out"))
-    assert page.plots == {}
-    assert "Values over the varied keys" not in render(page)
-
-
 def test_the_page_in_a_browser(browser, page_of_sweep, swept):
     show(browser, page_of_sweep, *DESKTOP)
     assert messages(browser) == []
@@ -178,10 +162,3 @@ def test_the_page_fits_a_phone(browser, page_of_sweep):
         assert one[1] <= PHONE[0]
         for other in boxes[:place]:
             assert one[0] >= other[1] or one[2] >= other[3] or other[0] >= one[1]
-
-
-def test_the_data_of_the_page_has_every_label(page_of_sweep):
-    text = page_of_sweep.read_text(encoding="utf-8")
-    data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)[1])
-    for plot in data["plots"]:
-        assert set(plot["y_labels"]) == {series["group"] for series in plot["series"]}
