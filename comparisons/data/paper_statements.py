@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from importlib.resources import files
@@ -11,11 +10,9 @@ from typing import Any
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import validated
 
-__all__ = ["PaperStatement", "paper_statements", "read_statements", "verdicts"]
+__all__ = ["PaperStatement", "paper_statements", "read_statements"]
 
 _FILE = "paper_statements.toml"
-#: The committed verdicts, a copy of the table in `results/baseline/paper` that is in every installation.
-_VERDICTS = "paper_statements.csv"
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,15 +98,3 @@ def paper_statements() -> list[PaperStatement]:
     True
     """
     return read_statements(files("comparisons.data").joinpath(_FILE).read_text(encoding="utf-8"))
-
-
-def verdicts() -> list[dict[str, str]]:
-    """Return the rows of the shipped verdicts, in the order of the statements.
-
-    Examples
-    --------
-    >>> sorted({row["verdict"] for row in verdicts()})
-    ['false', 'true', 'true in part']
-    """
-    text = files("comparisons.data").joinpath(_VERDICTS).read_text(encoding="utf-8")
-    return list(csv.DictReader(text.splitlines()))

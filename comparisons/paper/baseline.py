@@ -11,13 +11,10 @@ from comparisons.paper.registry import paper_figures
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.committed import committed
 
-__all__ = ["PAPER_BASELINE", "SHIPPED_STATEMENTS", "changes", "check", "has_figures", "renew"]
+__all__ = ["PAPER_BASELINE", "changes", "check", "has_figures", "renew"]
 
 #: Folder of the committed figures, in a clone of the repository.
 PAPER_BASELINE = BASELINE_FOLDER / "paper"
-
-#: Copy of the verdicts on the statements of the paper that is in every installation.
-SHIPPED_STATEMENTS = Path("comparisons", "data", "paper_statements.csv")
 
 #: Smallest change of a number that counts, relative to the largest number of its column: a hundred times the change
 #: that rounding makes in the least certain of them (finite elements, u_num of 4e-7), and invisible in a picture.
@@ -46,9 +43,6 @@ def renew(folder: Path, target: Path = PAPER_BASELINE) -> list[Path]:
     for stale in target.iterdir():
         stale.unlink()
     copies = {target / path.name: path for files in sources.values() for path in files}
-    if target == PAPER_BASELINE:
-        # The report of an installation has no clone to read them from.
-        copies[SHIPPED_STATEMENTS] = folder / SHIPPED_STATEMENTS.name
     for copy, source in copies.items():
         with atomic(copy) as file:
             file.write(source.read_bytes())

@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 from comparisons.baseline import main
-from comparisons.paper.baseline import PAPER_BASELINE, SHIPPED_STATEMENTS, changes, check, renew
+from comparisons.paper.baseline import PAPER_BASELINE, changes, check, renew
 from comparisons.paper.registry import NAMES, paper_figures
 from comparisons.runs.csv_format import csv_text
 
@@ -90,22 +90,19 @@ def test_a_folder_is_compared_with_the_committed_figures(tmp_path, capsys, monke
     ]
 
 
-def test_only_a_whole_set_renews_the_baseline_and_ships_the_verdicts(tmp_path, capsys, monkeypatch):
+def test_only_a_whole_set_renews_the_baseline(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     made, other = tmp_path / "made", tmp_path / "other"
-    for folder in (made, PAPER_BASELINE, SHIPPED_STATEMENTS.parent):
+    for folder in (made, PAPER_BASELINE):
         folder.mkdir(parents=True)
     for figure in FIGURES.values():
         (made / f"{figure.stem}.csv").write_text(figure.name)
     (made / "tasks.jsonl").write_text("a journal")
     (PAPER_BASELINE / "stale.csv").write_text("of a figure that does not exist")
-    # Another target is not the baseline: nothing is shipped.
     renew(made, other)
-    assert not SHIPPED_STATEMENTS.exists()
     written = renew(made)
-    assert {*PAPER_BASELINE.iterdir(), SHIPPED_STATEMENTS} == set(written)
-    assert len(written) == len(NAMES) + 1
-    assert SHIPPED_STATEMENTS.read_text() == (PAPER_BASELINE / "paper_statements.csv").read_text() == "statements"
+    assert {*PAPER_BASELINE.iterdir()} == set(written)
+    assert len(written) == len(NAMES)
     (made / f"{FIGURES['8'].stem}.csv").unlink()
     assert main([str(made)]) == 2
     assert "lacks 8" in capsys.readouterr().err
