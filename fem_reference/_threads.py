@@ -10,7 +10,7 @@ import threading
 from functools import lru_cache
 from types import TracebackType
 
-import scipy.linalg  # noqa: F401  (the controller limits only libraries that are loaded)
+import scipy.linalg  # noqa: F401  # only loaded libraries can be limited
 from threadpoolctl import ThreadpoolController
 
 __all__ = ["one_thread"]

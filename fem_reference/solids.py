@@ -66,7 +66,7 @@ class _OneRatio:
 
     def __post_init__(self) -> None:
         _check_one_ratio(self.nu)
-        self.modulus  # noqa: B018  (validates the rest)
+        self.modulus  # noqa: B018  # validates the rest
 
     @property
     def modulus(self) -> Modulus:
@@ -232,7 +232,7 @@ class Coating:
         _check_one_ratio(self.nu_coating)
         if self.nu_substrate is not None:
             _check_one_ratio(self.nu_substrate)
-        self.modulus  # noqa: B018  (validates the rest)
+        self.modulus  # noqa: B018  # validates the rest
 
     @property
     def modulus(self) -> CoatingModulus:

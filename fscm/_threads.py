@@ -18,7 +18,7 @@ __all__ = ["one_thread"]
 @cache
 def _blas() -> ThreadpoolController:
     """The BLAS libraries of NumPy and SciPy; found once, because the search takes milliseconds."""
-    import scipy.linalg  # noqa: F401  loads its BLAS before the search
+    import scipy.linalg  # noqa: F401  # loads its BLAS before the search
 
     return ThreadpoolController().select(user_api="blas")
 

@@ -72,8 +72,8 @@ def _complete(parser: argparse.ArgumentParser) -> None:
                 _complete(command)
         elif action.type is Path:
             folder = str(action.metavar or "").startswith("DIR")
-            action.complete = shtab.DIRECTORY if folder else shtab.FILE  # type: ignore[attr-defined]
+            vars(action)["complete"] = shtab.DIRECTORY if folder else shtab.FILE
         elif action.metavar in ("SPEC", "MODEL"):
-            action.complete = {"bash": _MODELS, "zsh": _MODELS, "tcsh": _TCSH_MODELS}  # type: ignore[attr-defined]
+            vars(action)["complete"] = {"bash": _MODELS, "zsh": _MODELS, "tcsh": _TCSH_MODELS}
         elif action.dest == "quantity" and action.choices is None:
-            action.complete = {"bash": _QUANTITIES, "zsh": _QUANTITIES, "tcsh": _TCSH_QUANTITIES}  # type: ignore[attr-defined]
+            vars(action)["complete"] = {"bash": _QUANTITIES, "zsh": _QUANTITIES, "tcsh": _TCSH_QUANTITIES}

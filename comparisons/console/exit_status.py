@@ -86,7 +86,7 @@ def guarded(command: Callable[[], int], program: str = "fscm-bench") -> int:
     """
     if sys.stderr is None:
         # Closed by the parent process (2>&-): messages need a place, and no file may get descriptor 2.
-        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  # open to the end
     status = _status(command, program)
     for stream in (sys.stdout, sys.stderr):
         if stream is not None and not _flushed(stream):

@@ -129,7 +129,7 @@ class Child:
         environment = {
             name: value for name, value in os.environ.items() if name in _ENVIRONMENT or name.startswith(_KERNELS)
         }
-        self._errors = self._resources.enter_context(tempfile.TemporaryFile())  # noqa: SIM115
+        self._errors = self._resources.enter_context(tempfile.TemporaryFile())  # noqa: SIM115  # the stack closes it
         cleaning = self._popen([sys.executable, "-I", "-S", cleaner.__file__, tempfile.gettempdir()], "/", environment)
         assert cleaning.stdin is not None
         assert cleaning.stdout is not None

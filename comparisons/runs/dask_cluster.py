@@ -41,7 +41,7 @@ def dask_cluster(scheduler: str | None = None) -> Backend:
         If Dask is not installed, or the address is not one.
     """
     try:
-        import dask  # noqa: F401
+        import dask  # noqa: F401  # raises if it is missing
         from distributed.comm.addressing import parse_address, parse_host_port
     except ImportError:
         raise ValueError(

@@ -35,4 +35,4 @@ def _import_without_docstrings() -> None:
 if sys.flags.optimize >= 2 and "pyamg" not in sys.modules:
     _import_without_docstrings()
 
-import pyamg  # noqa: E402
+import pyamg  # noqa: E402  # after the import without docstrings

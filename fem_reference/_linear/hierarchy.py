@@ -52,12 +52,12 @@ def _same_numbers() -> Iterator[None]:
 
     Another thread that draws from this generator at the same time gets them, too.
     """
-    before = np.random.get_state()  # noqa: NPY002
-    np.random.seed(0)  # noqa: NPY002
+    before = np.random.get_state()  # noqa: NPY002  # pyamg draws from the global generator
+    np.random.seed(0)  # noqa: NPY002  # pyamg draws from the global generator
     try:
         yield
     finally:
-        np.random.set_state(before)  # noqa: NPY002
+        np.random.set_state(before)  # noqa: NPY002  # pyamg draws from the global generator
 
 
 def _hierarchy(matrix: Any, candidates: Array, positions: Sequence[Index]) -> pyamg.MultilevelSolver:

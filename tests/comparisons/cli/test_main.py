@@ -49,10 +49,10 @@ def test_text_shows_the_digits_the_uncertainty_leaves(toys, capsys):
     assert "-P_c = 2.0000000000(10) pi Q^(2/n)" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(("k", "captured"), [("0", True), ("0.4", False)])
-def test_text_shows_maugis_lambda_beside_the_tabor_number(capsys, k, captured):
+@pytest.mark.parametrize(("k", "has_it"), [("0", True), ("0.4", False)])
+def test_text_shows_maugis_lambda_beside_the_tabor_number(capsys, k, has_it):
     assert solve("jkr", case=["--n", "2", "--k", k, "--mu", "2"]) == 0
-    assert ("lambda = 2.314" in capsys.readouterr().out) == captured
+    assert ("lambda = 2.314" in capsys.readouterr().out) == has_it
 
 
 def test_csv_is_a_header_and_a_row(capsys):

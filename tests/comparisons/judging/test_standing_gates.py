@@ -305,7 +305,11 @@ def test_the_command_that_is_shown_computes_the_case_of_the_gate(monkeypatch):
             f"comparisons.cli.commands.{name}.call", lambda args, name=name: called.append((name, args)) or 0
         )
     for gate, grid in product(EVERY, grids("full")):
-        cases = [case for case in grid.cases if not case.name and gate.selects(grid, case) and gate.quantity in grid.quantities]
+        cases = [
+            case
+            for case in grid.cases
+            if not case.name and gate.selects(grid, case) and gate.quantity in grid.quantities
+        ]
         for case in {*cases[:1], *cases[-1:]}:
             candidate = "jkr" if gate.candidate == GIVEN else gate.candidate
             shown = pd.Series({"candidate": candidate, "quantity": gate.quantity, "nu": None, **case.parameters})
