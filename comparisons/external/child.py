@@ -161,14 +161,14 @@ class Child:
 
     def _line(self, seconds: float) -> bytes:
         """Return the line that the process writes."""
-        line, part = bytearray(), b""
+        line, chunk = bytearray(), b""
         end = time.monotonic() + seconds
-        while b"\n" not in part:
+        while b"\n" not in chunk:
             if not self._is_readable(end - time.monotonic()):
                 raise self._overdue(seconds)
-            part = os.read(self._replies.fileno(), 1 << 16)
-            line += part
-            if not part:
+            chunk = os.read(self._replies.fileno(), 1 << 16)
+            line += chunk
+            if not chunk:
                 raise ComputationFailed(f"its process {self._end_of_process()} instead of a reply{self._last_words()}")
             if len(line) > _LONGEST_REPLY:
                 raise ComputationFailed(f"its process wrote {_LONGEST_REPLY // 10**6} MB without the end of a line")

@@ -169,12 +169,12 @@ def _repeated(done: Evaluations) -> tuple[str, str]:
     # A new process and the opposite order: neither the clock, a seed nor an earlier evaluation may matter.
     done.model.close()
     again = Evaluations(done.model)
-    for key, first in reversed(done.results.items()):
+    for key, before in reversed(done.results.items()):
         result = again.get(key)
-        if result is None or result.value != first.value:
+        if result is None or result.value != before.value:
             later = repr(result.value) if result else again.failures.get(key, "not applicable")
             return WRONG, (
-                f"{key} is {first.value!r} the first time and {later} in a new process with the "
+                f"{key} is {before.value!r} the first time and {later} in a new process with the "
                 "evaluations in the opposite order: a random number, a clock, or something kept between evaluations"
             )
     return _kept(done, "values are the same to the last bit in a new process")
@@ -184,15 +184,15 @@ def _units(done: Evaluations) -> tuple[str, str]:
     model = done.model
     if isinstance(model, DataModel) or not model.physical:
         return SKIPPED, "it is evaluated for dimensionless problems, which have no units"
-    for key, first in done.results.items():
+    for key, in_si in done.results.items():
         for scales in range(1, len(SCALES)):
             try:
-                other = model.evaluate(key.problem(), key.quantity, scales=scales)
+                scaled = model.evaluate(key.problem(), key.quantity, scales=scales)
             except (NotApplicable, ComputationFailed) as error:
-                return WRONG, f"{key} is {first.value:g} in SI units, but in others: {error}"
-            if abs(other.value - first.value) > _SCALING * abs(first.value) + first.u_num + other.u_num:
+                return WRONG, f"{key} is {in_si.value:g} in SI units, but in others: {error}"
+            if abs(scaled.value - in_si.value) > _SCALING * abs(in_si.value) + in_si.u_num + scaled.u_num:
                 return WRONG, (
-                    f"{key}, made dimensionless, is {first.value:g} in SI units and {other.value:g} "
+                    f"{key}, made dimensionless, is {in_si.value:g} in SI units and {scaled.value:g} "
                     "for the same problem in other units: a wrong power of a modulus, a length or a work of "
                     "adhesion, or a constant that has a unit"
                 )

@@ -77,15 +77,15 @@ def _digest(files: Mapping[str, Path]) -> tuple[str, int]:
 
 def _of_root(root: Path, loaded: Collection[Path]) -> tuple[Collection[Path], str]:
     """Return the files of a folder that count, and which they are in words."""
-    own = [path for path in loaded if path.is_relative_to(root) and path.is_file() and _counts(path, root)]
+    used = [path for path in loaded if path.is_relative_to(root) and path.is_file() and _counts(path, root)]
     name, why = one_line(root.name, 60), "other uses"
     if root.name in SITES or any(root.glob("*.dist-info")):
-        return own, "the installed files of the model"
+        return used, "the installed files of the model"
     if not _is_shared(root):
-        if (every := _every_file(root)) is not None:
-            return every, f"all files in {name}"
+        if (files := _every_file(root)) is not None:
+            return files, f"all files in {name}"
         why = f"over {MOST_FILES} files or {MOST_BYTES // 1_000_000} MB"
-    return own, f"the imported modules in {name} (not the folder, which has {why})"
+    return used, f"the imported modules in {name} (not the folder, which has {why})"
 
 
 def _is_shared(root: Path) -> bool:
@@ -128,9 +128,9 @@ def _output_files() -> set[tuple[int, int]]:
 
 def _walk(root: Path) -> Iterator[Path]:
     for folder, inner, names in os.walk(root):
-        here = Path(folder)
-        inner[:] = [name for name in inner if _is_entered(name) and not _is_of_others(here / name)]
-        yield from (here / name for name in names if _is_read(name))
+        parent = Path(folder)
+        inner[:] = [name for name in inner if _is_entered(name) and not _is_of_others(parent / name)]
+        yield from (parent / name for name in names if _is_read(name))
 
 
 def _counts(path: Path, root: Path) -> bool:
@@ -149,11 +149,11 @@ def _is_read(name: str) -> bool:
 def _declared(names: Iterable[str], base: Path) -> Iterator[tuple[str, Path]]:
     count = size = 0
     for name in names:
-        shown, path = one_line(repr(name), 80), base / name
+        quoted, path = one_line(repr(name), 80), base / name
         if os.path.isabs(name):
-            raise ValueError(f"files has {shown}, but the names are relative to the folder of the model")
+            raise ValueError(f"files has {quoted}, but the names are relative to the folder of the model")
         if not os.path.isfile(path) and not os.path.isdir(path):
-            raise ValueError(f"files has {shown}, but there is no such file or folder beside the model")
+            raise ValueError(f"files has {quoted}, but there is no such file or folder beside the model")
         below = (Path(folder, file) for folder, _, inner in os.walk(path) for file in inner)
         for entry in [path] if os.path.isfile(path) else filter(Path.is_file, below):
             count, size = count + 1, size + entry.stat().st_size

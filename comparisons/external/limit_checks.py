@@ -67,13 +67,14 @@ def _in_limit(evaluations: Evaluations, name: str) -> tuple[str, str]:
         errors = [(mu, result.value / _limit(name, n, k) - 1.0) for mu, result in results.items() if result]
         if not errors:
             continue
-        (first_mu, first), (last_mu, last) = errors[0], errors[-1]
-        if abs(last) > _LIMIT_TOLERANCE or abs(last) > abs(first) + _STANDSTILL:
+        (first_mu, farthest), (last_mu, nearest) = errors[0], errors[-1]
+        if abs(nearest) > _LIMIT_TOLERANCE or abs(nearest) > abs(farthest) + _STANDSTILL:
             return WRONG, (
-                f"the pull-off force at n = {n:g}, k = {k:g} is {_percent(first)} off {label} at mu = {first_mu:g} and "
-                f"{_percent(last)} at mu = {last_mu:g}: it must come nearer, to {_percent(_LIMIT_TOLERANCE)} at least"
+                f"the pull-off force at n = {n:g}, k = {k:g} is {_percent(farthest)} off {label} at mu = {first_mu:g} "
+                f"and {_percent(nearest)} at mu = {last_mu:g}: it must come nearer, to "
+                f"{_percent(_LIMIT_TOLERANCE)} at least"
             )
-        parts.append(f"{_percent(last)} at n = {n:g}, k = {k:g}, mu = {last_mu:g}")
+        parts.append(f"{_percent(nearest)} at n = {n:g}, k = {k:g}, mu = {last_mu:g}")
     return (OK, f"off {label} by {'; '.join(parts)}") if parts else (SKIPPED, f"it has no value towards {label}")
 
 
@@ -107,8 +108,8 @@ def _suspicion(ratios: list[float]) -> str:
         return ""
     mean = math.exp(sum(map(math.log, ratios)) / len(ratios))
     name, factor = min(_FACTORS.items(), key=lambda item: abs(_distance(mean) - math.log(item[1])))
-    near = abs(_distance(mean) - math.log(factor)) <= math.log(_NEAR)
-    hint = f": perhaps {name} {'too much' if mean > 1.0 else 'missing'}" if near else ""
+    is_factor = abs(_distance(mean) - math.log(factor)) <= math.log(_NEAR)
+    hint = f": perhaps {name} {'too much' if mean > 1.0 else 'missing'}" if is_factor else ""
     return f"{hint}; its unit is {QUANTITIES[_QUANTITY].unit}"
 
 

@@ -36,10 +36,10 @@ _loaded: dict[tuple[str, float | None], ExternalModel | DataModel] = {}
 
 def installed() -> list[tuple[str, str, str]]:
     """Return name, package and version of the installed models, sorted; none of their code is run."""
-    found = {(entry.name, entry.dist) for entry in entry_points(group=GROUP)}
+    entries = {(entry.name, entry.dist) for entry in entry_points(group=GROUP)}
     return sorted(
         (one_line(name, 60), one_line(package.name, 60), one_line(package.version, 60))
-        for name, package in found
+        for name, package in entries
         if package is not None
     )
 
@@ -61,7 +61,7 @@ def source_of(spec: str) -> dict[str, Any]:
     """
     if not spec.strip():
         raise ValueError(f"the name of a model, {spec!r}, is empty: name {_SPECS}")
-    shown = one_line(spec, 200)
+    quoted = one_line(spec, 200)
     file, _, attribute = spec.rpartition(":")
     if file.endswith(".py"):
         # Not Path.resolve(), which raises RuntimeError at a loop of symbolic links.
@@ -69,7 +69,7 @@ def source_of(spec: str) -> dict[str, Any]:
         if not os.path.isfile(path):
             raise ValueError(f"there is no file {one_line(file, 200)}")
         if not attribute.isidentifier():
-            raise ValueError(f"{shown}: the text after the colon must be the name of a class")
+            raise ValueError(f"{quoted}: the text after the colon must be the name of a class")
         return {"kind": "file", "file": path, "attribute": attribute}
     path = os.path.realpath(os.path.expanduser(spec))
     folder = os.path.dirname(path) if os.path.basename(path) == MANIFEST else path
@@ -78,12 +78,12 @@ def source_of(spec: str) -> dict[str, Any]:
         # A value has a quantity, a case and a unit, which the file beside a table states.
         if os.path.splitext(path)[1].lower() in _TABLES:
             raise ValueError(
-                f"{shown} is a table and no model: put it in a folder with a {MANIFEST}, which states its name, its "
+                f"{quoted} is a table and no model: put it in a folder with a {MANIFEST}, which states its name, its "
                 "units and its cases, and give the name of the folder (docs/judge_your_model.md, Only data)"
             )
         # Without a separator it is a name, as for a shell.
         if os.sep in spec:
-            return _program(path, shown)
+            return _program(path, quoted)
     count = 0 if os.sep in spec else len({entry for entry in entry_points(group=GROUP) if entry.name == spec})
     if data and count:
         raise ValueError(
@@ -96,14 +96,14 @@ def source_of(spec: str) -> dict[str, Any]:
         raise ValueError(f"{count} installed packages have a model {spec!r}; name it FILE.py:CLASS instead")
     # A folder without predictions hides no entry point: a package is often installed from a folder of its name.
     if count == 0:
-        raise ValueError(f"no installed package has a model {shown!r} (entry points of group {GROUP}); name {_SPECS}")
+        raise ValueError(f"no installed package has a model {quoted!r} (entry points of group {GROUP}); name {_SPECS}")
     return {"kind": "package", "group": GROUP, "name": spec}
 
 
-def _program(path: str, shown: str) -> dict[str, Any]:
+def _program(path: str, quoted: str) -> dict[str, Any]:
     if not os.access(path, os.X_OK):
         hint = " or, for a model in Python, name its class (FILE.py:CLASS)" if path.endswith(".py") else ""
-        raise ValueError(f"{shown} is a file that is no program: make it executable (chmod +x){hint}")
+        raise ValueError(f"{quoted} is a file that is no program: make it executable (chmod +x){hint}")
     return {"kind": "program", "file": path}
 
 

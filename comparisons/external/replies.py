@@ -122,8 +122,8 @@ def _parsed(line: bytes) -> dict[str, Any]:
     except (ValueError, RecursionError):
         reply = None
     if not isinstance(reply, dict):
-        shown = one_line(repr(line[:200].decode(errors="replace").strip()), 80)
-        raise ComputationFailed(f"its process wrote {shown}, which is not one JSON object in one line")
+        quoted = one_line(repr(line[:200].decode(errors="replace").strip()), 80)
+        raise ComputationFailed(f"its process wrote {quoted}, which is not one JSON object in one line")
     return reply
 
 

@@ -56,7 +56,7 @@ def write_template(folder: Path, reserved: Collection[str] = ()) -> tuple[list[P
     """
     name = model_name(Path(os.path.realpath(folder)).name)
     module = name.replace("-", "_").replace(".", "_").lower()
-    cls = "".join(part.title() for part in module.split("_"))
+    cls = "".join(word.title() for word in module.split("_"))
     taken = _SHADOWED | sys.stdlib_module_names | {model.replace("-", "_") for model in reserved}
     hidden = module in taken or cls in _IMPORTED
     if hidden or not module.isidentifier() or {module, cls} & set(keyword.kwlist) or not name[-1].isalnum():
@@ -67,9 +67,7 @@ def write_template(folder: Path, reserved: Collection[str] = ()) -> tuple[list[P
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise ValueError(f"{folder} exists and is not an empty folder")
     try:
-        written = [
-            _written(folder, *place, {"MODEL": name, "MODULE": module, "CLASS": cls}) for place in _PLACES.items()
-        ]
+        written = [_written(folder, *path, {"MODEL": name, "MODULE": module, "CLASS": cls}) for path in _PLACES.items()]
     except OSError as error:
         if full_disk(error):
             raise OSError(f"{folder} cannot be written ({error.strerror})") from error

@@ -93,18 +93,18 @@ def _loaded(source: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
     installed: Iterable[str] = ()
     if source["kind"] == "file":
         file = Path(source["file"])
-        made = _attribute_of_file(file, source["attribute"])
+        loaded = _attribute_of_file(file, source["attribute"])
         roots[str(file.parent)] = str(file)
     else:
         # It takes a tenth of the start of a process, and a file does not need it.
         from importlib.metadata import entry_points
 
         (entry,) = {entry for entry in entry_points(group=source["group"]) if entry.name == source["name"]}
-        made = entry.load()
+        loaded = entry.load()
         roots |= _root_of(entry.module)
         installed = (os.path.realpath(path.locate()) for path in (entry.dist.files if entry.dist else None) or ())
-    model = made() if callable(made) else made
-    roots = _root_of((made if isinstance(made, type) else type(model)).__module__) | roots
+    model = loaded() if callable(loaded) else loaded
+    roots = _root_of((loaded if isinstance(loaded, type) else type(model)).__module__) | roots
     modules = (os.path.realpath(getattr(module, "__file__", None) or "/") for module in list(sys.modules.values()))
     imported = (name for name in modules if not any(f"/{site}/" in name for site in SITES))
     return model, {"roots": roots, "loaded": sorted({*installed, *imported})}
@@ -201,10 +201,10 @@ def _is_of_model(filename: str) -> bool:
     return not filename.startswith("<") and not Path(filename).is_relative_to(_FOLDER)
 
 
-def _text_of(thing: object, by: Callable[[object], str] = str) -> str:
+def _text_of(value: object, by: Callable[[object], str] = str) -> str:
     """Return the text of an exception; its class may be of the model, and the conversion may fail."""
     try:
-        return one_line(by(thing))
+        return one_line(by(value))
     except BaseException as worse:
         return f"its text cannot be had: __{by.__name__}__ raises {type(worse).__name__}"
 
@@ -218,9 +218,9 @@ def _explain(error: BaseException, megabytes: float, loading: bool) -> str:
     if isinstance(error, SystemExit):
         return f"SystemExit: the model called sys.exit({one_line(_text_of(error.code, repr), 60)})"
     # The place in the author's code, where for instance a Result was made of a text.
-    every = traceback.extract_tb(error.__traceback__)
-    frames = [frame for frame in every if _is_of_model(frame.filename)] or every
-    place = f" in {frames[-1].name}, line {frames[-1].lineno} of {Path(frames[-1].filename).name}" if frames else ""
+    all_frames = traceback.extract_tb(error.__traceback__)
+    frames = [frame for frame in all_frames if _is_of_model(frame.filename)] or all_frames
+    position = f" in {frames[-1].name}, line {frames[-1].lineno} of {Path(frames[-1].filename).name}" if frames else ""
     # Loading a model involves no case.
     hint = " (a case outside the domain is NotApplicable)" if isinstance(error, ValueError) and not loading else ""
-    return one_line(f"{type(error).__name__}{place}: {_text_of(error)}{hint}")
+    return one_line(f"{type(error).__name__}{position}: {_text_of(error)}{hint}")

@@ -113,15 +113,15 @@ def judge_cards(cards: Mapping[str, Any]) -> pd.DataFrame:
 
 def _repeated(name: str, repeated: Mapping[str, Any]) -> Iterator[Judged]:
     for case in repeated["cases"]:
-        first, again, allowed = case["first"], case["again"], case["allowed"]
-        same = again is not None and abs(again - first) <= allowed
+        value, again, allowed = case["first"], case["again"], case["allowed"]
+        same = again is not None and abs(again - value) <= allowed
         facts = {key: case[key] for key in ("quantity", *PARAMETERS)} | {
             "problem": case.get("problem", ""),
             "value": again,
             "u_num": 0.0,
-            "reference_value": first,
+            "reference_value": value,
             "u_reference": 0.0,
-            "error": None if again is None else again - first,
+            "error": None if again is None else again - value,
             "uncertainty": 0.0,
             "lower": 0.0 - allowed,
             "upper": allowed,
@@ -152,11 +152,11 @@ def judge_digits(verdicts: pd.DataFrame, models: Iterable[str]) -> pd.DataFrame:
     """
     compared = verdicts[verdicts[["value", "reference_value"]].notna().all(axis=1)]
     compared = compared.assign(same=compared["value"] == compared["reference_value"])
-    return verdict_table(_digits(name, own) for name in models if len(own := compared[compared["candidate"] == name]))
+    return verdict_table(_digits(name, rows) for name in models if len(rows := compared[compared["candidate"] == name]))
 
 
-def _digits(name: str, own: pd.DataFrame) -> Judged:
-    copied = [(id, rows) for id, rows in own.groupby("gate", sort=False) if 2 * rows["same"].sum() > len(rows)]
+def _digits(name: str, compared: pd.DataFrame) -> Judged:
+    copied = [(id, rows) for id, rows in compared.groupby("gate", sort=False) if 2 * rows["same"].sum() > len(rows)]
     for id, rows in copied:
         same = rows[rows["same"]]
         if (same["reference"].isin(_NUMERICAL) & ~(same["k"] >= 1.0)).any():
@@ -179,8 +179,8 @@ def verdict_on_model(id: str, name: str, verdict: Verdict, reason: str, **facts:
 
 def every_verdict(tables: Iterable[pd.DataFrame]) -> pd.DataFrame:
     """Return tables of verdicts as one; its columns of numbers have the type of numbers whatever is missing in them."""
-    every = list(tables)
-    filled = [table.astype(object) for table in every if len(table)] or every[:1]
+    given_tables = list(tables)
+    filled = [table.astype(object) for table in given_tables if len(table)] or given_tables[:1]
     joined = pd.concat(filled, ignore_index=True)
     if "problem" in joined:
         joined["problem"] = joined["problem"].fillna("")

@@ -77,11 +77,11 @@ def crossing(error: float, uncertainty: float, lower: float, upper: float, share
     'E = 0.95 +- 0.1 reaches across the limit 1, mostly by u of the candidate jkr: 0.05 (the reference fscm: 1e-09)'
     """
     limits = [limit for limit in (lower, upper) if error - uncertainty <= limit <= error + uncertainty]
-    (largest, share), *others = sorted(shares.items(), key=lambda item: -item[1])
-    rest = f" ({', '.join(f'{name}: {u:.2g}' for name, u in others)})" if others else ""
+    (largest, share), *smaller = sorted(shares.items(), key=lambda item: -item[1])
+    remainder = f" ({', '.join(f'{name}: {u:.2g}' for name, u in smaller)})" if smaller else ""
     return (
         f"E = {error:.4g} +- {uncertainty:.2g} reaches across the limit{'s' * (len(limits) > 1)} "
-        f"{' and '.join(map(exact, limits))}, mostly by u of {largest}: {share:.2g}{rest}"
+        f"{' and '.join(map(exact, limits))}, mostly by u of {largest}: {share:.2g}{remainder}"
     )
 
 

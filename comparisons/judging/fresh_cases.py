@@ -111,13 +111,13 @@ class FreshCases:
     @classmethod
     def of_json(cls, stored: Mapping[str, Any], gates: Iterable[Gate], folder: Path) -> FreshCases:
         """Return the fresh cases of a record, as far as they are about some gates; the folder has the problem files."""
-        known = {gate.id: gate for gate in gates}
+        gates_by_id = {gate.id: gate for gate in gates}
         parts = tuple(
-            _part(known[one["gate"]], one["candidate"], one["reference"], _of_json(one["cases"], folder))
-            for one in stored["parts"]
-            if one["gate"] in known
+            _part(gates_by_id[entry["gate"]], entry["candidate"], entry["reference"], _of_json(entry["cases"], folder))
+            for entry in stored["parts"]
+            if entry["gate"] in gates_by_id
         )
-        undrawn = tuple(Undrawn(**gate) for gate in stored["undrawn"] if gate["gate"] in known)
+        undrawn = tuple(Undrawn(**gate) for gate in stored["undrawn"] if gate["gate"] in gates_by_id)
         return cls(stored["count"], stored["seed"], parts, undrawn)
 
 
@@ -177,7 +177,7 @@ def draw(
         by_reference: dict[str, list[Problem]] = {}
         for case in drawn.cases:
             by_reference.setdefault(_reference(gate, case), []).append(case)
-        parts += [_part(gate, gate.candidate, name, tuple(own)) for name, own in sorted(by_reference.items())]
+        parts += [_part(gate, gate.candidate, name, tuple(cases)) for name, cases in sorted(by_reference.items())]
     if passed_over:
         log(f"{passed_over} gates have no fresh cases: of curves, with a rival or a reference_at, or of single cases")
     return FreshCases(count, seed, tuple(parts), tuple(undrawn))

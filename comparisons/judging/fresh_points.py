@@ -124,14 +124,14 @@ def sample(
         None if the gate itself leaves no room, whatever the domain is.
     """
     numbers = tuple(case for case in standing if case.is_dimensionless)
-    others = tuple(case for case in avoided if case.is_dimensionless)
+    taken = tuple(case for case in avoided if case.is_dimensionless)
     if numbers:
         frame = _limited(_hull(numbers, REACH) if domain is None else {}, gate)
-        if not _of_numbers(frame, numbers, others).points(1, seed):
+        if not _of_numbers(frame, numbers, taken).points(1, seed):
             return None
     elif not standing:
         return None
-    spaces = [*_spaces_of_numbers(gate, domain, numbers, others), *_spaces_of_files(standing)]
+    spaces = [*_spaces_of_numbers(gate, domain, numbers, taken), *_spaces_of_files(standing)]
     cases: list[Problem] = []
     untested = {
         case

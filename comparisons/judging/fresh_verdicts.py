@@ -47,12 +47,12 @@ def compare_with_standing(verdicts: pd.DataFrame, fresh: pd.DataFrame) -> pd.Dat
     verdicts, fresh : DataFrame
         Of the standing and of the fresh cases, as of `comparisons.judging.judge.judge`.
     """
-    found = [
+    failures = [
         verdict_on_model(str(id), str(candidate), Verdict.FAIL, reason, quantity=str(new["quantity"].iloc[0]))
         for (id, candidate), new in fresh.groupby(["gate", "candidate"], sort=False)
         if (reason := _between(_of(verdicts, str(id).removesuffix(RANDOM), candidate), new))
     ]
-    return verdict_table(found)
+    return verdict_table(failures)
 
 
 def _of(verdicts: pd.DataFrame, id: str, candidate: object) -> pd.DataFrame:
@@ -61,14 +61,14 @@ def _of(verdicts: pd.DataFrame, id: str, candidate: object) -> pd.DataFrame:
 
 def _between(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
     """Return how a model that is right in the standing cases is wrong in fresh ones; nothing if it is not."""
-    known, new = (table[table["error"].notna()] for table in (standing, fresh))
-    if known.empty or set(known["verdict"]) != {Verdict.PASS}:
+    right, new = (table[table["error"].notna()] for table in (standing, fresh))
+    if right.empty or set(right["verdict"]) != {Verdict.PASS}:
         return ""
-    asked = fresh[fresh["status"].isin(["ok", "not-applicable", "failed", "missing"])]
-    shares = [(table["status"] == "ok").mean() for table in (standing[standing["status"] != "outside"], asked)]
-    if len(asked) and shares[1] < 0.5 * shares[0]:
+    evaluated = fresh[fresh["status"].isin(["ok", "not-applicable", "failed", "missing"])]
+    shares = [(table["status"] == "ok").mean() for table in (standing[standing["status"] != "outside"], evaluated)]
+    if len(evaluated) and shares[1] < 0.5 * shares[0]:
         return (
-            f"it has a value in {len(known)} standing cases, and in {len(new)} of the {len(asked)} fresh ones: it "
+            f"it has a value in {len(right)} standing cases, and in {len(new)} of the {len(evaluated)} fresh ones: it "
             "knows the standing cases only"
         )
     if new.empty:
@@ -76,10 +76,10 @@ def _between(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
     wrong = new[new["verdict"] == Verdict.FAIL]
     between = pd.Series(True, index=new.index)
     for name in ("n", "k", "mu"):
-        between &= new[name].between(known[name].min(), known[name].max())
+        between &= new[name].between(right[name].min(), right[name].max())
     # Those of problem files are drawn between the standing ones.
     between |= with_problem(new)["problem"].fillna("") != ""
-    largest, certain = _errors(known), _errors(new[between])
+    largest, certain = _errors(right), _errors(new[between])
     # What is certain of the error of a fresh case, against the most that the error of a standing one can be.
     much_worse = len(certain) > 0 and _is_much_worse(largest, certain)
     if wrong.empty and not much_worse:
@@ -88,7 +88,7 @@ def _between(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
     beyond = f", beyond the limits in {len(wrong)}" if len(wrong) else ""
     return (
         f"right at the standing cases and wrong {where}: the error is at most {largest[:, 0].max():.2g} in "
-        f"{len(known)} standing cases and {_errors(new)[:, 0].max():.2g} in {len(new)} fresh ones{beyond}"
+        f"{len(right)} standing cases and {_errors(new)[:, 0].max():.2g} in {len(new)} fresh ones{beyond}"
     )
 
 

@@ -101,12 +101,12 @@ def judge(
     DataFrame
         The fields of `Judged`, one row a gate and case, in the order of the gates, then of the cases.
     """
-    chosen = relevant(gates, grids, models)
-    expected = _planned(chosen, grids, models) | {*others}
-    numbers = stored_numbers(rows, names_in(gate for gate in chosen if gate.metric != "curve"))
-    points = stored_curves(curves, names_in(gate for gate in chosen if gate.metric == "curve"))
+    judged_gates = relevant(gates, grids, models)
+    expected = _planned(judged_gates, grids, models) | {*others}
+    numbers = stored_numbers(rows, names_in(gate for gate in judged_gates if gate.metric != "curve"))
+    points = stored_curves(curves, names_in(gate for gate in judged_gates if gate.metric == "curve"))
     judged: list[Judged] = []
-    for gate in chosen:
+    for gate in judged_gates:
         results, domain = points if gate.metric == "curve" else numbers, (domains or {}).get(gate.candidate)
         judged += _judge_gate(gate, cases_of(gate, grids, models), results, expected, domain)
     return verdict_table(judged)
@@ -114,7 +114,7 @@ def judge(
 
 def verdict_table(judged: Iterable[Judged]) -> pd.DataFrame:
     """Return verdicts as a table with the fields of `Judged`; `problem` where a case is of a file."""
-    return without_empty_problem(pd.DataFrame([asdict(each) for each in judged], columns=list(Judged.__slots__)))
+    return without_empty_problem(pd.DataFrame([asdict(row) for row in judged], columns=list(Judged.__slots__)))
 
 
 def _planned(gates: Collection[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> set[Key]:
@@ -152,21 +152,22 @@ def _judge_gate(
 def _refusal(gate: Gate, judged: Sequence[Judged]) -> str:
     """Return why the candidate has too few values; nothing if it has enough, or is evaluated nowhere."""
     evaluated = [case.status for case in judged if case.status != OUTSIDE]
-    answered = evaluated.count("ok") + evaluated.count(NO_EVENT)
-    if gate.min_coverage is None or not evaluated or answered >= gate.min_coverage * len(evaluated):
+    count = evaluated.count("ok") + evaluated.count(NO_EVENT)
+    if gate.min_coverage is None or not evaluated or count >= gate.min_coverage * len(evaluated):
         return ""
     return (
-        f"{gate.candidate} has a value in {answered} of the {len(evaluated)} cases in which it is evaluated; the gate "
+        f"{gate.candidate} has a value in {count} of the {len(evaluated)} cases in which it is evaluated; the gate "
         f"requires {100.0 * gate.min_coverage:.4g} % (a model that is not for all of them declares its domain)"
     )
 
 
 def _judge_case(gate: Gate, case: Problem, results: StoredResults, scale: float, domain: Domain | None) -> Judged:
-    own, status = problem_for(gate.candidate, case), results.status(key_of(gate.candidate, gate, case))
-    outside = domain is not None and own.is_dimensionless and not domain.contains(gate.quantity, own.parameters)
+    evaluated, status = problem_for(gate.candidate, case), results.status(key_of(gate.candidate, gate, case))
+    numbers = evaluated.numbers if evaluated.is_dimensionless else {}
+    outside = domain is not None and numbers != {} and not domain.contains(gate.quantity, numbers)
     # A list of cases has no others, and the domain has no problem of a file.
-    unlisted = domain is not None and (domain.is_list or not own.is_dimensionless) and status == "not-applicable"
-    n, k, mu, nu, name = own.key
+    unlisted = domain is not None and (domain.is_list or not evaluated.is_dimensionless) and status == "not-applicable"
+    n, k, mu, nu, name = evaluated.key
     judged = replace(_whole(gate, ""), n=n, k=k, mu=mu, nu=nu, problem=name)
     judged = replace(judged, status=OUTSIDE if outside or unlisted else status)
     try:

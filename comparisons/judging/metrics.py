@@ -77,8 +77,8 @@ def case_error(gate: Gate, case: Problem, results: StoredResults, scale: float) 
     error, share = error_of(value)
     shares = {"candidate": u_num / unit, "reference": share}
     if gate.rival:
-        other, u_other = results.number(key_of(gate.rival, gate, case))
-        error_of_rival, share_of_rival = error_of(other)
+        rival_value, u_other = results.number(key_of(gate.rival, gate, case))
+        error_of_rival, share_of_rival = error_of(rival_value)
         error = abs(error) - abs(error_of_rival)
         shares = {"candidate": u_num / unit, "reference": share + share_of_rival, "rival": u_other / unit}
     facts = {"value": value, "u_num": u_num, "reference_value": reference, "u_reference": u_reference}
@@ -113,10 +113,10 @@ def _distance(gate: Gate, case: Problem, results: StoredResults) -> CaseError:
     x, y, u_candidate = results.points(key_of(gate.candidate, gate, case))
     *reference, u_points = results.points(key_of(gate.reference, gate, gate.reference_case(case)))
     try:
-        found = curve_distance(x, y, *reference)
+        distance = curve_distance(x, y, *reference)
     except ValueError as error:
         raise UnusableResult(Verdict.ERROR, str(error)) from error
-    u_reference = u_points + found.u_interpolation
+    u_reference = u_points + distance.u_interpolation
     shares = {"candidate": u_candidate, "reference": u_reference}
     facts = {"u_num": u_candidate, "u_reference": u_reference}
-    return CaseError(found.value, combined(u_candidate, u_reference), u_candidate, u_reference, shares, facts)
+    return CaseError(distance.value, combined(u_candidate, u_reference), u_candidate, u_reference, shares, facts)

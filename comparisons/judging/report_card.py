@@ -32,17 +32,17 @@ def card_lines(
     domain : Domain or None
         The domain that it declares.
     """
-    own = verdicts[verdicts["candidate"] == name]
+    rows_of_model = verdicts[verdicts["candidate"] == name]
     lines = [
         ("domain", "it declares none (applies_to), and is evaluated in every case" if domain is None else str(domain))
     ]
-    for gate, rows in without_card_gates(own).groupby("gate", sort=False):
+    for gate, rows in without_card_gates(rows_of_model).groupby("gate", sort=False):
         covered = coverage_text(coverage(rows["status"]))
         lines.append((str(gate), f"{roll_up(rows['verdict'])}" + (f", a value in {covered}" if covered else "")))
-    return [*lines, *(_checks(card, own) if card else ()), ("verdict", verdict_sentence(name, verdicts))]
+    return [*lines, *(_checks(card, rows_of_model) if card else ()), ("verdict", verdict_sentence(name, verdicts))]
 
 
-def _checks(card: Mapping[str, Any], own: pd.DataFrame) -> list[tuple[str, str]]:
+def _checks(card: Mapping[str, Any], rows_of_model: pd.DataFrame) -> list[tuple[str, str]]:
     again = "nothing: data do not change" if card["kind"] == "data" else "it has no value"
     if repeated := card.get("repeated"):
         count = len(repeated["cases"])
@@ -53,11 +53,11 @@ def _checks(card: Mapping[str, Any], own: pd.DataFrame) -> list[tuple[str, str]]
     ]
     kept = sum(finding["status"] == "ok" for finding in findings)
     words = f"kept: {kept} of {kept + len(wrong)} checks" + (f"; not kept: {'; '.join(wrong)}" if wrong else "")
-    return [("evaluated again", again), ("digits", _digits(own)), ("check-model", words)]
+    return [("evaluated again", again), ("digits", _digits(rows_of_model)), ("check-model", words)]
 
 
-def _digits(own: pd.DataFrame) -> str:
-    judged = own[own["gate"] == DIFFERS]
+def _digits(rows_of_model: pd.DataFrame) -> str:
+    judged = rows_of_model[rows_of_model["gate"] == DIFFERS]
     if judged.empty:
         return "compared with no reference"
     return str(judged["reason"].iloc[0]) or "not those of the reference"
@@ -71,35 +71,37 @@ def verdict_sentence(name: str, verdicts: pd.DataFrame) -> str:
     >>> verdict_sentence("mine", pd.DataFrame({"candidate": ["mine"], "gate": ["CARD-DIFFERS"], "verdict": ["PASS"]}))
     'no gate was evaluated'
     """
-    own = verdicts[verdicts["candidate"] == name]
-    if set(without_card_gates(own)["verdict"]) <= {Verdict.NOT_APPLICABLE}:
+    rows_of_model = verdicts[verdicts["candidate"] == name]
+    if set(without_card_gates(rows_of_model)["verdict"]) <= {Verdict.NOT_APPLICABLE}:
         return "no gate was evaluated"
-    verdict = overall(own)
-    copied = list(own.loc[(own["gate"] == DIFFERS) & (own["verdict"] != Verdict.PASS), "reason"])
+    verdict = overall(rows_of_model)
+    copied = list(
+        rows_of_model.loc[(rows_of_model["gate"] == DIFFERS) & (rows_of_model["verdict"] != Verdict.PASS), "reason"]
+    )
     if copied and verdict is Verdict.INCONCLUSIVE:
         return f"INCONCLUSIVE: {copied[0]}"
-    return "; and ".join([f"{verdict}: {_reason(own, verdict)}", *copied])
+    return "; and ".join([f"{verdict}: {_reason(rows_of_model, verdict)}", *copied])
 
 
-def _reason(own: pd.DataFrame, verdict: Verdict) -> str:
+def _reason(rows_of_model: pd.DataFrame, verdict: Verdict) -> str:
     if verdict is Verdict.PASS:
-        judged = without_card_gates(own[own["error"].notna()])
+        judged = without_card_gates(rows_of_model[rows_of_model["error"].notna()])
         return f"it is within the limits in all {len(judged)} judged cases"
-    worst = own[own["verdict"] == verdict]
+    worst = rows_of_model[rows_of_model["verdict"] == verdict]
     changed = worst[worst["gate"] == SAME_AGAIN]
     if len(changed) and verdict is Verdict.FAIL:
         return f"it gives another number when it is evaluated again: {changed['reason'].iloc[0]}"
     if verdict is not Verdict.FAIL:
-        return str(worst["reason"].iloc[0]) or f"{len(worst)} of {len(own)} cases"
-    whole = worst[worst["n"].isna() & (with_problem(worst)["problem"] == "")]
-    standing = ~whole["gate"].str.endswith(RANDOM)
-    if len(whole):
-        return str((whole[standing] if standing.any() else whole)["reason"].iloc[0 if standing.any() else -1])
+        return str(worst["reason"].iloc[0]) or f"{len(worst)} of {len(rows_of_model)} cases"
+    of_gates = worst[worst["n"].isna() & (with_problem(worst)["problem"] == "")]
+    standing = ~of_gates["gate"].str.endswith(RANDOM)
+    if len(of_gates):
+        return str((of_gates[standing] if standing.any() else of_gates)["reason"].iloc[0 if standing.any() else -1])
     refused = worst[worst["status"] == "not-applicable"]
     if len(refused):
-        asked = coverage(own.loc[own["gate"].isin(refused["gate"]), "status"])["asked"]
-        return f"it is not applicable in {len(refused)} of the {asked} cases of the domain that it declares"
-    worst, judged = without_card_gates(worst), without_card_gates(own[own["error"].notna()])
+        count = coverage(rows_of_model.loc[rows_of_model["gate"].isin(refused["gate"]), "status"])["asked"]
+        return f"it is not applicable in {len(refused)} of the {count} cases of the domain that it declares"
+    worst, judged = without_card_gates(worst), without_card_gates(rows_of_model[rows_of_model["error"].notna()])
     largest = worst.loc[worst["error"].astype(float).abs().idxmax()]
     return (
         f"its error is beyond the limits in {len(worst)} of {len(judged)} cases, "

@@ -27,20 +27,20 @@ def relevant(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str]
     models : sequence of str or None
         Models given in place of those each grid names; None for those.
     """
-    chosen: list[Gate] = []
+    selected: list[Gate] = []
     for gate in gates:
         if gate.candidate == GIVEN:
             # A model is compared with itself neither as the rival nor, in the same cases, as the reference.
-            others = {gate.rival} if gate.reference_at else {gate.rival, gate.reference}
-            chosen += [replace(gate, candidate=name) for name in models or () if name not in others]
+            excluded = {gate.rival} if gate.reference_at else {gate.rival, gate.reference}
+            selected += [replace(gate, candidate=name) for name in models or () if name not in excluded]
         elif models is None or (gate.candidate in models and not _not_computed(gate, grids, models)):
-            chosen.append(gate)
-    return chosen
+            selected.append(gate)
+    return selected
 
 
 def cases_of(gate: Gate, grids: Sequence[Grid], models: Collection[str] | None) -> list[Problem]:
     """Return the cases that the candidate of a gate computes and the gate selects, sorted."""
-    chosen = {
+    cases = {
         case
         for grid in grids
         if gate.quantity in grid.quantities
@@ -48,13 +48,13 @@ def cases_of(gate: Gate, grids: Sequence[Grid], models: Collection[str] | None) 
         for case in grid.cases
         if gate.selects(grid, case)
     }
-    return sorted(chosen)
+    return sorted(cases)
 
 
 def key_of(model: str, gate: Gate, case: Problem) -> Key:
     """Return the key of the result of a model that a gate uses in a case."""
-    own = problem_for(model, case)
-    return Task(model, gate.quantity, own).key
+    evaluated = problem_for(model, case)
+    return Task(model, gate.quantity, evaluated).key
 
 
 def names_in(gates: Iterable[Gate]) -> set[tuple[str, str]]:
@@ -121,8 +121,8 @@ def needed_keys(
             if status == "ok" or (status == "not-applicable" and promised) or gate.metric == "range-relative":
                 needed.add(key_of(gate.reference, gate, gate.reference_case(case)))
                 needed |= {key_of(gate.rival, gate, case)} if gate.rival else set()
-    if others := [model for model in models or () if model not in named]:
-        needed |= {task.key for task in plan(grids, others)}
+    if unjudged := [model for model in models or () if model not in named]:
+        needed |= {task.key for task in plan(grids, unjudged)}
     return needed
 
 
@@ -142,17 +142,17 @@ def skipped_gates(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence
     """
     if models is None:
         return [gate for gate in gates if gate.candidate == GIVEN]
-    others = []
+    skipped = []
     for gate in gates:
         missing = sorted(_not_computed(gate, grids, models))
         if gate.candidate not in {GIVEN, *models}:
-            others.append(gate)
+            skipped.append(gate)
         elif missing:
             raise ValueError(
                 f"gate {gate.id} needs {' and '.join(missing)}, which this run does not compute: "
                 f"add --model {' '.join(missing)}"
             )
-    return others
+    return skipped
 
 
 def _not_computed(gate: Gate, grids: Sequence[Grid], models: Sequence[str]) -> set[str]:
@@ -182,11 +182,11 @@ def load_user_gates(
     ValueError
         If a gate is wrong or needs a model that is not computed; one sentence names it.
     """
-    every = load_gates(text, models or (), source)
-    gates = of_tier(every, tier)
-    others = skipped_gates(gates, chosen, models)
-    if others:
-        log(f"{len(others)} of {len(every)} gates of {source} are left out: their candidate is not given to this run")
-    if len(gates) < len(every):
-        log(f"{len(every) - len(gates)} of {len(every)} gates of {source} are left out: they are of the tier full")
+    read = load_gates(text, models or (), source)
+    gates = of_tier(read, tier)
+    skipped = skipped_gates(gates, chosen, models)
+    if skipped:
+        log(f"{len(skipped)} of {len(read)} gates of {source} are left out: their candidate is not given to this run")
+    if len(gates) < len(read):
+        log(f"{len(read) - len(gates)} of {len(read)} gates of {source} are left out: they are of the tier full")
     return gates

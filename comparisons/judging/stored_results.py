@@ -52,9 +52,9 @@ class StoredResults:
         self.rows: dict[Key, list[dict[str, Any]]] = defaultdict(list)
         if self.missing_columns or not names:
             return
-        own = table[pd.MultiIndex.from_frame(table[["model", "quantity"]]).isin(list(names))]
-        records = own[sorted(needed)].to_dict("records")
-        for key, record in zip(keys_in(own), records, strict=True):
+        needed_rows = table[pd.MultiIndex.from_frame(table[["model", "quantity"]]).isin(list(names))]
+        records = needed_rows[sorted(needed)].to_dict("records")
+        for key, record in zip(keys_in(needed_rows), records, strict=True):
             self.rows[key].append(record)
 
     def status(self, key: Key) -> str:
@@ -96,11 +96,11 @@ class StoredResults:
         rows = self.rows.get(key, [])
         if not rows:
             raise UnusableResult(Verdict.ERROR, f"{key[0]} has no row")
-        first = rows[0]
-        if first["status"] == "not-applicable":
-            raise UnusableResult(Verdict.NOT_APPLICABLE, f"{key[0]}: {first['reason']}")
-        if first["status"] != "ok":
-            raise UnusableResult(Verdict.ERROR, f"{key[0]}: {first['status']}: {first['reason']}")
+        row = rows[0]
+        if row["status"] == "not-applicable":
+            raise UnusableResult(Verdict.NOT_APPLICABLE, f"{key[0]}: {row['reason']}")
+        if row["status"] != "ok":
+            raise UnusableResult(Verdict.ERROR, f"{key[0]}: {row['status']}: {row['reason']}")
         return rows
 
 

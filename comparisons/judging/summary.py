@@ -27,13 +27,15 @@ def coverage(statuses: Iterable[str]) -> dict[str, int]:
     >>> coverage(["ok", "ok", "not-applicable", "missing", "outside", ""])
     {'asked': 4, 'answered': 2, 'not_applicable': 1, 'failed': 1, 'outside': 1}
     """
-    found = Counter(statuses)
-    answered, refused, failed = (
-        found["ok"] + found["no-event"],
-        found["not-applicable"],
-        found["failed"] + found["missing"],
+    counts = Counter(statuses)
+    with_value, refused, failed = (
+        counts["ok"] + counts["no-event"],
+        counts["not-applicable"],
+        counts["failed"] + counts["missing"],
     )
-    return dict(zip(COVERAGE, (answered + refused + failed, answered, refused, failed, found["outside"]), strict=True))
+    return dict(
+        zip(COVERAGE, (with_value + refused + failed, with_value, refused, failed, counts["outside"]), strict=True)
+    )
 
 
 def coverage_text(numbers: Mapping[str, Any]) -> str:
@@ -47,8 +49,8 @@ def coverage_text(numbers: Mapping[str, Any]) -> str:
     if not any(numbers.get(name) for name in COVERAGE):
         return ""
     words = {"not_applicable": "n/a", "failed": "failed", "outside": "outside"}
-    others = ", ".join(f"{int(numbers[name])} {word}" for name, word in words.items() if numbers.get(name))
-    return f"{int(numbers['answered'])} of {int(numbers['asked'])}" + (f" ({others})" if others else "")
+    remainder = ", ".join(f"{int(numbers[name])} {word}" for name, word in words.items() if numbers.get(name))
+    return f"{int(numbers['answered'])} of {int(numbers['asked'])}" + (f" ({remainder})" if remainder else "")
 
 
 def summarise(judged: pd.DataFrame) -> pd.DataFrame:
@@ -58,17 +60,17 @@ def summarise(judged: pd.DataFrame) -> pd.DataFrame:
     counts those evaluated, `skipped` those that did not apply.
     """
     places: dict[tuple[str, str], list[int]] = {}
-    for place, names in enumerate(zip(judged["gate"], judged["candidate"], strict=True)):
-        places.setdefault(names, []).append(place)
+    for index, names in enumerate(zip(judged["gate"], judged["candidate"], strict=True)):
+        places.setdefault(names, []).append(index)
     verdicts = [Verdict(verdict) for verdict in judged["verdict"]]
     margins, statuses = _margin(judged).to_numpy(), judged["status"].to_numpy()
     is_case = (judged["mu"].notna() | (with_problem(judged)["problem"] != "")).to_numpy()
     summary: list[dict[str, Any]] = []
     worst_places = []
     for group in places.values():
-        applies = [place for place in group if verdicts[place] is not Verdict.NOT_APPLICABLE]
-        verdict = roll_up([verdicts[place] for place in group])
-        candidates = [place for place in applies if verdicts[place] is verdict] or group
+        applies = [index for index in group if verdicts[index] is not Verdict.NOT_APPLICABLE]
+        verdict = roll_up([verdicts[index] for index in group])
+        candidates = [index for index in applies if verdicts[index] is verdict] or group
         worst_places.append(candidates[int(margins[candidates].argmax())])
         counts = {"cases": int(is_case[applies].sum()), "skipped": len(group) - len(applies)}
         summary.append({"verdict": verdict, **counts, **coverage(statuses[group])})

@@ -49,14 +49,14 @@ def make_cards(
     cases : mapping of Key to Problem
         The case of each row, by its key.
     """
-    here = computing_environment()
-    exact = all(part.get(name) == value for part in parts for name, value in here.items())
+    environment = computing_environment()
+    exact = all(computation.get(name) == value for computation in parts for name, value in environment.items())
     cards = {}
     for name, identity in external.items():
-        own = [row for row in rows if row.model == name and row.value is not None]
+        rows_of_model = [row for row in rows if row.model == name and row.value is not None]
         note(f"checking {name}: some results are evaluated again in a new process, and check-model is called")
         with waiting(f"checking {name}"):
-            cards[name] = _card(identity, own, exact, cases)
+            cards[name] = _card(identity, rows_of_model, exact, cases)
     return cards
 
 

@@ -69,12 +69,12 @@ def copy_of_the_repository() -> Iterator[Path]:
 def noticed_by(tests: tuple[str, ...], copy: Path) -> str:
     """Run tests in a copy; return what noticed the change, or an empty text."""
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-o", "addopts="]
-    own = {"PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1"}
+    variables = {"PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1"}
     for test in tests:
         call = [*command, "--import-mode=importlib", "-m", "not heavy and not lint", test]
         try:
             run = subprocess.run(
-                call, cwd=copy, env=os.environ | own, capture_output=True, text=True, timeout=LONGEST
+                call, cwd=copy, env=os.environ | variables, capture_output=True, text=True, timeout=LONGEST
             )  # fmt: skip
         except subprocess.TimeoutExpired:
             return f"{test}: did not end"
@@ -105,15 +105,15 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.mutation.score", description=__doc__)
     parser.add_argument("--only", default="", metavar="TEXT", help="mutants of the files with this text in their path")
     args = parser.parse_args(arguments)
-    chosen = [mutant for mutant in mutants() if args.only in mutant.path]
+    selected = [mutant for mutant in mutants() if args.only in mutant.path]
     count = 0
     with copy_of_the_repository() as copy:
-        for mutant in chosen:
+        for mutant in selected:
             by = is_noticed(mutant, copy)
             count += bool(by)
             print(f"{by or 'NOT NOTICED'}  {mutant.path}: {mutant.old!r} -> {mutant.new!r}", flush=True)
-    print(f"{count} of {len(chosen)} mutants are noticed")
-    return 0 if count == len(chosen) else 1
+    print(f"{count} of {len(selected)} mutants are noticed")
+    return 0 if count == len(selected) else 1
 
 
 if __name__ == "__main__":

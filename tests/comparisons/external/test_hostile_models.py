@@ -139,10 +139,10 @@ def test_a_nonsense_curve_is_refused(write_model, capsys):
     spec = write_model(more=f"def curve(self, problem):\n{curves}    return 'curve'")
     for number, (_, sentence) in enumerate([*CURVES, ("", "type str")], 1):
         assert main(["curve", "--model", spec, "jkr", "--n", "2", "--k", "0", "--mu", str(number)]) == 4
-        shown = capsys.readouterr()
-        assert sentence in shown.err
-        assert "jkr" in shown.out
-        assert "stranger" not in shown.out
+        printed = capsys.readouterr()
+        assert sentence in printed.err
+        assert "jkr" in printed.out
+        assert "stranger" not in printed.out
 
 
 @pytest.mark.parametrize("name", ["<b>bold</b>", "", "../up", "line\nbreak", "x" * 65, "given", "NaN"])
@@ -180,11 +180,11 @@ LOADED = "class Model: name = version = citation = domain = 'x'; evaluate = max;
 def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, capsys, text, sentence):
     (tmp_path / "stranger.py").write_text(text)
     assert main(["solve", "--model", f"{tmp_path / 'stranger.py'}:Model", *FORCE]) == 2
-    shown = capsys.readouterr()
-    assert sentence in shown.err
-    assert "NotApplicable" not in shown.err
-    assert shown.err.count("\n") == 1
-    assert shown.out == ""
+    printed = capsys.readouterr()
+    assert sentence in printed.err
+    assert "NotApplicable" not in printed.err
+    assert printed.err.count("\n") == 1
+    assert printed.out == ""
 
 
 def test_a_run_completes_the_others_and_its_files_are_its_own(write_model, few_cases, tmp_path, monkeypatch):

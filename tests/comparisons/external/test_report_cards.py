@@ -41,10 +41,10 @@ def cases_of(fresh):
 
 def test_another_seed_gives_other_cases():
     domain = {"quantities": ["pull_off_force"], "n": [2, 2], "k": [0.1, 0.4], "mu": [0.1, 100]}
-    first, same, other = (cases_of(drawn(domain, 6, seed)) for seed in (1, 1, 2))
-    assert first == same != other
-    assert len(first) == 6
-    assert all(case.n == 2 and 0.1 <= case.k <= 0.4 and 0.1 <= case.mu <= 10 for case in first)
+    drawn_once, same, drawn_otherwise = (cases_of(drawn(domain, 6, seed)) for seed in (1, 1, 2))
+    assert drawn_once == same != drawn_otherwise
+    assert len(drawn_once) == 6
+    assert all(case.n == 2 and 0.1 <= case.k <= 0.4 and 0.1 <= case.mu <= 10 for case in drawn_once)
 
 
 def test_the_atlas_is_the_reference_of_fresh_cases_inside_its_box_and_the_full_model_outside():

@@ -87,8 +87,8 @@ def verdict(rows, gate=GATE, grids=GRIDS, curves=None, models=None):
 
 def expect(expected, words, *arguments):
     """Every reason of that verdict has the words."""
-    found, table = verdict(*arguments)
-    assert found == expected
+    outcome, table = verdict(*arguments)
+    assert outcome == expected
     assert table.loc[table["verdict"] == expected, "reason"].str.contains(words, regex=False).all()
 
 
@@ -104,16 +104,16 @@ def test_metrics(metric, error):
 
 
 def test_right_within_limits_passes_and_counts_its_cases():
-    found, table = verdict(results(fscm=2.0, jkr=2.1))
-    assert found == "PASS"
+    outcome, table = verdict(results(fscm=2.0, jkr=2.1))
+    assert outcome == "PASS"
     assert table["error"].tolist() == pytest.approx([0.05] * 4)
     # U of a relative error: the denominator moves too.
     assert table["uncertainty"].tolist() == pytest.approx([5e-7 + 1.05 * 5e-7] * 4)
 
 
 def test_a_model_that_is_wrong_in_one_case_fails_and_the_case_is_named():
-    found, table = verdict(results(fscm=2.0, jkr=lambda k, mu: 2.3 if (k, mu) == (0.4, 0.5) else 2.0))
-    assert found == "FAIL"
+    outcome, table = verdict(results(fscm=2.0, jkr=lambda k, mu: 2.3 if (k, mu) == (0.4, 0.5) else 2.0))
+    assert outcome == "FAIL"
     (row,) = summarise(table).to_dict("records")
     assert (row["k"], row["mu"], row["cases"]) == (0.4, 0.5, 4)
 
@@ -123,8 +123,8 @@ def test_a_model_that_is_wrong_in_one_case_fails_and_the_case_is_named():
 )
 def test_en_is_the_error_in_units_of_the_sum_of_both_bounds(apart, expected):
     # Each bound is 1e-6.
-    found, table = verdict(results(fscm=2.0, jkr=2.0 + apart), EN)
-    assert found == expected
+    outcome, table = verdict(results(fscm=2.0, jkr=2.0 + apart), EN)
+    assert outcome == expected
     assert table["error"].tolist() == pytest.approx([apart / 2e-6] * 4, rel=1e-6)
 
 

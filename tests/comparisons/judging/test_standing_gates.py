@@ -45,8 +45,8 @@ GATES = {gate.id: gate for gate in EVERY if gate.candidate != GIVEN}
 
 
 def each(condition=lambda gate: True):
-    chosen = [gate for gate in GATES.values() if condition(gate)]
-    return pytest.mark.parametrize("gate", chosen, ids=lambda gate: gate.id)
+    gates = [gate for gate in GATES.values() if condition(gate)]
+    return pytest.mark.parametrize("gate", gates, ids=lambda gate: gate.id)
 
 
 def is_quick(gate):
@@ -79,7 +79,9 @@ def results(tier):
     if tier == "quick":
         return read_baseline(FOLDER)
     rows = [made_up(task) for task in plan(GRIDS["full"])]
-    return frame(each for each in rows if not each.points), curve_frame(each for each in rows if each.points)
+    return frame(result for result in rows if not result.points), curve_frame(
+        result for result in rows if result.points
+    )
 
 
 @cache
@@ -121,19 +123,19 @@ def mine(gate, table, role="candidate", count=None):
     cases = cases_of(gate, GRIDS[gate.tier], None)[:count]
     cases = cases if role == "candidate" else [gate.reference_case(case) for case in cases]
     keys = {key_of(getattr(gate, role), gate, case) for case in cases}
-    chosen = np.array([key in keys for key in keys_in(table)])
-    assert chosen.any()
-    return chosen
+    mask = np.array([key in keys for key in keys_in(table)])
+    assert mask.any()
+    return mask
 
 
 def shifted(gate, table, by, count=None):
     """The results with the errors of the candidate larger by so much, in the unit of the metric."""
     for case in right(gate)[:count].itertuples():
         unit = {"rel": abs(case.reference_value), "en": combined(case.u_num, case.u_reference)}.get(gate.metric, 1.0)
-        own = table["model"] == gate.candidate
+        mask = table["model"] == gate.candidate
         for name in ("n", "k", "mu", "nu"):
-            own &= table[name].isna() if pd.isna(getattr(case, name)) else table[name] == getattr(case, name)
-        table.loc[own, "value"] += by * unit
+            mask &= table[name].isna() if pd.isna(getattr(case, name)) else table[name] == getattr(case, name)
+        table.loc[mask, "value"] += by * unit
     return table
 
 
@@ -174,8 +176,8 @@ def wrong_candidates():
 @pytest.mark.parametrize(("gate", "mistake"), list(wrong_candidates()))
 def test_a_wrong_candidate_fails(gate, mistake):
     table, column = table_of(gate), "value" if has_numbers(gate) else "y"
-    own = mine(gate, table)
-    table.loc[own, column] *= MISTAKES[mistake](table[own])
+    mask = mine(gate, table)
+    table.loc[mask, column] *= MISTAKES[mistake](table[mask])
     assert verdict(gate, table) == Verdict.FAIL
 
 
@@ -212,9 +214,9 @@ def test_a_change_that_keeps_the_limits_fails(gate):
 def test_an_expected_failure_that_passes_is_reported(gate):
     middle = 0.0 if math.isinf(gate.lower) else 0.5 * (gate.lower + gate.upper)
     table = table_of(gate)
-    own, other = mine(gate, table), mine(gate, table, "reference")
-    values = dict(zip([key[2:] for key in keys_in(table[other])], table.loc[other, "value"], strict=True))
-    table.loc[own, "value"] = [values[key[2:]] * (1.0 + middle) for key in keys_in(table[own])]
+    mask, of_reference = mine(gate, table), mine(gate, table, "reference")
+    values = dict(zip([key[2:] for key in keys_in(table[of_reference])], table.loc[of_reference, "value"], strict=True))
+    table.loc[mask, "value"] = [values[key[2:]] * (1.0 + middle) for key in keys_in(table[mask])]
     assert verdict(gate, table) == Verdict.XPASS
 
 
@@ -225,12 +227,12 @@ def test_a_model_less_certain_than_tolerated_is_not_passed(gate):
         if limit is None:
             continue
         table = table_of(gate)
-        own = mine(gate, table, role)
+        mask = mine(gate, table, role)
         if has_numbers(gate):
-            of_value = table.loc[own, "value"].abs() if gate.metric in ("rel", "en") else 1.0
-            table.loc[own, "u_num"] = 1.01 * limit * of_value
+            of_value = table.loc[mask, "value"].abs() if gate.metric in ("rel", "en") else 1.0
+            table.loc[mask, "u_num"] = 1.01 * limit * of_value
         else:
-            table.loc[own, "u_distance"] = 1.01 * limit
+            table.loc[mask, "u_distance"] = 1.01 * limit
         # One that is expected to fail does so by more than this uncertainty.
         expected = {Verdict.INCONCLUSIVE} | ({Verdict.XFAIL} if gate.expected_failure else set())
         assert verdict(gate, table) in expected, role
@@ -240,10 +242,10 @@ def test_a_model_less_certain_than_tolerated_is_not_passed(gate):
 @pytest.mark.parametrize("role", ["candidate", "reference"])
 def test_a_row_lost_a_nan_and_a_column_lost_are_errors(gate, role):
     table, column = table_of(gate), "value" if has_numbers(gate) else "y"
-    own = mine(gate, table, role, count=1)
+    mask = mine(gate, table, role, count=1)
     holed = table.copy()
-    holed.loc[table.index[own][0], column] = math.nan
-    for wrong in (holed, table[~own], table.drop(columns=column)):
+    holed.loc[table.index[mask][0], column] = math.nan
+    for wrong in (holed, table[~mask], table.drop(columns=column)):
         assert verdict(gate, wrong) == Verdict.ERROR
     assert verdict(gate, table, grids=[]) == Verdict.ERROR
 
@@ -356,11 +358,11 @@ def test_the_code_computes_what_is_committed():
             if task.model == model and quantity in task.quantity and numbers.items() <= task.problem.parameters.items()
         ]
 
-    chosen = [task for task in tasks if task.model not in {"fem", "fscm", "fscm-stieltjes-400"}][::7]
-    chosen += of("fscm", "pull_off_force", n=5.0, k=0.2)[::4] + of("fscm", n=2.0, k=1.0)
+    selected = [task for task in tasks if task.model not in {"fem", "fscm", "fscm-stieltjes-400"}][::7]
+    selected += of("fscm", "pull_off_force", n=5.0, k=0.2)[::4] + of("fscm", n=2.0, k=1.0)
     # Soft: the path has shallow folds, of which the first is the jump.
-    chosen += of("fscm", "jump_in_displacement", mu=5.0) + of("fscm-stieltjes-400")[:1]
-    difference = drift(rows, frame(evaluate_task(task) for task in chosen))
+    selected += of("fscm", "jump_in_displacement", mu=5.0) + of("fscm-stieltjes-400")[:1]
+    difference = drift(rows, frame(evaluate_task(task) for task in selected))
     assert difference.empty, difference.to_string()
 
 
@@ -374,15 +376,15 @@ def test_the_finite_elements_compute_what_is_committed():
 
 def test_drift_is_seen():
     rows = results("quick")[0]
-    some = rows[rows["model"] == "jkr"].head(3)
-    assert drift(rows, some).empty
-    moved = some.assign(value=some["value"] * (1 + 1e-9))
+    sample = rows[rows["model"] == "jkr"].head(3)
+    assert drift(rows, sample).empty
+    moved = sample.assign(value=sample["value"] * (1 + 1e-9))
     assert len(drift(rows, moved)) == 3
-    assert len(drift(rows, some.assign(mu=some["mu"] + 77.0))) == 3
-    assert len(drift(rows, some.assign(status="failed"))) == 3
+    assert len(drift(rows, sample.assign(mu=sample["mu"] + 77.0))) == 3
+    assert len(drift(rows, sample.assign(status="failed"))) == 3
     # A third of each bound is still more than rounding, which closed forms have alone.
     of_numerics = rows["u_num"] > 1e-12 * rows["value"].abs().clip(lower=1.0)
     for factor, seen in ((0.3, True), (0.5, False), (2.0, False), (3.5, True)):
         for model in ("fscm", "fem", "fscm-stieltjes-400"):
-            some = rows[(rows["model"] == model) & of_numerics].head(3)
-            assert len(drift(rows, some.assign(u_num=factor * some["u_num"]))) == 3 * seen
+            sample = rows[(rows["model"] == model) & of_numerics].head(3)
+            assert len(drift(rows, sample.assign(u_num=factor * sample["u_num"]))) == 3 * seen
