@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -90,7 +90,10 @@ def write_run(
         judgement = judge_and_write(target, inputs, tables.results, tables.curves, cards)
     stale = {GRID_TEXT} if rules is not None else {GATES_TEXT}
     _remove_stale(target, {*stale, *COMPARISON_FILES}, texts, judged=rules is not None)
-    counts = {"all": len(rows), "resumed": completed.resumed, **_statuses(rows)}
+    counts = {"all": len(rows), "resumed": completed.resumed, **Counter(row.status for row in rows)}
+    seconds: Counter[str] = Counter()
+    for row in rows:
+        seconds[row.model] += row.seconds  # type: ignore[assignment]
     content = record_content(
         "sweep" if rules is None else "run",
         {
@@ -105,15 +108,22 @@ def write_run(
         started=started,
         parts=completed.parts,
         rows=counts,
-        seconds=_seconds(rows),
+        seconds=dict(sorted(seconds.items())),
         verdicts=judgement.counts if judgement else {},
     )
-    content |= _digests(chosen, rules) | _evaluated_again(completed)
-    content["models"] = described({task.model for task in inputs.plan()}, external)
-    content |= {"domains": {name: domain.as_json() for name, domain in inputs.domains.items()}}
-    content |= {"cards": cards} if cards else {}
-    content |= {"fresh": inputs.fresh.as_json()} if inputs.fresh else {}
-    content |= {"coverage": judgement.coverage} if judgement else {}
+    content |= {
+        "cases_sha256": chosen.sha256,
+        "models": described({task.model for task in inputs.plan()}, external),
+        "domains": {name: domain.as_json() for name, domain in inputs.domains.items()},
+    }
+    others = {
+        "gates_sha256": rules and rules.sha256,
+        "evaluated_again": completed.evaluated_again,
+        "cards": cards,
+        "fresh": inputs.fresh and inputs.fresh.as_json(),
+        "coverage": judgement and judgement.coverage,
+    }
+    content |= {name: value for name, value in others.items() if value or (name == "coverage" and value is not None)}
     write_record(content, target.record, [*RUN_FILES, *names_of_inputs(chosen)])
     failures = tuple(row for row in rows if row.status == "failed")
     return FinishedRun(target.path, tables, counts, failures, judgement)
@@ -144,26 +154,6 @@ def _remove_stale(folder: RunFolder, names: Collection[str], kept: Collection[Pa
         stale = name in names or name.startswith(f"{INPUTS}/") or (is_of_verdicts(name) and not judged)
         if stale and path not in kept:
             path.unlink(missing_ok=True)
-
-
-def _statuses(rows: Sequence[Row]) -> Counter[str]:
-    return Counter(row.status for row in rows)
-
-
-def _seconds(rows: Sequence[Row]) -> dict[str, float]:
-    """Return the computing time summed over the processes, by model."""
-    seconds: dict[str, float] = {}
-    for row in rows:
-        seconds[row.model] = seconds.get(row.model, 0.0) + row.seconds
-    return dict(sorted(seconds.items()))
-
-
-def _digests(cases: Cases, gates: Gates | None) -> dict[str, Any]:
-    return {"cases_sha256": cases.sha256} | ({} if gates is None else {"gates_sha256": gates.sha256})
-
-
-def _evaluated_again(completed: Completed) -> dict[str, Any]:
-    return {"evaluated_again": completed.evaluated_again} if completed.evaluated_again else {}
 
 
 def described(names: set[str], external: Mapping[str, ExternalIdentity]) -> dict[str, dict[str, str]]:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path, PurePath
+from typing import Any
 
 from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import INPUTS
@@ -31,6 +32,7 @@ __all__ = [
     "Gates",
     "RunInputs",
     "cases_of_problem",
+    "domains_in",
     "domains_of",
     "load_cases",
     "names_of_inputs",
@@ -152,6 +154,11 @@ def domains_of(models: Iterable[str], external: Mapping[str, ExternalIdentity]) 
     """
     declared = {name: declared_domain(external.get(name) or create(name)) for name in sorted(set(models))}
     return {name: domain for name, domain in declared.items() if domain is not None}
+
+
+def domains_in(record: Mapping[str, Any]) -> dict[str, Domain]:
+    """Return the domains that the record of a run states."""
+    return {name: Domain.of_json(tables) for name, tables in record.get("domains", {}).items()}
 
 
 def load_cases(cases: str | Path, models: Sequence[str] | None, folder: Path | None = None) -> Cases:

@@ -23,7 +23,7 @@ from comparisons.judging.selection import relevant
 from comparisons.judging.summary import COVERAGE, summarise
 from comparisons.output.junit import evaluation_seconds
 from comparisons.output.verdicts import write_verdicts
-from comparisons.pipeline.inputs import RunInputs, names_of_inputs, read_gates, stored_cases
+from comparisons.pipeline.inputs import RunInputs, domains_in, names_of_inputs, read_gates, stored_cases
 from comparisons.problem import PARAMETERS
 from comparisons.registry import ExternalIdentity
 from comparisons.runs.atomic_files import atomic
@@ -162,7 +162,7 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
         arguments["gates"], own = label, True
     # Only their SPECs are needed: nothing is computed.
     external = {name: ExternalIdentity(name, "", spec, citation="", domain="") for name, spec in specs.items()}
-    domains = {name: Domain.of_json(tables) for name, tables in record.get("domains", {}).items()}
+    domains = domains_in(record)
     fresh = (
         FreshCases.of_json(record["fresh"], relevant(chosen.gates, cases.grids, models), stored.inputs)
         if "fresh" in record

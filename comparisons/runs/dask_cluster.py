@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import logging
 import signal
-import threading
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from functools import lru_cache, partial
 from typing import Any, TypeVar
 
@@ -41,20 +40,16 @@ def dask_cluster(scheduler: str | None = None) -> Backend:
         If Dask is not installed, or the address is not one.
     """
     try:
-        import dask  # noqa: F401  # raises if it is missing
         from distributed.comm.addressing import parse_address, parse_host_port
     except ImportError:
         raise ValueError(
             "the backend 'dask' needs the package distributed, which is not installed: "
             "pip install 'fscm-bench[cluster]', or use the backend 'processes'"
         ) from None
-    if scheduler is not None:
-        try:
-            parse_host_port(parse_address(scheduler)[1])
-        except ValueError as error:
-            raise ValueError(
-                f"the scheduler {scheduler} is not an address such as tcp://10.0.0.1:8786 ({error})"
-            ) from None
+    try:
+        parse_host_port(parse_address(scheduler or "tcp://localhost:0")[1])
+    except ValueError as error:
+        raise ValueError(f"the scheduler {scheduler} is not an address such as tcp://10.0.0.1:8786 ({error})") from None
     return partial(_on_cluster, scheduler)
 
 
@@ -106,8 +101,10 @@ def _client(scheduler: str | None, jobs: int) -> Iterator[Any]:
         "distributed.worker.memory.terminate": False,
         "distributed.worker.memory.pause": False,
     }
-    with dask.config.set(settings), ExitStack() as opened:
-        with _ignoring_interrupts():
+    with dask.config.set(settings):
+        # The processes inherit that Ctrl-C is ignored: it reaches the whole group, and their parent ends them.
+        handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
+        try:
             cluster = LocalCluster(
                 n_workers=jobs,
                 threads_per_worker=1,
@@ -116,21 +113,10 @@ def _client(scheduler: str | None, jobs: int) -> Iterator[Any]:
                 dashboard_address=None,
                 silence_logs=logging.CRITICAL,
             )
-        opened.enter_context(cluster)
-        yield opened.enter_context(Client(cluster, set_as_default=False))
-
-
-@contextmanager
-def _ignoring_interrupts() -> Iterator[None]:
-    """Let processes that start here ignore Ctrl-C, which reaches the whole process group: their parent ends them."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
+        finally:
+            signal.signal(signal.SIGINT, handler)
+        with cluster, Client(cluster, set_as_default=False) as client:
+            yield client
 
 
 def _in_worker(function: Callable[[Item], Output], item: Item) -> Output:
