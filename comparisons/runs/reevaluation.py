@@ -51,7 +51,7 @@ def _sample(tasks: list[Task], seed: int) -> list[Task]:
     shuffled = sorted(tasks, key=lambda task: str(task.key))
     random.Random(seed).shuffle(shuffled)
     turns: Counter[str] = Counter()
-    order = []
+    order: list[tuple[int, int, Task]] = []
     for task in shuffled:
         order.append((turns[task.quantity], len(order), task))
         turns[task.quantity] += 1
