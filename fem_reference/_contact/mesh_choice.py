@@ -21,6 +21,7 @@ from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tracing import traced
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._elastic.variants import VariantSpec
 from fem_reference.accuracy import SEARCH_DEGREE, Level, finer_levels
 from fem_reference.errors import NotConverged
 from fem_reference.problem import Problem
@@ -53,7 +54,9 @@ class MeshChoice:
     def contact(self, spec: MeshSpec, size: float) -> Contact:
         """Discretise the problem on a mesh with its edge at the radius `size`."""
         solid, punch, law = self.problem.solid, self.problem.punch, self.problem.law
-        return Contact(punch, law, compliance_for(solid.modulus, solid.poisson, spec, size, self.scaling))
+        # The whole system is solved on meshes of the accuracy itself, not on those that differ in one thing.
+        whole = spec.order == self.level.order and not isinstance(spec, VariantSpec)
+        return Contact(punch, law, compliance_for(solid.modulus, solid.poisson, spec, size, self.scaling, whole))
 
     def traced(self, spec: MeshSpec, size: float) -> ResolvedEvents:
         """The events of the path on that mesh; kept for all quantities.

@@ -20,11 +20,10 @@ from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import Grid, MeshSpec
 from fem_reference._elastic.tensor_elements import tensor_stiffness
 from fem_reference._typing import Array, Index
-from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.modulus import Modulus
 from fem_reference.poisson import PoissonRatio
 
-__all__ = ["HalfSpace", "assemble_half_space", "half_space_of"]
+__all__ = ["HalfSpace", "assemble_half_space", "assembled", "half_space_of"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,28 +128,27 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, 
     return HalfSpace(body, grid, dofs, elements, outer, free, surface, both_components(square))
 
 
-def half_space_of(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) -> HalfSpace:
-    """Return the half-space on a mesh; above the degree of a search it is kept for its whole system.
+def assembled(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) -> HalfSpace:
+    """Return the half-space on a mesh.
 
     Parameters
     ----------
     modulus : Modulus
-        E(z), hashable.
+        E(z).
     nu : float or PoissonRatio
-        Poisson ratio in [0, 0.5), or one of depth, hashable.
+        Poisson ratio in [0, 0.5), or one of depth.
     spec : MeshSpec
         The mesh.
-
-    Returns
-    -------
-    HalfSpace
     """
-    if spec.order <= SEARCH_DEGREE:
-        return assemble_half_space(spec.grid(), modulus, nu, spec.order)
-    return _assembled(cast(Hashable, modulus), cast(Hashable, nu), spec)
-
-
-# Three: the mesh whose whole system is solved next, the degree below it, and one with a coarser feature.
-@lru_cache(maxsize=3)
-def _assembled(modulus: Any, nu: Any, spec: MeshSpec) -> HalfSpace:
     return assemble_half_space(spec.grid(), modulus, nu, spec.order)
+
+
+def half_space_of(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) -> HalfSpace:
+    """Return the half-space on a mesh, kept for its whole system; modulus and Poisson ratio must be hashable."""
+    return _kept_half_space(cast(Hashable, modulus), cast(Hashable, nu), spec)
+
+
+# Two: the mesh of the last path, whose events are solved next, and one before it; each holds some 50 MB.
+@lru_cache(maxsize=2)
+def _kept_half_space(modulus: Any, nu: Any, spec: MeshSpec) -> HalfSpace:
+    return assembled(modulus, nu, spec)

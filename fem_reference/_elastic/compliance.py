@@ -16,7 +16,7 @@ from typing import Any, Protocol, cast
 import numpy as np
 from scipy import linalg
 
-from fem_reference._elastic.assembly import half_space_of
+from fem_reference._elastic.assembly import assembled, half_space_of
 from fem_reference._elastic.condensation import condensed
 from fem_reference._elastic.mesh import Grid, MeshSpec
 from fem_reference._elastic.trace import Trace, trace_of
@@ -142,10 +142,11 @@ class FixedCompliance:
 
 
 @lru_cache(maxsize=24)
-def _unit_compliance(k: float, nu: float, spec: MeshSpec) -> tuple[Trace, Array, Array, int]:
+def _unit_compliance(k: float, nu: float, spec: MeshSpec, recoverable: bool) -> tuple[Trace, Array, Array, int]:
     grid = spec.grid()
-    half_space = half_space_of(PowerLawModulus(1.0, 1.0, k), nu, spec)
-    return trace_of(grid, spec.order), *_inverse(*condensed(half_space)), half_space.unknowns
+    made = half_space_of if recoverable else assembled
+    half_space = made(PowerLawModulus(1.0, 1.0, k), nu, spec)
+    return trace_of(grid, spec.order), *_inverse(*condensed(half_space, recoverable)), half_space.unknowns
 
 
 #: Largest change of the compliance by rounding, relative to its largest entry. What it changes of an event is a part of
@@ -232,7 +233,12 @@ def is_scaling(modulus: Modulus, nu: float | PoissonRatio, kinks: tuple[float, .
 
 
 def compliance_for(
-    modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec, size: float, scaling: bool = True
+    modulus: Modulus,
+    nu: float | PoissonRatio,
+    spec: MeshSpec,
+    size: float,
+    scaling: bool = True,
+    recoverable: bool = False,
 ) -> Compliance:
     """Return the surface compliance of a solid on a mesh whose edge is at the radius `size`.
 
@@ -248,6 +254,9 @@ def compliance_for(
         Edge radius; immaterial if the problem scales (`is_scaling`): one compliance then serves every size.
     scaling : bool
         Whether that is made use of.
+    recoverable : bool
+        Whether the whole system of the mesh is solved later: the half-space is kept for it, and the rounding of its
+        condensation is found.
 
     Returns
     -------
@@ -260,18 +269,18 @@ def compliance_for(
     """
     if scaling and is_scaling(modulus, nu, spec.kinks):
         law = cast(PowerLawModulus, modulus)
-        trace, matrix, rounding, unknowns = _unit_compliance(law.k, cast(float, nu), spec)
+        trace, matrix, rounding, unknowns = _unit_compliance(law.k, cast(float, nu), spec, recoverable)
         return ScalingCompliance(trace, matrix, law, unknowns, rounding)
-    return _fixed_compliance(cast(Hashable, modulus), cast(Hashable, nu), spec, size)
+    return _fixed_compliance(cast(Hashable, modulus), cast(Hashable, nu), spec, size, recoverable)
 
 
 # The search for the width of the edge, and the mesh of it that the bounds need again; a few MB each.
 @lru_cache(maxsize=8)
-def _fixed_compliance(modulus: Any, nu: Any, spec: MeshSpec, size: float) -> FixedCompliance:
-    grid = spec.grid()
+def _fixed_compliance(modulus: Any, nu: Any, spec: MeshSpec, size: float, recoverable: bool) -> FixedCompliance:
+    grid, made = spec.grid(), half_space_of if recoverable else assembled
     try:
-        half_space = half_space_of(scaled_modulus(modulus, size), scaled_poisson(nu, size), spec)
-        matrix, rounding = _inverse(*condensed(half_space))
+        half_space = made(scaled_modulus(modulus, size), scaled_poisson(nu, size), spec)
+        matrix, rounding = _inverse(*condensed(half_space, recoverable))
     except NotConverged as error:
         _refuse_thin_elements(grid, size, error)
         raise

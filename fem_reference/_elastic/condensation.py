@@ -14,7 +14,6 @@ from fem_reference._elastic.dissection import Elimination, condensed_on, elimina
 from fem_reference._elastic.elasticity import element_places
 from fem_reference._elastic.scaling import unit_scaling
 from fem_reference._typing import Array
-from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.errors import NotConverged
 
 __all__ = ["condensed", "surface_stiffness"]
@@ -41,8 +40,15 @@ def surface_stiffness(half_space: HalfSpace) -> Array:
     return condensed(half_space)[0]
 
 
-def condensed(half_space: HalfSpace) -> tuple[Array, Array]:
+def condensed(half_space: HalfSpace, recoverable: bool = True) -> tuple[Array, Array]:
     """Surface stiffness, and its rounding as far as the two triangles of the elimination differ.
+
+    Parameters
+    ----------
+    half_space : HalfSpace
+        Gets what recovers the displacement below its surface, if that is wanted.
+    recoverable : bool
+        Whether it is, and the rounding; zero is returned for the latter otherwise.
 
     Returns
     -------
@@ -59,8 +65,7 @@ def condensed(half_space: HalfSpace) -> tuple[Array, Array]:
     present = np.isin(boundary, half_space.free)
     exterior_rows = np.setdiff1d(boundary[present], surface)
     rows = np.concatenate([surface, exterior_rows])
-    # A mesh for a search has no use for its rounding, nor for the displacement below its surface.
-    eliminations = half_space.eliminations if half_space.body.order > SEARCH_DEGREE else None
+    eliminations = half_space.eliminations if recoverable else None
     places = element_places(half_space.dofs.topo)
     K = condensed_on(rows, half_space.elements, places, half_space.free, eliminations)
     order = np.argsort(rows)

@@ -81,14 +81,17 @@ def condensed_elements(parts: Iterable[tuple[Index, Index, Array]], dofs: Dofs) 
             )
         result.sides[which], result.inside[which] = rows[:, :sides], rows[:, sides:]
         # The stiffness across a thin element is larger by many powers of ten than that along it.
-        scales = unit_scaling(np.einsum("eii->ei", K)[:, sides:])
-        for element, matrix, scale in zip(which, K, scales, strict=True):
+        scale = unit_scaling(np.einsum("eii->ei", K)[:, sides:])
+        blocks = scale[:, :, None] * K[:, sides:, sides:] * scale[:, None, :]
+        couplings = K[:, :sides, sides:] * scale[:, None, :]
+        result.stiffness[which] = K[:, :sides, :sides]
+        for element, block, coupling in zip(which, blocks, couplings, strict=True):
             # With Y of L Y = C the product C' B^-1 C is Y' Y: formed with B^-1 C it would lose ten times as much.
-            L, failed = dpotrf(scale[:, None] * matrix[sides:, sides:] * scale, lower=1, clean=1)
+            L, failed = dpotrf(block.T, lower=1, overwrite_a=1, clean=0)
             if failed:
                 raise NotConverged("an element is not positive definite; check modulus, mesh and nu")
-            Y, _ = dtrtrs(L, scale[:, None] * matrix[sides:, :sides], lower=1)
-            result.stiffness[element] = matrix[:sides, :sides] - Y.T @ Y
+            Y, _ = dtrtrs(L, coupling.T, lower=1, overwrite_b=1)
+            result.stiffness[element] -= Y.T @ Y
     if result is None:
         raise ValueError("there is no element to condense")
     return result

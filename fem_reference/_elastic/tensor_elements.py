@@ -13,7 +13,6 @@ from skfem import Dofs, MeshQuad
 
 from fem_reference._elastic.dof_ordering import both_components
 from fem_reference._elastic.elasticity import (
-    CHUNK,
     EXTRA_POINTS,
     FIRST_LAYER_POINTS,
     Body,
@@ -134,17 +133,16 @@ def tensor_stiffness(
     columns, layers = element_places(mesh)
     rows = both_components(np.asarray(dofs.element_dofs)).T
     size = rows.shape[1]
-    for start in range(0, rows.shape[0], CHUNK):
-        chunk = np.arange(start, min(start + CHUNK, rows.shape[0]))
-        column, layer = columns[chunk], layers[chunk]
-        K = np.empty((chunk.size, size, size))
+    order_of_layers = np.lexsort((layers, columns)).reshape(grid.r.size - 1, -1)
+    for column, elements in enumerate(order_of_layers):
+        K = np.empty((elements.size, size, size))
         for (i, j), pairs in BLOCKS.items():
-            block = K[:, i::2, j::2]
-            np.multiply(radial[pairs[0][0]][column], depth[pairs[0][1]][layer], out=block)
+            block = radial[pairs[0][0]][column] * depth[pairs[0][1]]
             for name_r, name_z in pairs[1:]:
-                block += radial[name_r][column] * depth[name_z][layer]
+                block += radial[name_r][column] * depth[name_z]
+            K[:, i::2, j::2] = block
         K[:, 1::2, 0::2] = np.swapaxes(K[:, 0::2, 1::2], 1, 2)
-        yield chunk, rows[chunk], K
+        yield elements, rows[elements], K
 
 
 def charted_stiffness(body: Body, dofs: Dofs, first_layer: Index) -> Iterator[tuple[Index, Index, Array]]:
