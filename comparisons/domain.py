@@ -18,12 +18,10 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
 
+from comparisons.problem import PARAMETERS
 from comparisons.quantities import ALL_QUANTITIES
 
-__all__ = ["MOST_TABLES", "PARAMETERS", "Domain", "Range", "declared_domain"]
-
-#: Parameters of a case, which a domain can bound.
-PARAMETERS = ("n", "k", "mu", "nu")
+__all__ = ["MOST_TABLES", "Domain", "Range", "declared_domain"]
 
 #: The most tables of a domain.  A domain is to be read by people; thousands of points would be a table of results.
 MOST_TABLES = 20

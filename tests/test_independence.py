@@ -37,7 +37,7 @@ ALLOWED = {
     # Checks the parts of a file before the whole.
     "comparisons.problem.consistency": ("fscm",),
     # Derivatives of a value, which are no quantity of a model.
-    "comparisons.description.propagation": ("fscm",),
+    "comparisons.description.uncertainty": ("fscm",),
     # The Stieltjes scheme from an accurate surface on.
     "comparisons.paper.values.scheme_forces": ("fscm",),
     # Only the adapters know the solvers.

@@ -2,79 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from comparisons.description.overview import ModelError, model_errors
+from comparisons.description.overview import FORCE, LIMITS, change_of, model_errors, reference_force, simplest_within
 from comparisons.model import ComputationFailed
-from comparisons.numerics.kappa import relative_difference, relative_uncertainty
+from comparisons.problem import Problem
 from comparisons.problem.elastic_energy import EnergySpectrum, energy_spectrum
 from comparisons.problem.equivalent_solid import LARGEST_DEVIATION, least_wrong, power_law_of
-from comparisons.problem.problem import Problem
 from comparisons.runs.rows import Row
-from comparisons.runs.tasks import evaluate
 
-__all__ = [
-    "EquivalentPowerLaw",
-    "equivalent_power_law",
-]
+__all__ = ["equivalent_power_law"]
 
 #: Shares of the energy between which the lengths of the fit are stated.
-_MIDDLE = 0.05, 0.95
+_MIDDLE = 0.95, 0.05
 
 
-@dataclass(frozen=True)
-class EquivalentPowerLaw:
-    """The power law with the least wrong surface compliance, and its pull-off force.
-
-    Attributes
-    ----------
-    problem : Problem
-        That of the file with this power law as its solid.
-    free_k : float
-        The exponent of the fit without limits; k is the nearest one from 0 to `LARGEST_K`.
-    deviation : float
-        Root mean square of the relative difference of the compliances.
-    surface_deviation : float
-        The same for a homogeneous solid with the modulus of the surface.
-    tabor_number : float
-        With this power law.
-    lengths : tuple of float
-        From the shortest to the longest 1/xi of the fit, in m: nine tenths of the elastic energy are between.
-    force : Row
-        Pull-off force with the power law: of the atlas in its range, and else of the FSCM.
-    error, bound : float or None
-        Relative error of this force and its bound; None where there is no force.
-    closed_forms : tuple of ModelError
-        Relative errors of the closed forms with this power law against the force of the solid itself, smallest first;
-        none where they do not take the punch or the law.
-    """
-
-    problem: Problem
-    free_k: float
-    deviation: float
-    surface_deviation: float
-    tabor_number: float
-    lengths: tuple[float, float]
-    force: Row
-    error: float | None
-    bound: float | None
-    closed_forms: tuple[ModelError, ...]
-
-    @property
-    def is_close(self) -> bool:
-        """Whether the power law stands for the solid."""
-        return self.deviation <= LARGEST_DEVIATION
-
-    @property
-    def is_surface_close(self) -> bool:
-        """Whether the modulus of the surface stands for the solid."""
-        return self.surface_deviation <= LARGEST_DEVIATION
-
-
-def equivalent_power_law(problem: Problem, force: Row) -> EquivalentPowerLaw | None:
-    """Compute the equivalent power law of the solid of a problem.
+def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
+    """Return the power law with the least wrong surface compliance, as JSON has it; errors are fractions.
 
     Parameters
     ----------
@@ -84,8 +30,11 @@ def equivalent_power_law(problem: Problem, force: Row) -> EquivalentPowerLaw | N
 
     Returns
     -------
-    EquivalentPowerLaw or None
-        None if the solid is a power law, or if there is no force.
+    dict or None
+        None if the solid is a power law, or if there is no force.  `free_k` is the exponent of the fit without limits;
+        the deviations of the compliance are relative root mean squares, of this law and of the modulus of the surface;
+        nine tenths of the elastic energy are between both `lengths`; `pull_off_force` has the error of this law, and
+        `closed_forms` those of the closed forms with this law, against the force of the solid itself.
 
     Examples
     --------
@@ -93,36 +42,35 @@ def equivalent_power_law(problem: Problem, force: Row) -> EquivalentPowerLaw | N
     >>> solid = Section("exponential", {"E_surface": 1e9, "E_depth": 3e9, "length": 1e-8, "nu": 0.3})
     >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
     >>> pad = Problem(solid, Section("sphere", {"R": 1e-7}), law)
-    >>> found = equivalent_power_law(pad, evaluate("fscm", "pull_off_force", pad))
-    >>> 0.1 < found.problem.solid["k"] < 0.3, abs(found.error) < 0.02
+    >>> equivalent = equivalent_power_law(pad, reference_force(pad))
+    >>> 0.1 < equivalent["k"] < 0.3, abs(equivalent["pull_off_force"]["error"]) < 0.02
     (True, True)
     """
-    if problem.has_power_law or force.value is None or force.u_num is None:
+    if problem.has_power_law or force.value is None:
         return None
     try:
         spectrum = energy_spectrum(problem)
     except ComputationFailed:
         return None
     k, free_k, deviation, compliance = least_wrong(spectrum)
-    first, last = (spectrum.length(share) for share in _MIDDLE)
     similar = power_law_of(problem, k, compliance, spectrum)
-    found = _reference(similar)
-    error = bound = None
-    if found.value is not None and found.u_num is not None:
-        error = relative_difference(found.value, force.value)
-        bound = relative_uncertainty(found.value, found.u_num, force.value, force.u_num)
-    return EquivalentPowerLaw(
-        problem=similar,
-        free_k=free_k,
-        deviation=deviation,
-        surface_deviation=_surface_deviation(problem, spectrum),
-        tabor_number=similar.posed.mu,
-        lengths=(last, first),
-        force=found,
-        error=error,
-        bound=bound,
-        closed_forms=model_errors(similar, force),
-    )
+    of_law = reference_force(similar)
+    error, bound = change_of(of_law, force) or (None, None)
+    errors = model_errors(similar, force)
+    stands = deviation <= LARGEST_DEVIATION
+    return {
+        **similar.solid.values,
+        "free_k": free_k,
+        "compliance_deviation": deviation,
+        "surface_compliance_deviation": _surface_deviation(problem, spectrum),
+        "tabor_number": similar.posed.mu,
+        "lengths": [spectrum.length(share) for share in _MIDDLE],
+        "pull_off_force": {name: getattr(of_law, name) for name in FORCE} | {"error": error, "error_u_num": bound},
+        "closed_forms": errors,
+        "closed_form_within": {
+            f"{100 * limit:g} %": simplest_within(errors, limit) if stands else None for limit in LIMITS
+        },
+    }
 
 
 def _surface_deviation(problem: Problem, spectrum: EnergySpectrum) -> float:
@@ -130,9 +78,3 @@ def _surface_deviation(problem: Problem, spectrum: EnergySpectrum) -> float:
     E, nu = (float(of_depth(np.zeros(1))[0]) for of_depth in (solid.modulus, solid.poisson))  # type: ignore[union-attr]
     surface = 2.0 * (1.0 - nu**2) / E
     return float(np.sqrt(spectrum.shares @ np.log(spectrum.compliances / surface) ** 2))
-
-
-def _reference(problem: Problem) -> Row:
-    """The force of the atlas where it has the problem, and else that of the FSCM."""
-    found = evaluate("atlas", "pull_off_force", problem)
-    return found if found.status == "ok" else evaluate("fscm", "pull_off_force", problem)

@@ -5,45 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Protocol
+from typing import Any
 
 from comparisons.model import ComputationFailed, NotApplicable, Result
 
-__all__ = ["Solution", "result_of", "translated"]
-
-
-class Solution(Protocol):
-    """The attributes of a solution of every solver here."""
-
-    @property
-    def value(self) -> float:
-        """The quantity."""
-        ...
-
-    @property
-    def u_num(self) -> float:
-        """Bound on its numerical error."""
-        ...
-
-    @property
-    def size(self) -> int:
-        """Unknowns of the finest mesh."""
-        ...
-
-    @property
-    def iterations(self) -> int:
-        """Newton iterations."""
-        ...
-
-    @property
-    def residual(self) -> float:
-        """Largest residual at the solution."""
-        ...
-
-    @property
-    def seconds(self) -> float:
-        """Wall-clock time."""
-        ...
+__all__ = ["result_of", "translated"]
 
 
 @contextmanager
@@ -65,7 +31,7 @@ def translated(no_such_event: type[Exception], not_converged: type[Exception]) -
         raise ComputationFailed(str(failure)) from failure
 
 
-def result_of(solution: Solution, unit: float = 1.0) -> Result:
+def result_of(solution: Any, unit: float = 1.0) -> Result:
     """Return a solution as a result, its value and uncertainty divided by `unit`.
 
     Examples
@@ -73,6 +39,7 @@ def result_of(solution: Solution, unit: float = 1.0) -> Result:
     >>> result_of(Result(value=3.0, u_num=3e-9), unit=2.0).value
     1.5
     """
+    order = getattr(solution, "observed_order", None)
     return Result(
         value=solution.value / unit,
         u_num=solution.u_num / unit,
@@ -80,11 +47,6 @@ def result_of(solution: Solution, unit: float = 1.0) -> Result:
         iterations=solution.iterations,
         residual=solution.residual,
         seconds=solution.seconds,
-        observed_order=_order(solution),
+        # Lost in rounding, it is not finite.
+        observed_order=order if order is not None and math.isfinite(order) else None,
     )
-
-
-def _order(solution: Solution) -> float | None:
-    """The order over the meshes, of a solver that measures it and where it is not lost in rounding."""
-    order = getattr(solution, "observed_order", None)
-    return order if order is not None and math.isfinite(order) else None

@@ -12,7 +12,7 @@ from comparisons.problem.source import Source, shown
 from comparisons.problem.uncertain import Uncertainty, is_uncertain, uncertain_in_si
 from comparisons.problem.units import NotAValue, in_si
 
-__all__ = ["SECTIONS", "checked_section", "kinds", "limits_of", "unit_of"]
+__all__ = ["SECTIONS", "checked_section", "kinds", "unit_of"]
 
 #: Limits of a dimension: name, and the comparison that holds.
 _LIMITS: dict[str, tuple[Callable[[float, float], bool], str]] = {
@@ -32,17 +32,6 @@ def unit_of(section: str, kind: str, key: str) -> str | None:
     ('m', None)
     """
     return kind_of(section, kind).by_name[key].dimension.unit
-
-
-def limits_of(section: str, kind: str, key: str) -> tuple[float, float]:
-    """Return the ends of the admissible values of a key, in SI.
-
-    Examples
-    --------
-    >>> limits_of("solid", "coating", "nu_coating"), limits_of("punch", "sphere", "R")
-    ((0, 0.5), (0, inf))
-    """
-    return kind_of(section, kind).by_name[key].dimension.limits
 
 
 def checked_section(

@@ -9,11 +9,11 @@ from comparisons.cli.options import file, option
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
-from comparisons.description import equivalent_text, profile_sensitivity
+from comparisons.description import text
 from comparisons.description.equivalent_power_law import equivalent_power_law
-from comparisons.description.overview import overview_of
-from comparisons.description.overview_text import content, lines
-from comparisons.description.propagation_text import outcome_of
+from comparisons.description.overview import overview, reference_force
+from comparisons.description.profile_sensitivity import profile_sensitivity
+from comparisons.description.uncertainty import uncertainty
 from comparisons.problem import Problem
 
 __all__ = ["call"]
@@ -39,26 +39,19 @@ def call(args: argparse.Namespace) -> int:
     problem = Problem.load(args.file)
     with waiting(problem.label):
         # First: it may refuse the file or the quantity.
-        uncertain = outcome_of(problem, args.quantity or "pull_off_force") if args.uncertain else None
-        overview = overview_of(problem)
-        equivalent = equivalent_power_law(problem, overview.force)
-        changes = profile_sensitivity.profile_sensitivity(problem, overview.force)
+        of_values = uncertainty(problem, args.quantity or "pull_off_force") if args.uncertain else None
+        force = reference_force(problem)
+        described = overview(problem, force)
+        equivalent = equivalent_power_law(problem, force)
+        changes = profile_sensitivity(problem, force)
     if args.format == "json":
-        described = content(overview)
-        if equivalent is not None:
-            described["equivalent_power_law"] = equivalent_text.content(equivalent)
-        if changes:
-            described["profile_sensitivity"] = profile_sensitivity.content(changes)
-        if uncertain is not None:
-            described["uncertainty"] = uncertain.content
-        print(json.dumps(described, allow_nan=False))
+        parts = {"equivalent_power_law": equivalent, "profile_sensitivity": changes, "uncertainty": of_values}
+        print(json.dumps(described | {name: part for name, part in parts.items() if part}, allow_nan=False))
     else:
-        text = lines(overview, equivalent)
-        if equivalent is not None:
-            text += equivalent_text.lines(equivalent)
-        if changes:
-            text += profile_sensitivity.lines(changes)
-        if uncertain is not None:
-            text += uncertain.lines
-        print_lines(text)
-    return FAILED if overview.force.status == "failed" or (uncertain is not None and uncertain.failed) else OK
+        lines = text.overview_lines(problem, described, equivalent)
+        lines += text.equivalent_lines(equivalent) if equivalent else []
+        lines += text.profile_lines(changes) if changes else []
+        lines += text.uncertainty_lines(problem, of_values) if of_values else []
+        print_lines(lines)
+    failed = force.status == "failed" or (of_values is not None and of_values["status"] == "failed")
+    return FAILED if failed else OK

@@ -7,6 +7,7 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.description import profile_sensitivity as module
+from comparisons.description.text import profile_lines
 from comparisons.problem.reading import load_problem
 from comparisons.runs.tasks import evaluate
 from tests.comparisons.rows import row
@@ -83,14 +84,14 @@ def counted(problem, monkeypatch, failing=None):
 
 def test_only_other_choices_are_computed(written, monkeypatch):
     found = counted(written("growth = 3"), monkeypatch)
-    assert [(each.key, each.value, each.change) for each in found] == [("growth", 1.5, 1.0)]
+    assert [(each["key"], each["value"], each["change"]) for each in found] == [("growth", 1.5, 1.0)]
 
 
 def test_a_failure_is_stated(written, monkeypatch):
     found = counted(written('smoothing = "0.05 nm"'), monkeypatch, failing=3.0)
-    assert [each.status for each in found] == ["ok", "ok", "ok", "failed"]
-    assert module.lines(found)[-1] == "    growth 3: failed: not admissible"
-    assert module.content(found)[-1]["change"] is None
+    assert [each["status"] for each in found] == ["ok", "ok", "ok", "failed"]
+    assert profile_lines(found)[-1] == "    growth 3: failed: not admissible"
+    assert found[-1]["change"] is None
 
 
 def test_without_a_force_there_are_no_changes(written):

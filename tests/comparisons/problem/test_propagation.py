@@ -10,7 +10,7 @@ from jsonschema import Draft202012Validator
 
 from comparisons import evaluate
 from comparisons.cli.main import main
-from comparisons.description.propagation import propagated
+from comparisons.description.uncertainty import uncertainty
 from comparisons.problem.reading import load_problem
 from comparisons.problem.schema import schema
 from comparisons.problem.uncertain import is_uncertain, uncertain_in_si
@@ -143,7 +143,7 @@ def test_the_value_is_that_without_uncertainty(tmp_path):
 
 def dimensions(found):
     """What units of force and of length change: nothing but the force itself."""
-    by_name = {one.name: one.elasticity for one in found.contributions}
+    by_name = {one["parameter"]: one["elasticity"] for one in found["parameters"]}
     moduli = sum(value for name, value in by_name.items() if ".E" in name)
     work = by_name["law.work_of_adhesion"]
     lengths = sum(by_name.get(f"solid.{name}", 0.0) for name in ("c0", "thickness", "transition"))
@@ -157,25 +157,25 @@ def draws(problem, found, count, seed):
     exact, linear = [], []
     for _ in range(count):
         there, change = problem, 0.0
-        for one in found.contributions:
-            shift = generator.normal() * one.uncertainty.size
-            there = there.with_value(one.section, one.key, one.value + shift)
-            change += one.slope * shift
-        exact.append(evaluate("fscm", found.quantity, there).value)
-        linear.append(found.value + change)
+        for one in found["parameters"]:
+            shift = generator.normal() * one["standard_deviation"]
+            there = there.with_value(*one["parameter"].split("."), one["value"] + shift)
+            change += one["slope"] * shift
+        exact.append(evaluate("fscm", found["quantity"], there).value)
+        linear.append(found["value"] + change)
     return np.array(exact), np.array(linear)
 
 
 def check_sample(problem, count, seed):
-    found = propagated(problem)
+    found = uncertainty(problem)
     assert max(map(abs, dimensions(found))) < IDENTITY
-    sizes = [one.size for one in found.contributions]
-    assert math.isclose(found.standard_deviation, math.sqrt(sum(size**2 for size in sizes)), rel_tol=1e-12)
+    sizes = [one["contribution"] for one in found["parameters"]]
+    assert math.isclose(found["standard_deviation"], math.sqrt(sum(size**2 for size in sizes)), rel_tol=1e-12)
     exact, linear = draws(problem, found, count, seed)
-    assert np.max(np.abs(exact - linear)) < SECOND_ORDER * found.value * 4.0
-    assert np.mean(np.abs(exact - linear)) < SECOND_ORDER * found.value
-    deviation = found.standard_deviation
-    assert abs(np.mean(exact) - found.value) < ERRORS * deviation / math.sqrt(count) + SECOND_ORDER * found.value
+    assert np.max(np.abs(exact - linear)) < SECOND_ORDER * found["value"] * 4.0
+    assert np.mean(np.abs(exact - linear)) < SECOND_ORDER * found["value"]
+    deviation = found["standard_deviation"]
+    assert abs(np.mean(exact) - found["value"]) < ERRORS * deviation / math.sqrt(count) + SECOND_ORDER * found["value"]
     assert abs(np.std(exact, ddof=1) / deviation - 1.0) < ERRORS / math.sqrt(2.0 * (count - 1))
 
 
@@ -195,19 +195,19 @@ INTERVALS = PAD.replace("1 GPa +- 0.05 GPa", "[0.9, 1.1] GPa").replace("(100 +/-
 
 def test_intervals_give_a_range(tmp_path):
     problem = read(tmp_path, INTERVALS)
-    found = propagated(problem)
-    widths = [one.size for one in found.contributions if one.uncertainty.is_interval]
+    found = uncertainty(problem)
+    widths = [one["contribution"] for one in found["parameters"] if "half_width" in one]
     assert len(widths) == 2
-    assert math.isclose(found.range.high - found.range.low, 2.0 * sum(widths), rel_tol=1e-12)
-    assert found.range.is_monotone
+    assert math.isclose(np.diff(found["range"]["first_order"])[0], 2.0 * sum(widths), rel_tol=1e-12)
+    assert found["range"]["is_monotone"]
     # The force rises with the radius; with the modulus as its slope says.
-    sign = next(one.slope for one in found.contributions if one.key == "E0") > 0.0
+    sign = next(one["slope"] for one in found["parameters"] if one["parameter"] == "solid.E0") > 0.0
     ends = []
     for R, E0 in ((9.5e-8, 0.9e9 if sign else 1.1e9), (1.05e-7, 1.1e9 if sign else 0.9e9)):
         there = problem.with_value("solid", "E0", E0).with_value("punch", "R", R)
         ends.append(evaluate("fscm", "pull_off_force", there).value)
-    assert np.allclose(found.range.solved, ends, rtol=1e-9)
-    assert np.allclose([found.range.low, found.range.high], ends, rtol=SECOND_ORDER)
+    assert np.allclose(found["range"]["solved"], ends, rtol=1e-9)
+    assert np.allclose(found["range"]["first_order"], ends, rtol=SECOND_ORDER)
 
 
 def test_the_command_prints_what_follows(tmp_path, capsys):

@@ -1,0 +1,140 @@
+"""Description of a problem as lines of text, from the objects of JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from comparisons.numerics.number_text import percent_text
+from comparisons.problem import Problem
+from comparisons.problem.equivalent_solid import LARGEST_DEVIATION
+from comparisons.problem.units import si_text
+
+__all__ = ["equivalent_lines", "overview_lines", "profile_lines", "uncertainty_lines"]
+
+Json = dict[str, Any]
+
+
+def overview_lines(problem: Problem, overview: Json, equivalent: Json | None) -> list[str]:
+    """Return the overview; for a solid that is no power law with its equivalent, if it has one."""
+    force, critical = overview["pull_off_force"], overview["critical_tabor_number"]
+    lines = [
+        f"{problem.name}: {problem.solid.kind} solid, {problem.punch.kind} punch, {problem.law.kind} law",
+        f"  {_tabor_number(problem, overview['tabor_number'], equivalent)}",
+    ]
+    if critical is not None:
+        words = "jumps, with hysteresis" if overview["tabor_number"] > critical else "no jumps"
+        lines.append(f"  critical Tabor number {critical:.6g}: {words}")
+    lines.append(f"  regime: {overview['regime']}")
+    if force["value"] is None:
+        return [*lines, f"  pull-off force: {force['status']}: {force['reason']}"]
+    lines.append(f"  pull-off force {si_text(force['value'], force['u_num'], force['unit'])}  ({force['model']})")
+    if overview["errors"]:
+        lines += ["  errors of the pull-off force of other models:", *_error_lines(overview["errors"], "    ")]
+    return lines + [f"  recommended for {limit}: {model}" for limit, model in overview["recommended"].items()]
+
+
+def _error_lines(errors: Sequence[Json], indent: str) -> list[str]:
+    width = max(len(row["model"]) for row in errors)
+    return [f"{indent}{row['model']:{width}}  {percent_text(row['error'], row['u_num'])} %" for row in errors]
+
+
+def _tabor_number(problem: Problem, of_surface: float, equivalent: Json | None) -> str:
+    """The Tabor number, where the modulus of the surface or a power law stands for the solid."""
+    if problem.has_power_law:
+        return f"Tabor number {of_surface:.6g}"
+    if equivalent is None:
+        return "no Tabor number: the moduli that the contact meets are not known"
+    if equivalent["surface_compliance_deviation"] <= LARGEST_DEVIATION:
+        return f"Tabor number {of_surface:.6g}, with the modulus of the surface"
+    if equivalent["compliance_deviation"] <= LARGEST_DEVIATION:
+        return f"Tabor number {equivalent['tabor_number']:.4g}, with the equivalent power law"
+    return "no Tabor number: neither its surface nor a power law stands for the solid"
+
+
+def equivalent_lines(equivalent: Json) -> list[str]:
+    """Return the equivalent power law: one line if it does not stand for the solid."""
+    deviation, force = equivalent["compliance_deviation"], equivalent["pull_off_force"]
+    if deviation > LARGEST_DEVIATION:
+        return [f"  no equivalent power law: the best one misses the compliance by {100.0 * deviation:.0f} %"]
+    E0 = _rounded(equivalent["E0"], "Pa", 4)
+    c0, shortest, longest = (_rounded(value, "m", 4) for value in (equivalent["c0"], *equivalent["lengths"]))
+    k, free_k = equivalent["k"], equivalent["free_k"]
+    limited = "" if free_k == k else f" (its nearest admissible value; the fit has {free_k:.3g})"
+    lines = [
+        f"  equivalent power law E0 (z/c0)^k: E0 = {E0}, c0 = {c0}, k = {k:.4g}{limited}, nu = {equivalent['nu']:.4g}",
+        f"    fitted to the surface compliance over lengths from {shortest} to {longest},",
+        f"    weighted by elastic energy; misses it by {100.0 * deviation:.2g} % (r.m.s.)",
+    ]
+    if force["error"] is None:
+        lines.append(f"    its pull-off force: {force['status']}: {force['reason']}")
+    else:
+        value = si_text(force["value"], force["u_num"], force["unit"])
+        error = percent_text(force["error"], force["error_u_num"])
+        lines.append(f"    its pull-off force {value}  ({force['model']}), error {error} %")
+    if not equivalent["closed_forms"]:
+        return [*lines, "    no closed form takes this punch or this law"]
+    within = equivalent["closed_form_within"].items()
+    return [
+        *lines,
+        "    errors of the closed forms with this power law:",
+        *_error_lines(equivalent["closed_forms"], "      "),
+        "    " + "; ".join(f"within {limit}: {model or 'none'}" for limit, model in within),
+    ]
+
+
+def profile_lines(changes: Sequence[Json]) -> list[str]:
+    """Return the changes with other choices for a measured profile."""
+    lines = ["  change of the pull-off force with another choice for the measured profile:"]
+    for each in changes:
+        value = _rounded(each["value"], "m" if each["key"] == "smoothing" else "1", 6)
+        failure = f"{each['status']}: {each['reason']}"
+        change = failure if each["change"] is None else f"{percent_text(each['change'], each['u_num'])} %"
+        lines.append(f"    {each['key']} {value}: {change}")
+    return lines
+
+
+def uncertainty_lines(problem: Problem, stated: Json) -> list[str]:
+    """Return what follows from the uncertainties of a file."""
+    quantity = stated["quantity"]
+    if stated["status"] != "ok":
+        return [f"uncertainty of {quantity}: {stated['status']}: {stated['reason']}"]
+    value, unit, deviation = stated["value"], stated["unit"], stated["standard_deviation"]
+    written = [each.written.strip() for each in problem.uncertain.values()]
+    rows = [
+        (
+            one["parameter"],
+            text,
+            "" if one["elasticity"] is None else f"{one['elasticity']:+.4f}",
+            _rounded(one["contribution"], unit),
+        )
+        for one, text in zip(stated["parameters"], written, strict=True)
+    ]
+    widths = [max(len(row[i]) for row in rows) for i in range(3)]
+    lines = [
+        f"uncertainty of {quantity} = {si_text(value, stated['u_num'], unit)} (fscm) from those of the file",
+        "  d ln(value)/d ln(p) and contribution of each parameter p:",
+        *(f"    {a:{widths[0]}}  {b:{widths[1]}}  {c:>{widths[2]}}  {d}" for a, b, c, d in rows),
+    ]
+    if deviation is not None:
+        share = f" ({100 * deviation / abs(value):.2g} %)" if value else ""
+        lines.append(f"  standard deviation {_rounded(deviation, unit)}{share}, of independent parameters")
+    if stated["range"]:
+        lines += _range_lines(stated["range"], unit)
+    return lines
+
+
+def _range_lines(stated: Json, unit: str) -> list[str]:
+    of_first_order = f"  range over the intervals {_ends(stated['first_order'], unit)} to first order"
+    if stated["solved"] is None:
+        return [f"{of_first_order}; there is no value at its ends"]
+    words = "" if stated["is_monotone"] else ", but the slopes change their signs: the range may be wider"
+    return [of_first_order, f"  {_ends(stated['solved'], unit)} solved at its ends{words}"]
+
+
+def _ends(ends: Sequence[float], unit: str) -> str:
+    return " to ".join(_rounded(end, unit, 5) for end in ends)
+
+
+def _rounded(value: float, unit: str, digits: int = 3) -> str:
+    return si_text(float(f"{value:.{digits}g}"), 0.0, unit)
