@@ -64,8 +64,8 @@ def _read(line: list[Any]) -> _Outcome:
 
 
 def _written(outcome: _Outcome) -> list[Any]:
-    call, *rest = outcome
-    return [call.function, call.arguments, *rest]
+    call, *fields = outcome
+    return [call.function, call.arguments, *fields]
 
 
 def _lost(call: CachedCall) -> _Outcome:
