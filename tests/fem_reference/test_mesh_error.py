@@ -82,14 +82,16 @@ def test_an_event_that_the_lowest_degree_does_not_have_takes_the_features_of_the
     assert parts["edge"] == pytest.approx(4e-5 + 9e-6, rel=1e-8)
 
 
-@pytest.mark.parametrize(("accuracy", "change"), [(1e-6, 7e-6), (1e-2, 1e-3)])
+@pytest.mark.parametrize(("accuracy", "change"), [(1e-6, 7e-6), (1e-3, 2e-5)])
 def test_a_feature_takes_the_highest_degree_where_its_change_exceeds_the_mesh_and_half_of_the_accuracy(
     accuracy, change
 ):
+    """With the lowest degree it is 2e-5, and the error of the mesh 1e-7."""
+    base = FINE + 1e-6
     parts = _parts(
         lower=FINE + 1e-7,
-        base=FINE + 1e-6,
-        feature=lambda name, full: _feature(name, full) - (0 if full else BASE - FINE - 1e-6),
+        base=base,
+        feature=lambda name, full: FINE + HIGH[name] if full else base + 2e-5,
         accuracy=accuracy,
     )
     assert parts["first layer"] == pytest.approx(change, rel=1e-6)
