@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from comparisons.external.contract_checks import OK, SKIPPED, WRONG, Evaluations, Finding, Key
+from comparisons.external.evaluations import OK, SKIPPED, WRONG, Evaluations, Finding, Key
 from comparisons.models.bradley import rigid_pull_off
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem

@@ -11,8 +11,9 @@ from random import SystemRandom
 from typing import Any
 
 from comparisons.console.progress import note, waiting
-from comparisons.external.contract_checks import AnyExternalModel, examine
+from comparisons.external.contract_checks import examine
 from comparisons.external.data_model import DataModel
+from comparisons.external.evaluations import AnyExternalModel
 from comparisons.external.model_source import load_again
 from comparisons.problem import Problem
 from comparisons.registry import ExternalIdentity
