@@ -43,6 +43,7 @@ _FIRST = (
     "pietrement_troyon",
     "schwarz",
     "jump_asymptotes",
+    "jkr_sphere",
 )
 
 

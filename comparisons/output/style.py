@@ -71,9 +71,10 @@ MODEL_NAMES = {
     "schwarz": "Schwarz",
     "jump-asymptotes": "jump asymptotes",
     "atlas": "atlas",
+    "jkr-sphere": "JKR of a ball",
 }
 #: Their dashes, in the same order.
-_MODEL_DASHES = "- - -- -- -. : -. - : : : : : -. : -. -. --"
+_MODEL_DASHES = "- - -- -- -. : -. - : : : : : -. : -. -. -- -."
 
 #: The model whose curve is broad and pale, below the others: where they are right they cover it.
 _BROAD = "fscm"

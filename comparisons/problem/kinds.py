@@ -252,6 +252,7 @@ _PUNCHES = (
         lambda solver, punch: solver.PowerPunch(2.0, punch["R"]),
         is_of_the_paper=True,
     ),
+    Kind("ball", (Key("R", LENGTH),), lambda solver, punch: solver.Ball(punch["R"])),
     Kind(
         "cone",
         (Key("half_angle", ANGLE),),

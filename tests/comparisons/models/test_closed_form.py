@@ -13,7 +13,8 @@ from comparisons import create, registry
 from comparisons.model import Model, NotApplicable, Result
 from comparisons.models.closed_form import ClosedForm, monomial
 from comparisons.models.homogeneous_sphere import HomogeneousSphere
-from comparisons.problem import Problem
+from comparisons.models.jkr_sphere import JKRSphere
+from comparisons.problem import Problem, Section
 from comparisons.quantities import QUANTITIES
 from fscm.laws import LennardJones
 
@@ -39,14 +40,19 @@ def test_names(model: ClosedForm) -> None:
     assert model.domain
 
 
-def gradient_of(model: ClosedForm) -> float:
-    """A gradient exponent in the domain of the model."""
-    return 0.0 if isinstance(model, HomogeneousSphere) else 0.4
+def problem_of(model: ClosedForm, mu: float) -> Problem:
+    """A problem in the domain of the model."""
+    if isinstance(model, JKRSphere):
+        solid, law = {"E": math.sqrt(1e3 / mu**3), "nu": 0.0}, {"work_of_adhesion": 1.0, "z0": 1.0}
+        return Problem(
+            Section("homogeneous", solid), Section("ball", {"R": 1e3}), Section("lennard-jones-9-3", law), name="ball"
+        )
+    return Problem.dimensionless(2, 0.0 if isinstance(model, HomogeneousSphere) else 0.4, mu)
 
 
 @pytest.mark.parametrize("quantity", QUANTITIES)
 def test_every_quantity_has_a_value_or_a_reason(model: ClosedForm, quantity: str) -> None:
-    problem = Problem.dimensionless(2, gradient_of(model), 5.0)  # at a small Tabor number some models lose their folds
+    problem = problem_of(model, 5.0)  # at a small Tabor number some models lose their folds
     if not hasattr(model, quantity):
         with pytest.raises(NotApplicable, match=rf"^{model.name} does not define {quantity}: \w[^\n]+$"):
             model.evaluate(problem, quantity)
@@ -77,7 +83,7 @@ class OtherLaw(LennardJones):
 
 
 def test_curves_are_consistent(model: ClosedForm) -> None:
-    problem = Problem.dimensionless(2, gradient_of(model), 1.5)
+    problem = problem_of(model, 1.5)
     if model.name in WITHOUT_CURVE:
         with pytest.raises(NotApplicable, match=rf"{model.name} has no[^\n]+$"):
             model.curve(problem)

@@ -42,6 +42,7 @@ SECTIONS = {
     },
     "punch": {
         "sphere": 'R = "100 nm"',
+        "ball": 'R = "100 nm"',
         "cone": 'half_angle = "70 deg"',
         "power-law": 'n = 3\nQ = "1e4 nm^2"',
         "rounded-cone": 'R = "30 nm"\nslope = 0.5',
