@@ -1,6 +1,5 @@
 """The baseline renewed from a run, by tier: all files or none; and a run compared with the baseline."""
 
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -133,33 +132,15 @@ def test_a_file_that_was_changed_after_the_run_changes_nothing(tmp_path, target,
     assert renewed(target) == set()
 
 
-def test_a_name_like_a_formula_has_not_drifted(tmp_path, monkeypatch):
-    run, clone = made_up(tmp_path / "run", "quick"), tmp_path / "clone"
-    write_results(frame([row(model="=1+1", reason="-x", value=1.5, u_num=1e-9)]), run / "results")
-    write_record(read_record(run / "run.json"), run / "run.json")
-    renew(run, clone / BASELINE)
-    monkeypatch.chdir(clone)
-    assert main(["--check", str(run)]) == 0
-
-
-def test_a_run_of_chosen_models_is_refused(tmp_path, target):
-    with pytest.raises(ValueError, match="jkr, dmt only"):
-        renew(made_up(tmp_path / "run", "quick", ["jkr", "dmt"]), target)
+@pytest.mark.parametrize(("option", "value"), [("model", ["jkr", "dmt"]), ("gates", "mine.toml")])
+def test_a_run_of_chosen_models_or_gates_is_refused(tmp_path, target, option, value):
+    run = made_up(tmp_path / "run", "quick")
+    record = read_record(run / "run.json")
+    record["arguments"][option] = value
+    write_record(record, run / "run.json")
+    with pytest.raises(ValueError, match=r"jkr, dmt only|mine\.toml need"):
+        renew(run, target)
     assert renewed(target) == set()
-
-
-def test_one_sentence_lists_what_was_renewed(tmp_path, target, monkeypatch, capsys):
-    run = made_up(tmp_path / "run", "full")
-    clone = tmp_path / "clone"
-    (clone / "results").mkdir(parents=True)
-    shutil.move(target, clone / BASELINE)
-    monkeypatch.chdir(clone)
-    assert main([str(run)]) == 0
-    printed = capsys.readouterr().out
-    assert printed.count("\n") == 1
-    assert all(str(BASELINE / name) in printed for name in FROM_FULL)
-    assert not any(name in printed for name in FROM_QUICK)
-    assert main([str(run), "more"]) == 2
 
 
 def test_outside_a_clone_the_copy_of_the_wheel_is_compared(tmp_path, monkeypatch, capsys):
@@ -221,16 +202,6 @@ def test_both_references_of_a_full_run_are_compared(changes, seen, tmp_path, mon
     assert capsys.readouterr().out.count("pull_off_force") == seen
 
 
-def test_a_run_of_chosen_gates_is_refused(tmp_path, target):
-    run = made_up(tmp_path / "run", "quick")
-    record = read_record(run / "run.json")
-    record["arguments"]["gates"] = "mine.toml"
-    write_record(record, run / "run.json")
-    with pytest.raises(ValueError, match=r"what the gates of mine\.toml need"):
-        renew(run, target)
-    assert renewed(target) == set()
-
-
 # The parser that older versions of pandas take by default is wrong in the last digit, which is much of a difference.
 AGREEMENT = read_csv(COMMITTED / "references_agreement.csv", ("model", "quantity", "reference"))
 
@@ -242,6 +213,7 @@ CRITICAL = "critical_tabor_number"
 @pytest.mark.parametrize("event", [*EVENTS, CRITICAL])
 def test_the_committed_references_agree_within_both_bounds(event):
     rows = AGREEMENT[AGREEMENT["quantity"] == event]
+    assert set(AGREEMENT["quantity"]) == {*EVENTS, CRITICAL}
     # Over four shapes, four gradients and four Tabor numbers; not every problem has a jump.
     assert len(rows) >= (12 if event == CRITICAL else 45)
     assert set(rows["n"]) >= {1.0, 1.5, 2.0, 5.0}
@@ -251,7 +223,3 @@ def test_the_committed_references_agree_within_both_bounds(event):
     assert (np.abs(difference) <= bound).all()
     assert rows["en"].to_numpy() == pytest.approx((difference / bound).to_numpy(), rel=1e-6)
     assert (rows["difference"] / rows["claimed"]).to_numpy() == pytest.approx(rows["en"].to_numpy(), rel=1e-12)
-
-
-def test_the_committed_agreement_is_about_these_events_alone():
-    assert set(AGREEMENT["quantity"]) == {*EVENTS, CRITICAL}

@@ -5,7 +5,6 @@ import math
 import pandas as pd
 import pytest
 
-from comparisons import baseline
 from comparisons.baseline import drift
 
 
@@ -43,17 +42,3 @@ def test_bounds_of_rounding_do_not_drift():
 def test_another_status_and_a_row_that_is_not_stored_have_drifted():
     assert drift(STORED, _results(status=["ok", "failed"]))["mu"].tolist() == [1.0]
     assert drift(STORED.head(1), STORED)["mu"].tolist() == [1.0]
-
-
-@pytest.mark.parametrize("lost", [0, 1])
-def test_a_row_of_the_agreement_that_the_run_lost_has_drifted(lost, tmp_path, monkeypatch):
-    columns = {"reference": "fscm", "reference_value": 1.5, "u_reference": 1e-9}
-    agreement = _results(model="fem", **columns).drop(columns="status")
-    agreement.to_csv(tmp_path / "references_agreement.csv", index=False)
-    agreement.drop(index=lost).to_csv(tmp_path / "agreement.csv", index=False)
-    monkeypatch.setattr(baseline, "committed", tmp_path.joinpath)
-    monkeypatch.setattr(baseline, "_computed_run", lambda folder: ({}, "full"))
-    found = baseline.check(tmp_path)
-    assert found["status"].tolist() == ["missing"] * 2
-    assert sorted(found["model"]) == ["fem", "fscm"]
-    assert set(found["mu"]) == {agreement["mu"][lost]}
