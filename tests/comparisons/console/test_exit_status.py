@@ -77,19 +77,9 @@ def test_a_defect_of_a_command_is_not_taken_for_a_gate_that_fails(capsys, monkey
     assert "internal error: TypeError" in capsys.readouterr().err
 
 
-NEXT = "-- next command --\n"
-
-
 def program(*, redirected, command='["list", "quantities"]', environment=None):
-    """Run a command in a shell, its streams redirected; return status, stdout and stderr.
-
-    Several commands are run in one process, until one fails, with a line `NEXT` between their outputs.
-    """
-    lines = ["import sys", "from comparisons.__main__ import main"]
-    for number, one in enumerate([command] if isinstance(command, str) else command):
-        lines += [f"print({NEXT!r}, end='')"] if number else []
-        lines += [f"sys.argv[1:] = {one}", "status = main()", "if status: sys.exit(status)"]
-    code = "\n".join(lines)
+    """Run a command in a shell, its streams redirected; return status, stdout and stderr."""
+    code = f"import sys; from comparisons.__main__ import main; sys.argv[1:] = {command}; sys.exit(main())"
     line = f"{shlex.quote(sys.executable)} -c {shlex.quote(code)} {redirected}"
     done = subprocess.run(
         ["sh", "-c", line], capture_output=True, text=True, cwd=ROOT, env=os.environ | (environment or {})
@@ -104,9 +94,6 @@ def program(*, redirected, command='["list", "quantities"]', environment=None):
         ('["list", "quantities"]', ""),
         ('["--help"]', "1"),
         (SOLVE, ""),
-        pytest.param('["list", "quantities"]', "1", marks=pytest.mark.heavy),
-        pytest.param('["--help"]', "", marks=pytest.mark.heavy),
-        pytest.param(SOLVE, "1", marks=pytest.mark.heavy),
     ],
 )
 def test_a_full_standard_output(command, unbuffered):
@@ -129,25 +116,12 @@ def test_a_closed_standard_output():
     [
         ("2>&-", '["list", "quantities"]', 0),
         pytest.param("2> /dev/full", '["list", "colours"]', WRONG_INPUT, marks=needs_full_device),
-        pytest.param("2>&-", '["list", "colours"]', WRONG_INPUT, marks=pytest.mark.heavy),
-        pytest.param("2> /dev/full", '["list", "quantities"]', 0, marks=[needs_full_device, pytest.mark.heavy]),
     ],
 )
 def test_messages_that_cannot_be_written_change_no_status(redirected, command, status):
     gave, shown, _ = program(redirected=redirected, command=command)
     assert gave == status
     assert ("pull_off_force" in shown) == (status == 0)
-
-
-def test_python_without_docstrings():
-    """Every module is compiled without them, once for all commands."""
-    sentences = {'["solve", "--help"]': "usage: ", '["list", "models"]': "md-improved", SOLVE: "1.7000"}
-    status, shown, errors = program(redirected="", command=list(sentences), environment={"PYTHONOPTIMIZE": "2"})
-    assert (status, errors) == (0, "")
-    parts = shown.split(NEXT)
-    assert len(parts) == len(sentences)
-    for part, sentence in zip(parts, sentences.values(), strict=True):
-        assert sentence in part
 
 
 SLOW = """
@@ -189,14 +163,6 @@ def test_sigterm_ends_the_command_and_its_worker_processes(tmp_path):
     for file in started.iterdir():
         with pytest.raises(ProcessLookupError):
             os.kill(int(file.name), 0)
-
-
-def test_sigterm_is_a_parent_process_s_again_afterwards():
-    before = signal.getsignal(signal.SIGTERM)
-    seen = []
-    assert guarded(lambda: seen.append(signal.getsignal(signal.SIGTERM)) or 0) == 0
-    assert seen != [before]
-    assert signal.getsignal(signal.SIGTERM) is before
 
 
 @pytest.fixture
@@ -297,9 +263,4 @@ def test_a_model_in_a_loop_of_symbolic_links_is_wrong_input(tmp_path, capsys, sp
     spec = str(loop(tmp_path / "loop")) if spec == "{loop}" else spec if spec[0] == "~" else str(tmp_path / spec)
     case = ["--n", "2", "--k", "0", "--mu", "1"]
     assert main(["solve", "--model", spec, "--quantity", "pull_off_force", *case]) == WRONG_INPUT
-    assert capsys.readouterr().err.count("\n") == 1
-
-
-def test_a_template_is_not_written_through_a_loop_of_symbolic_links(tmp_path, capsys):
-    assert main(["new-model", str(loop(tmp_path / "my-model"))]) == WRONG_INPUT
     assert capsys.readouterr().err.count("\n") == 1

@@ -5,7 +5,6 @@ import tomllib
 from importlib.resources import files
 from pathlib import Path
 
-import pandas as pd
 import pytest
 
 from comparisons.data.columns import FILES, column, title
@@ -36,20 +35,6 @@ def test_every_column_of_a_committed_table_has_unit_and_description(path):
     assert all(column(path.stem, name).description for name in header(path))
 
 
-@pytest.mark.parametrize("path", TABLES, ids=lambda path: path.relative_to(ROOT).as_posix())
-def test_a_column_of_texts_has_no_unit_and_a_column_of_numbers_has_one(path):
-    table = pd.read_csv(path, low_memory=False)
-    for name in table:
-        cells = table[name].dropna()
-        unit = column(path.stem, name).unit
-        if cells.empty:
-            continue
-        texts = cells.dtype == bool or pd.to_numeric(cells, errors="coerce").isna().any()
-        # Numbers that are kept as texts with their digits, or are names in other rows, have none.
-        if name not in ("printed", "paper_percent", "accuracy", "model_version", "unit"):
-            assert bool(unit) is not bool(texts), name
-
-
 @pytest.mark.parametrize("name", COMMITTED)
 def test_no_description_is_of_a_table_or_of_a_column_that_is_not_there(name):
     described = contents(name)
@@ -64,11 +49,6 @@ def test_no_description_is_of_a_table_or_of_a_column_that_is_not_there(name):
     assert stale == []
     everywhere = {one for table in described["table"] for one in headers[table]}
     assert [one for one in described["column"] if one not in everywhere] == []
-
-
-def test_a_table_is_described_in_one_file():
-    tables = [table for name in FILES for table in contents(name)["table"]]
-    assert len(tables) == len(set(tables))
 
 
 def test_a_column_of_a_figure_does_not_describe_that_of_a_run():

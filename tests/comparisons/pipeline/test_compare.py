@@ -2,7 +2,6 @@
 
 import json
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,12 +10,10 @@ import pytest
 from rich.console import Console
 
 import comparisons
-from comparisons.baseline import read_baseline
 from comparisons.cli.main import main
 from comparisons.judging.summary import coverage_text
 from comparisons.output.comparison import WIDTH, case_tables, terminal_tables
 from comparisons.output.errors import comparison_table, error_summary
-from comparisons.output.figures.comparison import draw
 from comparisons.runs.cases import load_grids
 from comparisons.runs.frames import frame
 from comparisons.runs.record import check_files, read_record
@@ -116,14 +113,6 @@ def printed(table, capsys, **options):
     return lines
 
 
-def test_only_the_first_cases_are_printed(capsys):
-    table = pd.concat([fake().assign(n=1.0 + number / 10) for number in range(20)])
-    lines = printed(table, capsys)
-    assert "first 40 of 60 cases" in " ".join(map(str.strip, lines))
-    assert len(lines) < 55
-    assert len(printed(table, capsys, every=True)) > 65
-
-
 def test_a_reference_that_needs_no_poisson_ratio_is_found():
     """A case with nu: the finite elements get it, the FSCM does not."""
     grid = load_grids(GRID.replace('"exact"', '"fscm"').replace('"ten-percent"', '"fem"') + "nu = [0.25]", "quick")
@@ -153,14 +142,6 @@ def fake(models=("a", "b"), quantities=("pull_off_force",), **other):
     return pd.DataFrame(rows)
 
 
-def test_a_table_with_long_names_is_split_and_nothing_is_lost(capsys):
-    models = [f"a-model-of-someone-with-a-long-name-{number}" for number in range(5)] + ["<b>[bold]x"]
-    shown = "\n".join(printed(fake(models), capsys))
-    assert "<b>[bold]x" in shown
-    joined = re.sub(r"\s+", "", shown)
-    assert all(model[:20] in joined for model in models)
-
-
 def test_the_notebook_shows_escaped_tables_with_every_digit():
     table = fake(("<script>alert(1)</script>", "b"))
     html = comparisons.pipeline.compare.Comparison(table, error_summary(table), Path(), ())._repr_html_()
@@ -169,20 +150,6 @@ def test_the_notebook_shows_escaped_tables_with_every_digit():
     assert html.count("<table") == 2
     assert '<data value="0.1">' in html
     assert "3 of 3" in html
-
-
-def test_the_figure_is_over_the_parameter_with_most_values():
-    figure = draw(fake(quantities=("pull_off_force", "zero_load_displacement")))
-    panels = [axes for axes in figure.axes if axes.get_visible()]
-    assert len(panels) == 2
-    assert panels[-1].get_xlabel() == r"Tabor number $\mu$"
-    assert panels[0].get_xscale() == "log"
-    points = panels[0].lines[0].get_xydata()
-    assert points.tolist() == [[0.1, 10.0], [1.0, 10.0], [3.0, 10.0]]
-    scattered = pd.concat([fake(n=1.0 + 0.1 * number) for number in range(20)])
-    figure = draw(scattered.assign(mu=1.0))
-    assert figure.axes[0].get_xlabel() == "shape index $n$"
-    assert len(draw(fake(kappa=np.nan)).axes) == 1
 
 
 @pytest.mark.parametrize(
@@ -229,17 +196,3 @@ def test_coverage_is_beside_the_errors():
     assert coverage_text(summary.loc["a"]) == "3 of 3"
     assert coverage_text(summary.loc["b"]) == "1 of 3 (1 n/a, 1 failed)"
     assert summary.loc["b", "cases"] == 1
-
-
-def test_the_printed_table_of_the_document_is_the_one_of_the_baseline():
-    text = (ROOT / "docs" / "compare.md").read_text(encoding="utf-8")
-    grid = load_grids(
-        GRID.replace('"exact"', '"fscm"').replace('"ten-percent"', '"jkr"').replace("[0, 0.4]", "[0.4]"), "quick"
-    )
-    rows, _ = read_baseline(ROOT / "results" / "baseline")
-    known = rows[rows["quantity"] == "pull_off_force"].assign(nu=np.nan, reason="")
-    force = replace(grid[0], quantities=("pull_off_force",))
-    table = comparison_table(known, [force], ["jkr", "md-improved"])
-    texts = next(case_tables(table)).texts
-    for cells in texts.itertuples(index=False):
-        assert "  ".join(cells).split() in [line.split() for line in text.splitlines()]

@@ -126,13 +126,6 @@ def test_the_commands_in_messages_are_quoted(name, small_grid, tmp_path, monkeyp
     assert os.listdir(tmp_path) == [name]
 
 
-def test_a_file_of_another_kind_is_named(shard, capsys):
-    (shard / "results.csv").unlink()
-    os.mkfifo(shard / "results.csv")
-    assert main(["report", str(shard)]) == 2
-    assert "results.csv" in capsys.readouterr().err
-
-
 def test_texts_of_a_record_have_no_control_characters_on_the_terminal(shard, capsys):
     def change(record):
         record["models"]["jkr"]["citation"] = "J. \x1b[2J\x1b]0;title\x07"
@@ -181,9 +174,3 @@ def test_a_record_without_the_version_of_a_model(tmp_path, capsys):
     forge(tmp_path / "shard", lambda record: record["arguments"].update(external={"mine": "mine.py:Mine"}))
     assert main(["merge", str(tmp_path / "shard"), "--out", str(tmp_path / "out")]) == 2
     assert "mine" in capsys.readouterr().err
-
-
-def test_a_record_of_a_problem_file_without_the_version_of_a_model(shard, tmp_path, capsys):
-    forge(shard, lambda record: record["models"].pop("jkr"))
-    assert main(["merge", str(shard), "--out", str(tmp_path / "mine" / "out")]) == 2
-    assert "jkr" in capsys.readouterr().err

@@ -4,18 +4,15 @@ import re
 import subprocess
 import sys
 
-import pandas as pd
 import pytest
 
 import comparisons
 from comparisons.cli.main import main
 from comparisons.data.file_names import RUN_FILES, VERDICT_FILES
-from comparisons.judging.summary import summarise
 from comparisons.pipeline.figures import make_figures
 from comparisons.pipeline.judgement import judge_folder
 from comparisons.pipeline.run import run
 from comparisons.runs.record import check_files, read_record
-from comparisons.runs.tables import read_table
 
 GRID = """
 [[grid]]
@@ -43,21 +40,6 @@ def test_the_function_and_the_command_write_the_same_files(small_grid, tmp_path)
     assert names(tmp_path / "function") == names(tmp_path / "command")
     for name in set(RUN_FILES) & names(tmp_path / "function") - {"results.parquet", "junit.xml"}:
         assert (tmp_path / "function" / name).read_bytes() == (tmp_path / "command" / name).read_bytes(), name
-
-
-def test_nothing_is_printed(small_grid, tmp_path, capsys):
-    run("quick", folder=tmp_path)
-    judge_folder(tmp_path)
-    assert capsys.readouterr().out == ""
-
-
-def test_the_summary_by_gate_is_stored(small_grid, tmp_path):
-    judgement = run("quick", folder=tmp_path).judgement
-    stored = read_table(tmp_path / "summary.parquet")
-    made = summarise(judgement.verdicts)
-    assert stored[["gate", "candidate", "cases"]].to_dict() == made[["gate", "candidate", "cases"]].to_dict()
-    assert stored["verdict"].tolist() == ["PASS"]
-    assert pd.read_csv(tmp_path / "summary.csv")["gate"].tolist() == ["TEN-PERCENT"]
 
 
 def test_a_sweep_has_the_record_of_a_run_and_no_verdicts(toys, tmp_path):
@@ -121,13 +103,6 @@ def test_wrong_arguments_are_refused_before_anything_is_written(toys, tmp_path, 
     with pytest.raises(ValueError, match=re.escape(sentence)):
         run(**arguments, folder=tmp_path / "out")
     assert not (tmp_path / "out").exists()
-
-
-def test_failures_are_listed(toys, tmp_path):
-    finished = run(GRID, models=["fails"], folder=tmp_path)
-    assert [row.model for row in finished.failures] == ["fails"] * 4
-    assert finished.counts["failed"] == 4
-    assert finished.verdict is None
 
 
 def test_the_figures_of_the_paper_have_a_record(tmp_path):
