@@ -88,6 +88,11 @@ class Table:
     fold: str = ""
     group: Callable[[Record], str] | None = None
 
+    @property
+    def file(self) -> str:
+        """Name of the stored table that a page saves rows of."""
+        return self.source or f"{self.id}.csv"
+
     @cached_property
     def records(self) -> list[dict[str, Any]]:
         """The stored rows."""

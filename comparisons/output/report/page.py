@@ -15,12 +15,12 @@ import pandas as pd
 from comparisons.judging.card_gates import overall, without_card_gates
 from comparisons.judging.decision import Verdict
 from comparisons.numerics.number_text import case_text, percent_text
-from comparisons.output.comparison import SUMMARY_FILE, TABLE_FILE, case_tables, summary_tables
+from comparisons.output.comparison import SUMMARY_FILE, case_tables, summary_tables
 from comparisons.output.errors import error_summary, worst_rows
 from comparisons.output.gate_sentence import gates_sentence
 from comparisons.output.report import plots, tables
 from comparisons.output.report.plots import Plot, in_registry
-from comparisons.output.report.stored_run import Stored
+from comparisons.output.report.stored_run import TABLES, Stored
 from comparisons.output.table import Record, Table
 from comparisons.output.varied_keys import physical_text
 from comparisons.problem.problem import split_name
@@ -31,15 +31,13 @@ from comparisons.runs.rows import CASE
 __all__ = ["Block", "Facts", "File", "Page", "Section", "make_page", "texts"]
 
 
-@dataclass(frozen=True, slots=True)
-class Facts:
+class Facts(NamedTuple):
     """Texts with their names."""
 
     pairs: Sequence[tuple[str, str]]
 
 
-@dataclass(frozen=True, slots=True)
-class File:
+class File(NamedTuple):
     """The text of a file."""
 
     name: str
@@ -76,10 +74,8 @@ class Page:
         The stored tables behind the tables, by the names of their files.
     facts : list of (str, str)
         Each model and its largest error, largest first.
-    verdict : str
-        Over all gates; empty where nothing was judged.
-    counts : list of (str, int)
-        How many cases ended with each verdict, worst first.
+    verdict, counts
+        Over all gates (empty where nothing was judged), and how many cases ended with each, worst first.
     """
 
     kind: str
@@ -118,12 +114,9 @@ class Page:
     @property
     def files(self) -> dict[str, str]:
         """The stored tables as CSV, digit for digit, and those that are only on the page."""
-        own = {f"{table.id}.csv": table.stored for table in self.tables.values() if not table.source}
-        stored = {name: self.stored[name] for name in sorted({table.source for table in self.tables.values()} - {""})}
         # The CSV files of a folder have no times.
-        return {name: csv_text(table.drop(columns="seconds", errors="ignore")) for name, table in stored.items()} | {
-            name: csv_text(table) for name, table in own.items()
-        }
+        stored = {name: table.drop(columns="seconds", errors="ignore") for name, table in self.stored.items()}
+        return {table.file: csv_text(stored.get(table.file, table.stored)) for table in self.tables.values()}
 
 
 @cache
@@ -154,16 +147,7 @@ def make_page(stored: Stored) -> Page:
         facts=errors if len(errors) > 1 else (),
         verdict=verdict,
         counts=[(str(each), counts[each]) for each in Verdict if counts[each]],
-        stored={
-            "kappa.csv": stored.kappa,
-            "largest_kappa.csv": stored.largest_kappa,
-            "curves.csv": stored.curves,
-            "results.csv": stored.results,
-            "verdicts.csv": stored.verdicts,
-            "summary.csv": stored.summary,
-            TABLE_FILE: stored.comparison,
-            SUMMARY_FILE: summary,
-        },
+        stored={SUMMARY_FILE: summary} | {f"{name}.csv": getattr(stored, name) for name in TABLES},
     )
 
 

@@ -107,9 +107,8 @@ def _data(table: Table) -> dict[str, Any]:
     """Return what the scripts need of a table: its choices, and the rows that they save."""
     lines = list(table.stored.get("lines", table.stored.index))
     groups = [table.group(row) for row in table.records] if table.group else None
-    source = table.source or f"{table.id}.csv"
     return {
-        "source": source,
+        "source": table.file,
         "lines": lines,
         "groups": groups,
         "latex": latex_table(table.on_paper, table.caption, table.id),

@@ -24,10 +24,10 @@ from comparisons.runs.record import check_files, read_record, warn_of_other_code
 from comparisons.runs.rows import DIMENSIONLESS
 from comparisons.runs.tables import read_table
 
-__all__ = ["Stored", "read_folder"]
+__all__ = ["TABLES", "Stored", "read_folder"]
 
 #: Table -> its columns; a folder of a sweep has no verdicts, and only that of a comparison has one.
-_TABLES: dict[str, Sequence[str]] = {
+TABLES: dict[str, Sequence[str]] = {
     file_names.RESULTS: COLUMNS.names,
     file_names.CURVES: CURVE_COLUMNS.names,
     file_names.KAPPA: KAPPA_COLUMNS,
@@ -82,7 +82,7 @@ def read_folder(folder: Path) -> Stored:
     warn_of_other_code(record, folder)
     tables = {
         name: _table(folder / f"{name}.parquet", columns, there=f"{name}.parquet" in record["files"])
-        for name, columns in _TABLES.items()
+        for name, columns in TABLES.items()
     }
     texts = {
         name: read_text(path_inside(folder, name), f"the copy {name}")

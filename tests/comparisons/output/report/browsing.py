@@ -1,6 +1,5 @@
 """Steps on a page in a real browser: headless Chromium that records every network request."""
 
-import base64
 import importlib
 import json
 import os
@@ -123,21 +122,9 @@ def width(browser, selector="html"):
     )
 
 
-def printed(browser):
-    """The page as the browser prints it."""
-    made = browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "preferCSSPageSize": True})
-    return base64.b64decode(made["data"])
-
-
 def text_of(browser, table, kind):
     """The file of a table's rows that are shown, in their order."""
     return browser.execute_script("return Files.text(arguments[0], arguments[1])", table, kind)
-
-
-def press(browser, element):
-    """Press the Return key on an element."""
-    browser.execute_script("arguments[0].focus()", element)
-    browser.switch_to.active_element.send_keys("\ue007")
 
 
 def dark(browser):

@@ -22,8 +22,6 @@ from .browsing import (
     head,
     messages,
     package,
-    press,
-    printed,
     ranges,
     requests,
     show,
@@ -50,44 +48,29 @@ def test_it_opens_without_an_error_and_without_the_network_and_admits_no_other_s
 
 
 def test_a_hostile_name_does_nothing_even_without_the_policy(browser, page, tmp_path):
-    text = page.read_text(encoding="utf-8")
     bare = tmp_path / "bare.html"
-    bare.write_text(re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", text), encoding="utf-8")
-    assert "default-src" not in bare.read_text(encoding="utf-8")
+    policy = r'<meta http-equiv="Content-Security-Policy"[^>]*>'
+    bare.write_text(re.sub(policy, "", page.read_text(encoding="utf-8")), encoding="utf-8")
     show(browser, bare, *DESKTOP)
-    for table in ("verdicts", "kappa", "force_curve", "convergence", "results"):
-        unfold(browser, table)
+    unfold(browser, "results")
     assert browser.execute_script("return [window.hostile ?? null, document.images.length]") == [None, 0]
 
 
 def test_tables_sort_and_filter(opened, run_folder):
     stored = pd.read_parquet(run_folder / "verdicts.parquet")
     unfold(opened, "verdicts")
-    for direction, rising, use in (
-        ("ascending", True, click),
-        ("descending", False, press),
-        ("ascending", True, press),
-    ):
-        use(opened, head(opened, "verdicts", "E(U)"))
+    for direction, rising in (("ascending", True), ("descending", False)):
+        click(opened, head(opened, "verdicts", "E(U)"))
         assert sorting(opened, "verdicts", "E(U)") == direction
         shown = cells(opened, "verdicts", "E(U)")
         # What has no number comes last either way.
         numbers = [float(text) for text in shown if text]
         assert shown[len(numbers) :] == ["", ""]
         assert numbers == sorted(stored["error"].dropna(), reverse=not rising)
-    click(opened, head(opened, "verdicts", "candidate"))
-    assert sorting(opened, "verdicts", "E(U)") == "none"
-    unfold(opened, "results")
-    click(opened, head(opened, "results", "value"))
-    numbers = [float(text) for text in cells(opened, "results", "value") if text]
-    assert numbers == sorted(pd.read_parquet(run_folder / "results.parquet")["value"].dropna())
     entry = find(opened, "#table-offenders .filter")
     entry.send_keys("fail jkr-limit")
     assert cells(opened, "offenders", "gate") == ["JKR-LIMIT-PULL-OFF"] * 2
     assert find(opened, "#table-offenders .count").text == "2 of 7 rows"
-    entry.clear()
-    entry.send_keys("no such thing")
-    assert cells(opened, "offenders", "gate") == []
 
 
 def test_files_hold_the_rows_that_are_shown_in_their_order(opened, run_folder, tmp_path):
@@ -131,16 +114,6 @@ def test_a_plot_zooms(opened):
     click(opened, find(opened, "#plot-force-curve [data-zoom=all]"))
     assert ranges(opened, "plot-force-curve")[3] > 2.3 > before[3]
     click(opened, find(opened, "#plot-force-curve [data-zoom=reset]"))
-    actions = package("selenium.webdriver.common.action_chains").ActionChains
-    canvas = find(opened, "#plot-force-curve .canvas")
-    opened.execute_script("arguments[0].scrollIntoView({ block: 'center' })", canvas)
-    before = ranges(opened, "plot-force-curve")
-    drag = actions(opened).move_to_element_with_offset(canvas, -60, -60).click_and_hold()
-    drag.move_by_offset(60, 60).move_by_offset(60, 60).release().perform()
-    wait(lambda: ranges(opened, "plot-force-curve") != before)
-    after = ranges(opened, "plot-force-curve")
-    assert before[0] < after[0] < after[1] < before[1]
-    assert before[2] < after[2] < after[3] < before[3]
 
 
 def test_the_choices_choose(opened, run_folder):
@@ -195,25 +168,6 @@ def test_it_is_accessible_and_legible_in_light_and_dark_and_on_paper(opened, rul
         found = axe.run(opened, options=rules)
         assert [(one["id"], [node["html"] for node in one["nodes"]][:3]) for one in found["violations"]] == []
         assert len(found["passes"]) >= (21 if rules is None else 1)
-    # Paper is light, and the page is dark again afterwards.
-    opened.execute_script(
-        "addEventListener('beforeprint', () => { window.onPaper = DATA.plots.map((one) => Plots.dark(one.id)); });"
-    )
-    assert printed(opened).startswith(b"%PDF")
-    assert set(opened.execute_script("return window.onPaper")) == {False}
-    assert set(dark(opened)) == {True}
-    opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
-    assert opened.execute_script("return getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
-    visible = "return Array.from(document.querySelectorAll(arguments[0]), (e) => e.checkVisibility())"
-    assert set(opened.execute_script(visible, ".controls")) == {False}
-    assert set(opened.execute_script(visible, ".canvas")) == {True}
-    # The system's choice is followed until the reader has chosen.
-    opened.execute_script("delete document.documentElement.dataset.theme")
-    for scheme in ("dark", "light"):
-        features = [{"name": "prefers-color-scheme", "value": scheme}]
-        opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": features})
-        wait(lambda scheme=scheme: set(dark(opened)) == {scheme == "dark"})
-    opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": []})
 
 
 def plots(browser):

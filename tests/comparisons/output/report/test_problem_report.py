@@ -1,7 +1,5 @@
 """The page of a sweep over a problem file: values over the varied keys, errors, failures and the file."""
 
-import csv
-import io
 import math
 import re
 import shutil
@@ -20,15 +18,10 @@ from .browsing import (
     DESKTOP,
     PHONE,
     cells,
-    click,
-    dark,
     find,
-    head,
     messages,
     requests,
     show,
-    sorting,
-    text_of,
     unfold,
     width,
 )
@@ -127,20 +120,6 @@ def test_the_page_in_a_browser(browser, page_of_sweep, swept):
     chosen = stored[stored["law.work_of_adhesion [J/m^2]"] == WORKS[0]]
     assert [float(text) for text in cells(browser, "plot-1-numbers", "value")] == chosen["value"].tolist()
     assert label(browser) == "pull-off force (nN)"
-    # Tables sort, filter and are saved as they are shown.
-    unfold(browser, "results")
-    click(browser, head(browser, "results", "value"))
-    assert sorting(browser, "results", "value") == "ascending"
-    find(browser, "#table-results .filter").send_keys("jkr force")
-    rows = list(csv.DictReader(io.StringIO(text_of(browser, "results", "csv"))))
-    assert {row["model"] for row in rows} == {"jkr"}
-    values = [float(row["value"]) for row in rows]
-    assert len(values) == len(RADII) * len(WORKS)
-    assert values == sorted(values)
-    assert "\\begin{" in text_of(browser, "results", "tex")
-    light = dark(browser)
-    click(browser, find(browser, "#theme"))
-    assert dark(browser) == [not one for one in light]
 
 
 def label(browser):
