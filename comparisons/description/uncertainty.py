@@ -61,8 +61,8 @@ def uncertainty(problem: Problem, quantity: str = "pull_off_force") -> Json:
         )
     try:
         value, u_num, slopes = _slopes(problem, quantity, uncertain)
-        intervals = {key: each for key, each in uncertain.items() if each.is_interval}
-        deviations = [abs(slopes[key]) * each.size for key, each in uncertain.items() if key not in intervals]
+        intervals = {key: spread for key, spread in uncertain.items() if spread.is_interval}
+        deviations = [abs(slopes[key]) * spread.size for key, spread in uncertain.items() if key not in intervals]
         return {
             "quantity": quantity,
             "model": "fscm",
@@ -70,7 +70,7 @@ def uncertainty(problem: Problem, quantity: str = "pull_off_force") -> Json:
             "u_num": u_num,
             "unit": QUANTITIES[quantity].si_unit,
             "status": "ok",
-            "parameters": [_parameter(problem, key, each, slopes[key], value) for key, each in uncertain.items()],
+            "parameters": [_parameter(problem, key, spread, slopes[key], value) for key, spread in uncertain.items()],
             "standard_deviation": math.hypot(*deviations) if deviations else None,
             "range": _range(problem, quantity, value, intervals, slopes) if intervals else None,
         }
@@ -79,15 +79,15 @@ def uncertainty(problem: Problem, quantity: str = "pull_off_force") -> Json:
         return {"quantity": quantity, "status": status, "reason": str(error)}
 
 
-def _parameter(problem: Problem, key: tuple[str, str], each: Uncertainty, slope: float, value: float) -> Json:
+def _parameter(problem: Problem, key: tuple[str, str], spread: Uncertainty, slope: float, value: float) -> Json:
     name = ".".join(key)
     return {
         "parameter": name,
         "value": problem[name],
-        "half_width" if each.is_interval else "standard_deviation": each.size,
+        "half_width" if spread.is_interval else "standard_deviation": spread.size,
         "slope": slope,
         "elasticity": slope * problem[name] / value if value else None,
-        "contribution": abs(slope) * each.size,
+        "contribution": abs(slope) * spread.size,
     }
 
 
@@ -97,11 +97,11 @@ def _slopes(
     """Value and bound of the quantity, and its derivatives by uncertain values."""
     solved = fscm.sensitivity(problem.build(fscm), quantity)
     slopes = {}
-    for (section, key), each in uncertain.items():
-        part = getattr(problem, section)
-        limits = kind_of(section, part.kind).by_name[key].dimension.limits
-        size = max(abs(part[key]), each.size)
-        slopes[section, key] = solved.derivative(_varied(problem, section, key), part[key], size, *limits)
+    for (section, key), spread in uncertain.items():
+        section_values = getattr(problem, section)
+        limits = kind_of(section, section_values.kind).by_name[key].dimension.limits
+        size = max(abs(section_values[key]), spread.size)
+        slopes[section, key] = solved.derivative(_varied(problem, section, key), section_values[key], size, *limits)
     return solved.solution.value, solved.solution.u_num, slopes
 
 
@@ -113,18 +113,18 @@ def _range(
     problem: Problem, quantity: str, value: float, intervals: _Uncertain, slopes: Mapping[tuple[str, str], float]
 ) -> Json:
     """The range over the intervals to first order, and the values and slopes where it ends."""
-    half = sum(abs(slopes[key]) * each.size for key, each in intervals.items())
+    half = sum(abs(slopes[key]) * spread.size for key, spread in intervals.items())
     stated: Json = {"first_order": [value - half, value + half], "solved": None, "is_monotone": None}
     ends, monotone = [], True
     try:
         for side in (-1.0, 1.0):
             there = problem
-            for key, each in intervals.items():
-                low, high = each.limits(problem[".".join(key)])
+            for key, spread in intervals.items():
+                low, high = spread.limits(problem[".".join(key)])
                 there = there.with_value(*key, high if side * slopes[key] > 0.0 else low)
-            end, u_num, others = _slopes(there, quantity, intervals)
+            end, u_num, end_slopes = _slopes(there, quantity, intervals)
             ends.append(end + side * u_num)
-            monotone &= all(others[key] * slopes[key] >= 0.0 for key in intervals)
+            monotone &= all(end_slopes[key] * slopes[key] >= 0.0 for key in intervals)
     except (fscm.NoSuchEvent, fscm.NotConverged, ValueError):
         return stated
     return stated | {"solved": sorted(ends), "is_monotone": monotone}
