@@ -2,7 +2,7 @@
 
 import pytest
 
-from comparisons.data.paper_statements import paper_statements, read_statements, verdicts
+from comparisons.data.paper_statements import read_statements
 
 STATEMENT = """
 [[statement]]
@@ -14,10 +14,6 @@ how = "It is compared."
 range = "n = 2"
 command = "fscm-bench list models"
 """
-
-
-def test_every_statement_has_a_shipped_verdict():
-    assert [row["id"] for row in verdicts()] == [statement.id for statement in paper_statements()]
 
 
 def test_own_cases_are_read():
