@@ -114,13 +114,13 @@ def terminal_tables(
     """
     for cases in case_tables(table):
         shown = cases if every else replace(cases, stored=cases.stored.head(_ROWS))
-        part = "" if len(shown.stored) == len(cases.stored) else f", first {_ROWS} of {len(cases.stored)} cases"
+        limit = "" if len(shown.stored) == len(cases.stored) else f", first {_ROWS} of {len(cases.stored)} cases"
         models = [column.heading for column in cases.columns if column.number.startswith("kappa ")]
         fixed = [name for name in shown.texts if name not in models]
         widths = {name: _GAP + max(map(len, [name, *shown.texts[name]])) for name in shown.texts}
-        room = width + _GAP - sum(widths[name] for name in fixed)
-        beside = max(int(room // max(widths[name] for name in models)), 1)
+        free = width + _GAP - sum(widths[name] for name in fixed)
+        beside = max(int(free // max(widths[name] for name in models)), 1)
         for start in range(0, len(models), beside):
-            yield rich_table(shown.texts[[*fixed, *models[start : start + beside]]], cases.caption + part)
+            yield rich_table(shown.texts[[*fixed, *models[start : start + beside]]], cases.caption + limit)
     for of_quantity in summary_tables(summary):
         yield rich_table(of_quantity.texts, of_quantity.caption)

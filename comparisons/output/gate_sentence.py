@@ -56,8 +56,8 @@ def gates_sentence(gates: pd.DataFrame, bases: Mapping[str, str]) -> str:
     '1 of 1 gate passes, 0 fail as declared, 0 unexpected; report cards: 1 INCONCLUSIVE'
     """
     of_user = without_card_gates(gates)
-    others = Counter(verdict for verdict in gates["verdict"].drop(of_user.index) if verdict != Verdict.PASS)
-    cards = f"; report cards: {_counts(others)}" if others else ""
+    failed_cards = Counter(verdict for verdict in gates["verdict"].drop(of_user.index) if verdict != Verdict.PASS)
+    cards = f"; report cards: {_counts(failed_cards)}" if failed_cards else ""
     if of_user.empty:
         return f"No gate was evaluated{cards}"
     count, total = Counter(of_user["verdict"]), len(of_user)

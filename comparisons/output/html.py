@@ -45,9 +45,9 @@ def html_table(table: Table) -> Markup:
     }
     # A cell longer than this option would be cut.
     with pd.option_context("display.max_colwidth", None):
-        made = pd.DataFrame(cells, dtype=object).to_html(index=False, escape=False, border=0, classes=[])
-    head, rest = made.replace("<th>", '<th scope="col">').split("<thead>", 1)
-    return Markup(head) + Markup("<caption>{}</caption><thead>").format(table.caption) + Markup(rest)
+        html = pd.DataFrame(cells, dtype=object).to_html(index=False, escape=False, border=0, classes=[])
+    head, body = html.replace("<th>", '<th scope="col">').split("<thead>", 1)
+    return Markup(head) + Markup("<caption>{}</caption><thead>").format(table.caption) + Markup(body)
 
 
 def _cell(column: Column, row: Record, text: str) -> Markup:

@@ -129,12 +129,12 @@ def _layout(texts: Mapping[str, list[str]]) -> tuple[_Page, str]:
     widths = {name: max(map(len, [*name.split(), *column])) + _GAP for name, column in texts.items()}
     wraps = [name for name, width in widths.items() if width > _SHORT and not aligned(texts[name])]
     page = _UPRIGHT if sum(min(width, 2 * _SHORT) for width in widths.values()) <= _UPRIGHT.characters else _TURNED
-    room = page.characters - sum(width for name, width in widths.items() if name not in wraps)
+    free = page.characters - sum(width for name, width in widths.items() if name not in wraps)
     forms = {name: f"S[table-format={_number_format(texts[name])}]" if aligned(texts[name]) else "l" for name in widths}
     # The shortest first: what it leaves is for the others.
     for place, name in enumerate(sorted(wraps, key=widths.__getitem__)):
-        share = min(widths[name], max(room / (len(wraps) - place), 6.0))
-        room -= share
+        share = min(widths[name], max(free / (len(wraps) - place), 6.0))
+        free -= share
         if share < widths[name]:
             forms[name] = rf">{{\raggedright\arraybackslash}}p{{{(share - _GAP) * page.width:.0f}pt}}"
     return page, f"@{{}}{''.join(forms.values())}@{{}}"

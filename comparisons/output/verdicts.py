@@ -92,13 +92,13 @@ def write_verdicts(
     write_table(summary.assign(verdict=summary["verdict"].map(str)), files.summary)
     write_table(pd.DataFrame(required, columns=list(GATE_COLUMNS), dtype=str), files.gates)
     requirement = {gate.id: gate.requirement for gate in gates}
-    shown = [
+    layout = [
         *columns("verdict", "gate", "candidate", "reference", "coverage", "E(U)", "limits"),
         Column("command", partial(command, specs=specs)),
         *columns("reason"),
         Column("requirement", lambda row: requirement.get(row["gate"], "")),
     ]
-    by_gate = Table("verdicts", "Verdicts", shown, summary)
+    by_gate = Table("verdicts", "Verdicts", layout, summary)
     worst = Table("verdicts", "Verdicts of fscm-bench, worst first, each in its worst case", _WORST_CASES, summary)
     texts = {files.verdicts.with_suffix(f".{suffix}"): made(by_gate, worst) for suffix, made in FORMATS.items()}
     for path, text in texts.items():

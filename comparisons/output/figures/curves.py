@@ -109,6 +109,6 @@ def tension_view(curves: Iterable[tuple[list[float], list[float]]]) -> list[floa
     deepest = min((float(load.min()) for _, load in pairs), default=0.0)
     if deepest >= 0.0:
         return None
-    shown = np.concatenate([x[(abs(load) > -_FAINT * deepest) & (load < -deepest)] for x, load in pairs])
-    margin = 0.05 * float(np.ptp(shown))
-    return [float(shown.min()) - margin, float(shown.max()) + margin, 1.15 * deepest, -deepest]
+    visible = np.concatenate([x[(abs(load) > -_FAINT * deepest) & (load < -deepest)] for x, load in pairs])
+    margin = 0.05 * float(np.ptp(visible))
+    return [float(visible.min()) - margin, float(visible.max()) + margin, 1.15 * deepest, -deepest]

@@ -111,8 +111,8 @@ def standing(entry: Entry) -> pd.DataFrame:
 
 def _verdict(verdicts: pd.DataFrame, model: str, quantity: str) -> str:
     """Return the worst verdict on a model about a quantity; one without a quantity is on the model as a whole."""
-    own = verdicts[(verdicts["candidate"] == model) & verdicts["quantity"].isin([quantity, ""])]
-    return "" if without_card_gates(own).empty else str(roll_up(own["verdict"]))
+    on_model = verdicts[(verdicts["candidate"] == model) & verdicts["quantity"].isin([quantity, ""])]
+    return "" if without_card_gates(on_model).empty else str(roll_up(on_model["verdict"]))
 
 
 def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:
@@ -140,9 +140,9 @@ def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:
     every = every.sort_values(["quantity", "case_set", "size"], kind="stable", ignore_index=True)
     sets = {letter: _described(entry) for entry, letter in zip(entries, letters, strict=True)}
     described = [(f"set {letter}", text) for letter, text in sorted(sets.items())] if len(sets) > 1 else []
-    shown = [*columns("model"), *([words("set", "case_set")] if described else []), *_COLUMNS]
+    layout = [*columns("model"), *([words("set", "case_set")] if described else []), *_COLUMNS]
     models = every["model"].nunique()
-    board = Table("leaderboard", "One row a model and quantity of each run", shown, every)
+    board = Table("leaderboard", "One row a model and quantity of each run", layout, every)
     headline = f"{models} model{'s' * (models != 1)}, {len(entries)} run{'s' * (len(entries) != 1)}"
     return render(
         Page("leaderboard", headline, [], {"sets": [Facts(described)] if described else [], "board": [board]})

@@ -133,15 +133,15 @@ def make_page(stored: Stored) -> Page:
     stored : Stored
         As `comparisons.output.report.stored_run.read_folder` returns it.
     """
-    found, gates = _headline(stored), _gates(stored)
+    finding, gates = _headline(stored), _gates(stored)
     verdict = str(overall(stored.verdicts)) if stored.judged else ""
-    lines = [f"{gates}." if gates and gates != found else "", texts()["meaning"][verdict or "none"], _summary(stored)]
+    lines = [f"{gates}." if gates and gates != finding else "", texts()["meaning"][verdict or "none"], _summary(stored)]
     summary = error_summary(stored.comparison)
     errors = errors_of_models(stored.kappa)
     counts = Counter(stored.verdicts["verdict"])
     return Page(
         kind="report",
-        headline=f"{found}.",
+        headline=f"{finding}.",
         lines=list(filter(None, lines)),
         blocks=_blocks(stored, summary),
         facts=errors if len(errors) > 1 else (),

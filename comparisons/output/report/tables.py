@@ -50,7 +50,7 @@ def gates(stored: Stored) -> Iterator[Table]:
         return f"E = {METRICS.get(fact['metric'], fact['metric'])}; {fact['basis']}: {fact['grounds']}" if fact else ""
 
     gate, limits = columns("gate", "limits")
-    shown = [
+    layout = [
         *columns("verdict"),
         _small(gate, lambda row: facts.get(row["gate"], {}).get("requirement", ""), "prose"),
         *columns("candidate", "reference"),
@@ -58,13 +58,13 @@ def gates(stored: Stored) -> Iterator[Table]:
         *columns("coverage", "E(U)"),
         _small(limits, grounds, "prose"),
     ]
-    yield Table("matrix", "Gates, worst first, each with its worst error", shown, stored.summary, "summary.csv")
-    found, domains = stored.record.get("cards", {}), stored.record.get("domains", {})
+    yield Table("matrix", "Gates, worst first, each with its worst error", layout, stored.summary, "summary.csv")
+    recorded_cards, domains = stored.record.get("cards", {}), stored.record.get("domains", {})
     lines = [
         (name, *line)
         for name in given_models(stored.record["arguments"].get("model"), stored.verdicts)
         for line in card_lines(
-            name, stored.verdicts, found.get(name), Domain.of_json(domains[name]) if name in domains else None
+            name, stored.verdicts, recorded_cards.get(name), Domain.of_json(domains[name]) if name in domains else None
         )
     ]
     card = [*columns("model"), words("item", "item"), words("result", "result", "prose")]
@@ -81,22 +81,22 @@ def worst_cases(stored: Stored) -> Iterator[Table]:
     note = f"{bad} of {len(judged)} judged cases do not pass; declared failures (XFAIL) count here."
     if bad < _AT_LEAST:
         note += " Cases that pass are here too: those nearest to a limit, as a share of the gate's width."
-    numbers_shown = columns(*CASE_COLUMNS, "candidate's value", "reference's value", "E(U)")
-    numbers_shown += [numbers("U", "uncertainty", ".1e"), *columns("limits")]
+    case_numbers = columns(*CASE_COLUMNS, "candidate's value", "reference's value", "E(U)")
+    case_numbers += [numbers("U", "uncertainty", ".1e"), *columns("limits")]
     verdict, gate, *whose = columns("verdict", "gate", "candidate", "quantity")
     again = Column("computed again by", partial(command, specs=stored.specs), kind="code")
-    worst = [verdict, _small(gate, lambda row: row["reason"] or "", "prose"), *whose, *numbers_shown, again]
+    worst = [verdict, _small(gate, lambda row: row["reason"] or "", "prose"), *whose, *case_numbers, again]
     caption = "Worst cases first, with the command that computes the candidate's side again"
     yield Table("offenders", caption, worst, rows, "verdicts.csv", note)
-    every = [*columns("verdict", "gate", "candidate", "reference", "quantity"), *numbers_shown, *columns("reason")]
+    every = [*columns("verdict", "gate", "candidate", "reference", "quantity"), *case_numbers, *columns("reason")]
     yield Table("verdicts", "Every gate in every case", every, stored.verdicts, "verdicts.csv", fold="Every verdict")
 
 
 def errors(stored: Stored) -> Iterator[Table]:
     """Yield the relative errors, and the largest of each n and k."""
-    shown = columns("model", "quantity", *CASE_COLUMNS, "value", "reference", "reference's value", "κ (%)", "u of κ")
+    layout = columns("model", "quantity", *CASE_COLUMNS, "value", "reference", "reference's value", "κ (%)", "u of κ")
     caption = "Relative errors against the reference"
-    yield Table("kappa", caption, shown, stored.kappa, "kappa.csv", fold=_PLOT, group=kappa_group)
+    yield Table("kappa", caption, layout, stored.kappa, "kappa.csv", fold=_PLOT, group=kappa_group)
     largest = [*columns("model", "quantity", "n", "k"), percents("largest κ (%)", "kappa", "u_kappa")]
     largest += [
         numbers("at μ", "mu"),
@@ -111,28 +111,28 @@ def errors(stored: Stored) -> Iterator[Table]:
 
 def convergence(results: pd.DataFrame) -> Table:
     """Return the numbers of discretisations."""
-    shown = [*columns("model", "quantity", *CASE_COLUMNS, "value", "u_num")]
-    shown += [numbers("observed order", "observed_order", ".2f"), numbers("unknowns", "size", ".0f")]
-    shown += [numbers("iterations", "iterations", ".0f"), numbers("residual", "residual", ".1e")]
+    layout = [*columns("model", "quantity", *CASE_COLUMNS, "value", "u_num")]
+    layout += [numbers("observed order", "observed_order", ".2f"), numbers("unknowns", "size", ".0f")]
+    layout += [numbers("iterations", "iterations", ".0f"), numbers("residual", "residual", ".1e")]
     rows = results[(results["size"] > 0) & (results["status"] == "ok")]
-    return Table("convergence", "Numbers from a discretisation", shown, rows, "results.csv", fold="These numbers")
+    return Table("convergence", "Numbers from a discretisation", layout, rows, "results.csv", fold="These numbers")
 
 
 def values(stored: Stored, plot: Plot, keys: Sequence[str]) -> Table:
     """Return the values of problem files over the keys of a plot."""
-    shown = [*columns("model"), *key_columns(keys), Column("value", physical_text, "value")]
-    shown += [numbers("u_num", "u_num", ".1e"), *columns("unit")]
+    layout = [*columns("model"), *key_columns(keys), Column("value", physical_text, "value")]
+    layout += [numbers("u_num", "u_num", ".1e"), *columns("unit")]
     rows = stored.results.loc[plot.points.sort_index().index]
-    return Table(plot.table, plot.title, shown, rows, "results.csv", fold=_PLOT, group=value_group(keys))
+    return Table(plot.table, plot.title, layout, rows, "results.csv", fold=_PLOT, group=value_group(keys))
 
 
 def curve_points(stored: Stored, plot: Plot) -> Table:
     """Return the stored points of the curves of a plot."""
-    shown = [*columns("model", *CASE_COLUMNS), numbers("point", "point", ".0f"), numbers(plot.x_label, "x", ".8g")]
-    shown += [numbers(plot.y_label, "y", ".8g"), numbers("u, share of the picture", "u_distance", ".1e")]
+    layout = [*columns("model", *CASE_COLUMNS), numbers("point", "point", ".0f"), numbers(plot.x_label, "x", ".8g")]
+    layout += [numbers(plot.y_label, "y", ".8g"), numbers("u, share of the picture", "u_distance", ".1e")]
     rows = stored.curves[(stored.curves["quantity"] == plot.table) & (stored.curves["status"] == "ok")]
     caption = f"Stored points: {plot.title}"
-    return Table(plot.table, caption, shown, rows, "curves.csv", fold=_PLOT, group=curve_group)
+    return Table(plot.table, caption, layout, rows, "curves.csv", fold=_PLOT, group=curve_group)
 
 
 def numbers_of(stored: Stored) -> Iterator[Table]:
@@ -145,11 +145,14 @@ def numbers_of(stored: Stored) -> Iterator[Table]:
     models["seconds"], models["spec"] = models["model"].map(seconds), models["model"].map(stored.specs)
     for name in ("domain", "citation"):
         models[name] = [described.get(model, {}).get(name) for model in models["model"]]
-    shown = [*columns("model", "version"), *(numbers(name, name, ".0f") for name in ("ok", "not-applicable", "failed"))]
-    shown += [numbers("seconds", "seconds", ".3g"), words("SPEC, if external", "spec", "code")]
-    shown += [words("domain", "domain", "prose"), words("citation", "citation", "prose")]
-    yield Table("models", "Models, and how their computations ended", shown, models)
-    shown = columns("model", "version", "quantity", *CASE_COLUMNS, "value", "u_num", "unit")
-    shown += [numbers("dimensionless value", "dimensionless_value"), words("its unit", "dimensionless_unit")]
-    shown += columns("status", "reason")
-    yield Table("results", "Every computed number", shown, stored.results, "results.csv", fold="Every computed number")
+    layout = [
+        *columns("model", "version"),
+        *(numbers(name, name, ".0f") for name in ("ok", "not-applicable", "failed")),
+    ]
+    layout += [numbers("seconds", "seconds", ".3g"), words("SPEC, if external", "spec", "code")]
+    layout += [words("domain", "domain", "prose"), words("citation", "citation", "prose")]
+    yield Table("models", "Models, and how their computations ended", layout, models)
+    layout = columns("model", "version", "quantity", *CASE_COLUMNS, "value", "u_num", "unit")
+    layout += [numbers("dimensionless value", "dimensionless_value"), words("its unit", "dimensionless_unit")]
+    layout += columns("status", "reason")
+    yield Table("results", "Every computed number", layout, stored.results, "results.csv", fold="Every computed number")

@@ -28,13 +28,13 @@ RECORD = {
 
 def entries(text):
     """Key -> fields of every entry, read as BibTeX does: by its braces."""
-    found = {}
+    cited = {}
     for kind, key, body in re.findall(r"^@(\w+)\{([^,]+),\n(.*?)^\}$", text, re.M | re.S):
         fields = dict(re.findall(r"^  (\w+) = \{(.*)\},$", body, re.M))
         assert all(value.count("{") == value.count("}") for value in fields.values())
         assert len(fields) == len(body.splitlines())
-        found[key] = {"kind": kind, **fields}
-    return found
+        cited[key] = {"kind": kind, **fields}
+    return cited
 
 
 def test_the_data_are_those_of_the_citation_file():
@@ -45,20 +45,20 @@ def test_the_data_are_those_of_the_citation_file():
 
 
 def test_without_a_run_it_names_fscm_bench_and_the_paper():
-    found = entries(as_bibtex(works("1.2.3")))
-    assert list(found) == ["fscm-bench", "zhu-adhesion"]
-    assert found["fscm-bench"]["author"] == "{The fscm-bench developers}"
-    assert found["fscm-bench"]["note"] == "version 1.2.3"
-    assert found["zhu-adhesion"]["author"].startswith("Zhu, Yudong and ")
+    cited = entries(as_bibtex(works("1.2.3")))
+    assert list(cited) == ["fscm-bench", "zhu-adhesion"]
+    assert cited["fscm-bench"]["author"] == "{The fscm-bench developers}"
+    assert cited["fscm-bench"]["note"] == "version 1.2.3"
+    assert cited["zhu-adhesion"]["author"].startswith("Zhu, Yudong and ")
 
 
 def test_a_run_names_its_versions_and_models():
-    found = entries(as_bibtex(works("not this one", RECORD)))
-    assert found["fscm-bench"]["note"] == "version 0.1.0 (commit 0123456789ab)"
-    assert found["model-my-model"]["title"] == r"{Model my\_model, version 2 (ab)}"
-    assert found["model-my-model"]["note"] == r"Someone, 50 \% wrong"
-    assert found["numpy"]["note"] == "version 2.4.6"
-    assert "scikit-fem" not in found
+    cited = entries(as_bibtex(works("not this one", RECORD)))
+    assert cited["fscm-bench"]["note"] == "version 0.1.0 (commit 0123456789ab)"
+    assert cited["model-my-model"]["title"] == r"{Model my\_model, version 2 (ab)}"
+    assert cited["model-my-model"]["note"] == r"Someone, 50 \% wrong"
+    assert cited["numpy"]["note"] == "version 2.4.6"
+    assert "scikit-fem" not in cited
 
 
 def test_the_paragraph_states_reference_bound_and_origin():
