@@ -80,7 +80,7 @@ def _check(problem: Problem, model: Model, quantity: str) -> None:
         domain = declared_domain(model)
         if domain is not None and not domain.contains(quantity, problem.numbers):
             raise NotApplicable(domain.refusal(quantity))
-    elif model.name not in SOLVERS and not hasattr(model, "punches"):  # one with other punches looks for itself
+    elif model.name not in SOLVERS and not hasattr(model, "punches"):  # one with other punches checks them itself
         raise NotApplicable(
             f"{model.name} takes a power-law or homogeneous solid, a sphere, cone or power-law punch and the 9-3 law; "
             f"this problem has a {problem.solid.kind} solid, a {problem.punch.kind} punch and a {problem.law.kind} law"
