@@ -31,6 +31,9 @@ _LONGEST_REPLY = 200_000_000
 #: Seconds that a process may take to end after its pipe has closed; a loaded machine took more than one.
 _END_SECONDS = 10.0
 
+#: Seconds in which a program may write a second line for one request.
+_AFTER_REPLY = 0.005
+
 #: Bytes of the end of stderr that are read for a message.
 _LAST_WORDS = 1000
 
@@ -93,7 +96,11 @@ class Child:
             # A process that has ended is noticed where its reply is read.
             with contextlib.suppress(OSError):
                 self._requests.write(json.dumps(request, allow_nan=False).encode() + b"\n")
-            return self._line(self._seconds)
+            line = self._line(self._seconds)
+            # What a program writes besides is then there before the next request, which notices it.
+            if self._is_program:
+                self._is_readable(_AFTER_REPLY)
+            return line
 
     def has_ended(self) -> bool:
         """Whether the process was ended, or has ended after its last reply.

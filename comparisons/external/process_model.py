@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 from comparisons.external.child import Child, Overdue
-from comparisons.external.replies import Description, curve_of, described, result_of
+from comparisons.external.replies import Description, Malformed, curve_of, described, result_of
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 
 __all__ = ["PATIENCE", "ExternalModel", "ExternalModelWithCurve", "connect", "contradiction"]
+
+_Reply = TypeVar("_Reply", Result, Curve)
 
 #: Requests in a row that may run out of time; later ones are not sent, because a run of hundreds must end.
 PATIENCE = 3
@@ -54,14 +57,14 @@ class ExternalModel:
             raise ValueError(f"quantity {quantity!r} is unknown; the known ones are {', '.join(QUANTITIES)}")
         more = {"scales": scales} if scales else {}
         started = time.perf_counter()
-        reply = self._reply({"request": "evaluate", "quantity": quantity, **more}, problem)
-        return replace(result_of(reply), seconds=time.perf_counter() - started)
+        result = self._reply({"request": "evaluate", "quantity": quantity, **more}, problem, result_of)
+        return replace(result, seconds=time.perf_counter() - started)
 
     def close(self) -> None:
         """End the process; the next request starts a new one."""
         self._child.close()
 
-    def _reply(self, request: dict[str, Any], problem: Problem) -> bytes:
+    def _reply(self, request: dict[str, Any], problem: Problem, read: Callable[[bytes], _Reply]) -> _Reply:
         if self._refusal:
             raise ComputationFailed(self._refusal)
         try:
@@ -75,7 +78,11 @@ class ExternalModel:
             raise
         # Only the reply to a case shows that the model can be in time; loading it again does not.
         self._overdue = 0
-        return reply
+        try:
+            return read(reply)
+        except Malformed:
+            self.close()
+            raise
 
     def _start_again(self) -> None:
         self.close()
@@ -92,7 +99,7 @@ class ExternalModelWithCurve(ExternalModel):
 
     def curve(self, problem: Problem) -> Curve:
         """Return the curve, or raise as `evaluate`."""
-        return curve_of(self._reply({"request": "curve"}, problem))
+        return self._reply({"request": "curve"}, problem, curve_of)
 
 
 def connect(source: dict[str, Any], spec: str, poisson_ratio: float | None = None) -> ExternalModel:

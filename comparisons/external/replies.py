@@ -19,13 +19,17 @@ from comparisons.external.fingerprint import fingerprint
 from comparisons.external.text_rules import model_name, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 
-__all__ = ["Description", "curve_of", "described", "result_of"]
+__all__ = ["Description", "Malformed", "curve_of", "described", "result_of"]
 
 #: Status of a reply without a result -> the exception that it means.
 _REFUSALS = {"not-applicable": NotApplicable, "failed": ComputationFailed}
 
 #: Digits of the digest that are kept in the version of a model.
 _DIGEST = 12
+
+
+class Malformed(ComputationFailed):
+    """A line that is no reply: what the process writes next may belong to another request."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +95,7 @@ def result_of(line: bytes) -> Result:
     --------
     >>> result_of(b'{"status": "ok", "value": 1.5, "unum": 0}')
     Traceback (most recent call last):
-    comparisons.model.ComputationFailed: the reply of the model: evaluate: unknown key 'unum': did you mean u_num?
+    comparisons.external.replies.Malformed: the reply of the model: evaluate: unknown key 'unum': did you mean u_num?
     """
     reply = _parsed(line)
     _check("evaluate", reply)
@@ -112,7 +116,7 @@ def curve_of(line: bytes) -> Curve:
     columns |= {one_line(name, 60): _column(name, values) for name, values in reply.get("columns", {}).items()}
     if len(set(map(len, columns.values()))) != 1:
         listed = ", ".join(f"{name} {len(values)}" for name, values in columns.items())
-        raise ComputationFailed(f"the columns of the curve have different lengths: {listed}")
+        raise Malformed(f"the columns of the curve have different lengths: {listed}")
     return Curve(columns.pop("displacement"), columns.pop("load"), columns)
 
 
@@ -123,12 +127,12 @@ def _parsed(line: bytes) -> dict[str, Any]:
         reply = None
     if not isinstance(reply, dict):
         quoted = one_line(repr(line[:200].decode(errors="replace").strip()), 80)
-        raise ComputationFailed(f"its process wrote {quoted}, which is not one JSON object in one line")
+        raise Malformed(f"its process wrote {quoted}, which is not one JSON object in one line")
     return reply
 
 
 def _refuse_constant(name: str) -> NoReturn:
-    raise ComputationFailed(f"its process wrote {name}, which is not a finite number, and which JSON does not have")
+    raise Malformed(f"its process wrote {name}, which is not a finite number, and which JSON does not have")
 
 
 def _check(request: str, reply: dict[str, Any]) -> None:
@@ -138,13 +142,13 @@ def _check(request: str, reply: dict[str, Any]) -> None:
         reason = reply.get("reason", "")
         raise _REFUSALS[status](one_line(str(reason)) or "the model gave no reason")
     if status != "ok":
-        raise ComputationFailed(
+        raise Malformed(
             f"the reply of the model: status = {one_line(repr(status), 60)} must be ok, {' or '.join(_REFUSALS)}"
         )
     try:
         validated({request: reply}, "reply", "the reply of the model")
     except ValueError as error:
-        raise ComputationFailed(one_line(str(error))) from None
+        raise Malformed(one_line(str(error))) from None
 
 
 def _column(name: str, values: list[Any]) -> NDArray[np.float64]:
@@ -153,5 +157,5 @@ def _column(name: str, values: list[Any]) -> NDArray[np.float64]:
     except ValueError:  # lists of different lengths
         column = np.empty((0, 0))
     if column.ndim != 1 or column.dtype.kind not in "fiu" or not np.isfinite(column).all():
-        raise ComputationFailed(f"column {one_line(name, 60)} of the curve is not a list of finite real numbers")
+        raise Malformed(f"column {one_line(name, 60)} of the curve is not a list of finite real numbers")
     return column.astype(float)
