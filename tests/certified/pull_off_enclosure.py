@@ -126,6 +126,6 @@ def _decimal(ball: arb) -> str:
 
 if __name__ == "__main__":
     for name, certified in CERTIFIED.items():
-        found = pull_off_enclosure(certified.form, certified.panel_count, certified.eta)
-        print(f"{name}: force {_decimal(found.force)}, displacement {_decimal(found.displacement)}, ", end="")
-        print(f"P'' {_decimal(found.curvature)} within {certified.eta:g}", flush=True)
+        enclosure = pull_off_enclosure(certified.form, certified.panel_count, certified.eta)
+        print(f"{name}: force {_decimal(enclosure.force)}, displacement {_decimal(enclosure.displacement)}, ", end="")
+        print(f"P'' {_decimal(enclosure.curvature)} within {certified.eta:g}", flush=True)

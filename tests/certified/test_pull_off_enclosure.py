@@ -46,17 +46,17 @@ def test_the_solver_is_inside_its_bound_of_the_certified_value(name):
 )
 def test_a_certified_value_is_proved_again(name):
     certified = CERTIFIED[name]
-    found = pull_off_enclosure(certified.form, certified.panel_count, certified.eta)
+    enclosure = pull_off_enclosure(certified.form, certified.panel_count, certified.eta)
     with ctx.workprec(200):
-        assert arb(certified.force).contains(found.force)
-        assert arb(certified.displacement).contains(found.displacement)
-    assert found.curvature > 0
+        assert arb(certified.force).contains(enclosure.force)
+        assert arb(certified.displacement).contains(enclosure.displacement)
+    assert enclosure.curvature > 0
 
 
 def test_a_smaller_degree_proves_fewer_digits_of_the_same_value(states, bounds):
-    found = minimum(states, bounds, ETA)
-    assert found.force.overlaps(arb(CERTIFIED["mu = 1/10"].force))
-    assert 1e-11 < found.force.rad() < 1e-9
+    lowest = minimum(states, bounds, ETA)
+    assert lowest.force.overlaps(arb(CERTIFIED["mu = 1/10"].force))
+    assert 1e-11 < lowest.force.rad() < 1e-9
 
 
 @pytest.mark.heavy

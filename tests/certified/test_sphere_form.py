@@ -89,6 +89,6 @@ def test_the_remainder_of_sigma_cubed_is_bounded(degree):
         assert total < highest
         assert highest < 2 * total  # a bound, and not a loose one
     terms = [float(x) for x in terms]
-    found = [abs(np.polynomial.legendre.legval(s, terms)) * (1 + s) / 2 for s in np.linspace(-0.999, 1.0, 500)]
-    assert max(found) < squared
-    assert max(found) > squared / 10
+    values = [abs(np.polynomial.legendre.legval(s, terms)) * (1 + s) / 2 for s in np.linspace(-0.999, 1.0, 500)]
+    assert max(values) < squared
+    assert max(values) > squared / 10

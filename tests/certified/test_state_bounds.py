@@ -51,7 +51,7 @@ def along(states: ApproximateStates, x: arb) -> tuple[arb_series, arb_series, li
 
 @pytest.mark.parametrize("index", INDICES)
 def test_the_bounds_of_a_panel_cover_its_points(states, bounds, index):
-    panel, found = panels(COUNT)[index], bounds[index]
+    panel, bound = panels(COUNT)[index], bounds[index]
     largest = [arb(0)] * 3
     with ctx.workprec(BITS):
         for place in map(arb, PLACES):
@@ -60,24 +60,24 @@ def test_the_bounds_of_a_panel_cover_its_points(states, bounds, index):
             defect = Pi - law(x, gap)
             for order, factor in enumerate((1, 1, 2)):
                 value = abs(factor * defect[order])
-                assert value <= found.defects[order]
+                assert value <= bound.defects[order]
                 largest[order] = largest[order].max(value)
-            assert found.gap.overlaps(gap[0])
-            assert abs(x * W[1] - 1) <= found.rate
-            assert abs(2 * W[2]) <= found.second
-            slopes, top = _slopes(found, arb(0), arb(0)), found.sigma.upper()
-            third = slopes.third * found.rate**3 + 3 * slopes.second * top * found.rate * found.second
+            assert bound.gap.overlaps(gap[0])
+            assert abs(x * W[1] - 1) <= bound.rate
+            assert abs(2 * W[2]) <= bound.second
+            slopes, top = _slopes(bound, arb(0), arb(0)), bound.sigma.upper()
+            third = slopes.third * bound.rate**3 + 3 * slopes.second * top * bound.rate * bound.second
             assert abs(6 * defect[3]) <= third
     # The bounds are not loose: measured, the points reach 0.05 of them on each panel.
-    assert all(value > bound / 40 for value, bound in zip(largest, found.defects, strict=True))
+    assert all(value > limit / 40 for value, limit in zip(largest, bound.defects, strict=True))
 
 
 @pytest.mark.parametrize("index", INDICES)
 @pytest.mark.parametrize(("move", "radius"), [(0.0, 0.0), (0.01, 0.003)])
 def test_the_slopes_of_a_tube_cover_its_points(states, bounds, index, move, radius):
-    panel, found = panels(COUNT)[index], bounds[index]
+    panel, bound = panels(COUNT)[index], bounds[index]
     with ctx.workprec(BITS):
-        slopes = _slopes(found, arb(move), arb(radius))
+        slopes = _slopes(bound, arb(move), arb(radius))
         limits = (slopes.first, slopes.second, slopes.third)
         for place in map(arb, PLACES):
             x = panel.centre + panel.half * place

@@ -202,24 +202,24 @@ class BruteForce:
         if not at[0] - _FIRST < d < at[-1] + _FIRST:
             return False
         j = int(np.clip(np.searchsorted(at, d), 1, len(at) - 1)) if len(at) > 1 else 0
-        part = np.clip((d - at[j - 1]) / (at[j] - at[j - 1]), 0.0, 1.0) if j else 1.0
-        start = (1.0 - part) * branch.gaps[j - 1] + part * branch.gaps[j]
+        fraction = np.clip((d - at[j - 1]) / (at[j] - at[j - 1]), 0.0, 1.0) if j else 1.0
+        start = (1.0 - fraction) * branch.gaps[j - 1] + fraction * branch.gaps[j]
         new = self._solved(start, d, self._factors(self.jacobian(start)))
         return new is not None and bool(np.max(np.abs(new - H) / self.clearance(H)) < _SAME)
 
     def branches(self, largest: float) -> list[Branch]:
         """All branches that jumps lead to, from full contact at the displacement `largest`."""
-        found: list[Branch] = []
+        branches: list[Branch] = []
         seeds = [(largest, self.compressed(largest))]
         while seeds:
             d, H = seeds.pop()
-            if any(self._on(branch, H, d) for branch in found):
+            if any(self._on(branch, H, d) for branch in branches):
                 continue
-            if len(found) == _MOST_BRANCHES:
+            if len(branches) == _MOST_BRANCHES:
                 raise RuntimeError(f"more than {_MOST_BRANCHES} branches")
             branch = Branch()
             branch.add(d, *self._load(H, self._linearised(H)[1]), H, True)
-            found.append(branch)
+            branches.append(branch)
             for upwards in (False, True):
                 if self.swept(branch, largest if upwards else -math.inf, upwards):
                     beyond = branch.displacements[-upwards] + (_BEYOND if upwards else -_BEYOND)
@@ -228,7 +228,7 @@ class BruteForce:
                         branch.above = True
                     else:
                         branch.below = True
-        return found
+        return branches
 
 
 def _rising(factors):

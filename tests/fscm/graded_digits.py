@@ -80,13 +80,13 @@ def _stretches(solid, deepest):
             return 1 / (1 + mpmath.exp(2 * (z - h) / w))
 
         return [(variable, y(min(deepest, h + CONSTANT * w / 2)), y(mpf(0)))]
-    found = []
+    zeros = []
     curve = scipy.interpolate.PchipInterpolator(solid.depths, solid.moduli)
     for i, (a, b) in enumerate(pairwise(solid.depths)):
         if deepest > a:
             E = [mpf(c) for c in curve.c[::-1, i].tolist()]
-            found.append((_of([one], E), min(deepest, mpf(b)) - mpf(a), mpf(0)))
-    return found[::-1]
+            zeros.append((_of([one], E), min(deepest, mpf(b)) - mpf(a), mpf(0)))
+    return zeros[::-1]
 
 
 def _shifted(coefficients, y):
@@ -127,8 +127,8 @@ def _step(variable, y, h, xi, Q, constants):
         ends.append([sum(term[q] for term in series) for q in range(4)])
     (u1, w1, t1, s1), (u2, w2, t2, s2) = ends
     det = t1 * s2 - t2 * s1
-    found = (u1 * s2 - u2 * s1, u2 * t1 - u1 * t2, w1 * s2 - w2 * s1, w2 * t1 - w1 * t2)
-    return [(x << BITS) // det for x in found]
+    coefficients = (u1 * s2 - u2 * s1, u2 * t1 - u1 * t2, w1 * s2 - w2 * s1, w2 * t1 - w1 * t2)
+    return [(x << BITS) // det for x in coefficients]
 
 
 def relative_compliance(solid, xi):
@@ -204,10 +204,10 @@ def main():
         r, t = pairs(name)
         values = [response(modes, *pair) for pair in zip(r, t, strict=True)]
         coarse = [response(modes[:-2], *pair, nodes=13) for pair in zip(r, t, strict=True)]
-        known = json.loads(FILE.read_text()) if FILE.exists() else {}
+        stored = json.loads(FILE.read_text()) if FILE.exists() else {}
         error = float(np.max(np.abs(np.array(coarse) / np.array(values) - 1.0)))
-        known[name] = {"r": r, "t": t, "G": values, "modes": modes.T.tolist(), "error": error}
-        FILE.write_text(json.dumps(known) + "\n")
+        stored[name] = {"r": r, "t": t, "G": values, "modes": modes.T.tolist(), "error": error}
+        FILE.write_text(json.dumps(stored) + "\n")
 
 
 if __name__ == "__main__":

@@ -41,13 +41,13 @@ NAMES = tuple(name for name in QUANTITIES if name != "critical_tabor_number")
 def problems(count: int = COUNT) -> list[Problem]:
     """Problems of the box 0.8 <= n <= 10, 0 <= k <= 0.9, 0.005 <= mu <= 20, an eighth of them homogeneous."""
     rng = np.random.default_rng(SEED)
-    found = []
+    problems = []
     for _ in range(count):
         n = math.exp(rng.uniform(math.log(0.8), math.log(10.0)))
         k = rng.uniform(0.0, 0.9) * (rng.random() < 0.875)
         mu = math.exp(rng.uniform(math.log(0.005), math.log(20.0)))
-        found.append(Problem(round(n, 4), round(k, 4), float(f"{mu:.4g}")))
-    return found
+        problems.append(Problem(round(n, 4), round(k, 4), float(f"{mu:.4g}")))
+    return problems
 
 
 @one_thread()
@@ -92,8 +92,8 @@ def rows_of(problem: Problem) -> Iterator[tuple[object, ...]]:
         return
     for name in NAMES:
         try:
-            found = model.solution(name)
-            yield *case, name, "value", repr(float(found.value)), len(model.points), f"{found.u_num:.2g}"
+            solution = model.solution(name)
+            yield *case, name, "value", repr(float(solution.value)), len(model.points), f"{solution.u_num:.2g}"
         except (NoSuchEvent, NotConverged) as error:
             yield *case, name, type(error).__name__, "", len(model.points), ""
 

@@ -147,15 +147,15 @@ def displacements(jumps: Sequence[float]) -> str:
 def table_row(number: int) -> dict[str, object]:
     """Row of a punch in the table: its path, and the stable states on a fixed mesh."""
     case = random_punch(number)
-    found, states = outcome(Analysis(case.problem)), stable_states(case.problem, case.height)
-    complete = found.status == "complete"
+    values, states = outcome(Analysis(case.problem)), stable_states(case.problem, case.height)
+    complete = values.status == "complete"
     return {
         "number": number,
         "seed": SEED,
         "kind": case.kind,
-        "status": found.status,
-        "pull_off_force": f"{found.force:.12g}" if complete else "",
-        "u_num": f"{found.u_num:.2g}" if complete else "",
+        "status": values.status,
+        "pull_off_force": f"{values.force:.12g}" if complete else "",
+        "u_num": f"{values.u_num:.2g}" if complete else "",
         "brute_force": f"{states.pull_off_force:.6g}",
         "retreat": displacements(states.retreat),
         "approach": displacements(states.approach),

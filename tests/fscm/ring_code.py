@@ -241,12 +241,12 @@ def extreme(surface: Surface, state: State, high: float, low: float, event: str)
     """The state at the extreme of the polynomial through those at STATES gaps between two."""
     functional, sign = EXTREMES[event]
     gaps = 0.5 * (high + low) + 0.5 * (high - low) * chebyshev.chebpts1(STATES)
-    known = [state]
+    states = [state]
 
     def at(gap: float) -> State:
         """From the nearest known state."""
-        known.append(surface.state(state.pin, gap, min(known, key=lambda s: abs(s.gap[s.pin] - gap)).gap))
-        return known[-1]
+        states.append(surface.state(state.pin, gap, min(states, key=lambda s: abs(s.gap[s.pin] - gap)).gap))
+        return states[-1]
 
     gaps = sorted((float(gap) for gap in gaps), key=lambda gap: abs(gap - state.gap[state.pin]))
     values = [sign * functional(at(gap)) for gap in gaps]
@@ -266,10 +266,10 @@ def unresolved(surface: Surface, state: State, tolerance: float) -> Array:
         * traction(state.gap).reshape(-1, ORDER)
         @ chebyshev.chebvander(chebyshev.chebpts1(ORDER), ORDER - 1)
     )
-    last = np.max(np.abs(modes[:, -2:]), axis=1)
+    highest_modes = np.max(np.abs(modes[:, -2:]), axis=1)
     lengths = np.diff(surface.breaks)
     M = 2.0 * surface.mu ** ((2.0 * surface.n + surface.k - 1.0) / surface.n)
-    return last * np.maximum(2.0 * surface.breaks[1:] * lengths, M * lengths ** (1.0 - surface.k)) > tolerance
+    return highest_modes * np.maximum(2.0 * surface.breaks[1:] * lengths, M * lengths ** (1.0 - surface.k)) > tolerance
 
 
 def on_breaks(old: Surface, state: State, breaks: Array) -> tuple[Surface, State]:

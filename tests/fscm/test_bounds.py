@@ -128,17 +128,17 @@ def test_the_part_of_the_mesh_is_sharp(n: float, k: float, mu: float) -> None:
 def test_a_nearer_end_raises_the_parts_of_tail_and_domain() -> None:
     """At zero load only the tail is wrong; at pull-off w behind the mesh as well, which is in the domain."""
     problem = Problem(1, 0.3, 0.5)
-    found = {}
+    solutions = {}
     for quantity in ("zero_load_displacement", "pull_off_force"):
         exact = Analysis(problem, Meshes(value=Mesh(14, 1e-9), end_height=1e8)).solution(quantity)
         for end in (1e2, 1e6):
             solution = Analysis(problem, Meshes(value=Mesh(14, 1e-9), end_height=end)).solution(quantity)
-            found[quantity, end] = solution
+            solutions[quantity, end] = solution
             assert abs(solution.value - exact.value) <= solution.u_num + exact.u_num
-        near, far = found[quantity, 1e2].parts, found[quantity, 1e6].parts
+        near, far = solutions[quantity, 1e2].parts, solutions[quantity, 1e6].parts
         assert near["tail"] > 1e4 * far["tail"]
         assert near["domain"] > 1e4 * far["domain"]
-        error = abs(found[quantity, 1e2].value - exact.value)
+        error = abs(solutions[quantity, 1e2].value - exact.value)
         if quantity == "zero_load_displacement":
             assert SHARP * near["tail"] < error
         else:
@@ -159,8 +159,8 @@ def test_noise_in_the_matrix_moves_the_force_as_the_part_of_rounding_says(n: flo
         noisy.__dict__.update(disc.__dict__)
         noise = rng.choice([-1.0, 1.0], disc.matrix.shape[1])[None, :] * rng.choice([-1.0, 1.0], (len(disc.matrix), 1))
         noisy.matrix = disc.matrix * (1.0 + 8.0 * enlarged * _ROUNDOFF * noise)
-        found = _pull_off_on(State(noisy, state.scale, state.gap, state.displacement, state.follows_edge))
-        moves.append(abs(found.load - state.load))
+        solution = _pull_off_on(State(noisy, state.scale, state.gap, state.displacement, state.follows_edge))
+        moves.append(abs(solution.load - state.load))
     rounding = enlarged * model.parts("pull_off", "load")["rounding"]
     assert 1e-4 * rounding < max(moves) < rounding
 
@@ -170,8 +170,8 @@ def _pull_off_on(state: State) -> State:
     step = 1e-4
     for _ in range(4):
         rates = rates_of(start)
-        other = moved(start, rates, parameter_of(start) + step)
-        slope = (rates_of(other).load - rates.load) / step
+        moved_state = moved(start, rates, parameter_of(start) + step)
+        slope = (rates_of(moved_state).load - rates.load) / step
         start = moved(start, rates, parameter_of(start) - rates.load / slope)
     return start
 
@@ -206,7 +206,7 @@ def gauss_nodes() -> tuple[np.ndarray, np.ndarray]:
 def test_the_errors_of_the_tail_against_quadrature(law: Mie) -> None:
     """Load and energy behind a near end against Gauss quadrature over ten decades."""
     problem, T, displacement = Problem(2, 0.3, 1.0, law=law), 30.0, -1.5
-    known, remainder = tail_errors(problem, T, displacement)
+    errors, remainder = tail_errors(problem, T, displacement)
     x, w = gauss_nodes()
     log_t = np.log(T) + 0.5 * np.log(1e10) * (1.0 + x)
     t = np.exp(log_t)
@@ -216,12 +216,14 @@ def test_the_errors_of_the_tail_against_quadrature(law: Mie) -> None:
     load = 2.0 * (weights * t) @ law.traction(gap) + last.load
     w_part = problem.compliance * 0.7 * (weights * t**-0.3) @ law.traction(gap) + last.displacement
     tail = tail_of(problem, T, displacement)
-    assert abs(tail.load - load - known[0]) <= remainder[0] + QUADRATURE * abs(load)
-    assert abs(tail.displacement - w_part - known[1]) <= remainder[1] + QUADRATURE * abs(w_part)
-    assert remainder[0] < 0.01 * abs(known[0])
+    assert abs(tail.load - load - errors[0]) <= remainder[0] + QUADRATURE * abs(load)
+    assert abs(tail.displacement - w_part - errors[1]) <= remainder[1] + QUADRATURE * abs(w_part)
+    assert remainder[0] < 0.01 * abs(errors[0])
     if law.n > 2.0:  # the energy converges
         energy = 2.0 * (weights * t) @ law.energy(gap) + tail_energy(problem, 1e10 * T, displacement)
-        assert abs(tail_energy(problem, T, displacement) - energy - known[2]) <= remainder[2] + QUADRATURE * abs(energy)
+        assert abs(tail_energy(problem, T, displacement) - energy - errors[2]) <= remainder[2] + QUADRATURE * abs(
+            energy
+        )
 
 
 @pytest.mark.parametrize("shape", [PowerPunch(1.0), RoundedCone(1.0, 1.5)])

@@ -122,8 +122,8 @@ def test_steps_over_a_pair_of_folds_are_found() -> None:
     down = signs.index(False)
     up = down + signs[down:].index(True)
     assert full[down - 1].segment == full[up].segment
-    found = completed([*full[:down], *full[up:]], 1e-4)
-    assert sum(p.rates.displacement < 0.0 for p in found) > sum(p.rates.displacement < 0.0 for p in full[up:])
+    points = completed([*full[:down], *full[up:]], 1e-4)
+    assert sum(p.rates.displacement < 0.0 for p in points) > sum(p.rates.displacement < 0.0 for p in full[up:])
 
 
 def test_the_folds_of_a_path_are_those_of_one_with_short_steps() -> None:
@@ -137,9 +137,9 @@ def test_the_folds_of_a_path_are_those_of_one_with_short_steps() -> None:
         for name in ("load", "displacement")
         if a.segment == b.segment and getattr(a.rates, name) * getattr(b.rates, name) < 0.0
     ]
-    found = [fold.quantity for fold in analysis_of(problem).folds]
-    assert sorted(found) == sorted(brute)
-    assert len(found) == 13
+    fold_quantities = [fold.quantity for fold in analysis_of(problem).folds]
+    assert sorted(fold_quantities) == sorted(brute)
+    assert len(fold_quantities) == 13
 
 
 @pytest.mark.parametrize(

@@ -34,9 +34,9 @@ EVENTS = [
 @pytest.mark.parametrize("functional", FUNCTIONALS)
 @pytest.mark.parametrize("event", EVENTS)
 def test_the_part_of_the_mesh_is_the_difference_to_the_equilibrium_on_the_finer_mesh(event, functional):
-    found = pair(*event)
-    errors, expected = found.defect.errors(functional, found.parameter), found.error(functional)
-    if functional == found.parameter:
+    event_pair = pair(*event)
+    errors, expected = event_pair.defect.errors(functional, event_pair.parameter), event_pair.error(functional)
+    if functional == event_pair.parameter:
         assert abs(errors.mesh).sum() < 1e-15
         return
     extreme = {"pull_off": "load", "jump_in": "displacement"}.get(event[3])
@@ -50,13 +50,13 @@ def test_the_part_of_the_mesh_is_the_difference_to_the_equilibrium_on_the_finer_
 )
 @pytest.mark.parametrize("event", [(1.2, 0.7, 1.0, "zero_load")])
 def test_at_a_fixed_control_the_error_of_the_control_moves_the_state_along_the_path(event, functional, control):
-    found = pair(*event)
-    slope = getattr(found.rates, functional) / getattr(found.rates, control)
-    expected = found.error(functional) - slope * found.error(control)
-    errors = found.defect.errors(functional, control)
+    event_pair = pair(*event)
+    slope = getattr(event_pair.rates, functional) / getattr(event_pair.rates, control)
+    expected = event_pair.error(functional) - slope * event_pair.error(control)
+    errors = event_pair.defect.errors(functional, control)
     assert errors.mesh.sum() == pytest.approx(expected, rel=FIRST_ORDER, abs=errors.rounding)
     # A control that the state has missed moves the functional along the path as well.
-    missed = found.defect.errors(functional, control, missed=-1e-7).rounding - errors.rounding
+    missed = event_pair.defect.errors(functional, control, missed=-1e-7).rounding - errors.rounding
     assert missed == pytest.approx(1e-7 * abs(slope), rel=1e-4)
 
 
@@ -65,25 +65,25 @@ def test_an_edge_that_is_not_at_its_gap_is_an_error_too(functional):
     """The state is wrong by the place of its edge alone: the equilibrium has another gap there."""
     first = pair(2.0, 0.4, 1.0, "zero_load")
     state = replace(first.state, edge_gap=first.state.gap_at_edge + STEP)
-    found = Pair(state, Defect(state, first.defect.fine.disc))
-    expected = getattr(state, functional) - getattr(found.exact, functional)
+    event_pair = Pair(state, Defect(state, first.defect.fine.disc))
+    expected = getattr(state, functional) - getattr(event_pair.exact, functional)
     assert abs(expected) > 10.0 * abs(first.error(functional))
-    mesh = found.defect.errors(functional, found.parameter).mesh
+    mesh = event_pair.defect.errors(functional, event_pair.parameter).mesh
     assert mesh.sum() == pytest.approx(expected, rel=FIRST_ORDER, abs=0.0)
 
 
 @pytest.mark.parametrize(("n", "k", "mu"), [(2.013, 0.076, 0.0092), (5.0, 0.0, 2.0), (1.2, 0.7, 1.0)])
 def test_the_finer_mesh_has_nearly_all_of_the_error(n, k, mu):
-    found = pair(n, k, mu, "pull_off")
+    event_pair = pair(n, k, mu, "pull_off")
     finest = Analysis(Problem(n, k, mu), Meshes(path=Mesh(10, 2e-5), value=Mesh(18, 1e-9)))
-    expected = found.state.load - finest.event("pull_off").value.load
-    assert found.defect.errors("load", "log_scale").mesh.sum() == pytest.approx(expected, rel=LEFT, abs=0.0)
+    expected = event_pair.state.load - finest.event("pull_off").value.load
+    assert event_pair.defect.errors("load", "log_scale").mesh.sum() == pytest.approx(expected, rel=LEFT, abs=0.0)
 
 
 NEAR = (2.0, 0.4, 1.0, "zero_load", 1e2)
 
 
-def _change_by_another_tail(found: Pair, functional, monkeypatch, name):
+def _change_by_another_tail(event_pair: Pair, functional, monkeypatch, name):
     """Change of a functional when a part of the tail is larger by `STEP`."""
 
     def changed(problem, T, displacement):
@@ -91,52 +91,56 @@ def _change_by_another_tail(found: Pair, functional, monkeypatch, name):
         return replace(tail, **{name: getattr(tail, name) + STEP})
 
     # The tail of a state is computed when it is needed first.
-    before, start = getattr(found.exact, functional), replace(found.exact, iterations=0)
+    before, start = getattr(event_pair.exact, functional), replace(event_pair.exact, iterations=0)
     with monkeypatch.context() as patch:
         patch.setattr(_equilibrium, "tail_of", changed)
-        return getattr(found.solved(start), functional) - before
+        return getattr(event_pair.solved(start), functional) - before
 
 
-@pytest.mark.parametrize(("place", "name"), [(0, "load"), (1, "displacement")])
+@pytest.mark.parametrize(("field", "name"), [(0, "load"), (1, "displacement")])
 @pytest.mark.parametrize("functional", ["load", "displacement", "central_gap"])
-def test_the_part_of_the_tail_is_the_change_that_another_tail_makes(place, name, functional, monkeypatch):
+def test_the_part_of_the_tail_is_the_change_that_another_tail_makes(field, name, functional, monkeypatch):
     """What is known of its error has a sign, of the remainder only the size counts."""
-    found = pair(*NEAR)
-    expected = _change_by_another_tail(found, functional, monkeypatch, name)
+    event_pair = pair(*NEAR)
+    expected = _change_by_another_tail(event_pair, functional, monkeypatch, name)
     known, remainder = np.zeros(3), np.zeros(3)
-    known[place] = STEP
+    known[field] = STEP
     monkeypatch.setattr(_defect, "tail_errors", lambda *_: (known, np.zeros(3)))
-    assert found.defect.errors(functional, found.parameter).tail.sum() == pytest.approx(expected, rel=1e-3, abs=1e-12)
-    remainder[place] = STEP
+    assert event_pair.defect.errors(functional, event_pair.parameter).tail.sum() == pytest.approx(
+        expected, rel=1e-3, abs=1e-12
+    )
+    remainder[field] = STEP
     monkeypatch.setattr(_defect, "tail_errors", lambda *_: (np.zeros(3), remainder))
-    found_size = abs(found.defect.errors(functional, found.parameter).tail).sum()
-    assert found_size == pytest.approx(abs(expected), rel=1e-3, abs=1e-12)
+    size = abs(event_pair.defect.errors(functional, event_pair.parameter).tail).sum()
+    assert size == pytest.approx(abs(expected), rel=1e-3, abs=1e-12)
 
 
 def test_an_error_of_the_energy_of_the_tail_is_one_of_the_energy(monkeypatch):
-    found = pair(*NEAR)
+    event_pair = pair(*NEAR)
     for known, remainder in ((STEP, 0.0), (0.0, STEP)):
         errors = np.array([0.0, 0.0, known]), np.array([0.0, 0.0, remainder])
         monkeypatch.setattr(_defect, "tail_errors", lambda *_, errors=errors: errors)
-        assert abs(found.defect.errors("energy", found.parameter).tail).sum() == pytest.approx(STEP, rel=1e-12)
-        assert abs(found.defect.errors("load", found.parameter).tail).sum() == 0.0
+        assert abs(event_pair.defect.errors("energy", event_pair.parameter).tail).sum() == pytest.approx(
+            STEP, rel=1e-12
+        )
+        assert abs(event_pair.defect.errors("load", event_pair.parameter).tail).sum() == 0.0
 
 
 @pytest.mark.parametrize("functional", ["load", "displacement", "central_gap"])
 def test_the_part_of_the_domain_has_the_place_of_the_tails_load(functional):
     """The tail moves all nodes alike; the kernel moves those next to its end more, by its response there."""
-    found = pair(*NEAR)
-    state, matrix = found.exact, found.exact.disc.matrix
+    event_pair = pair(*NEAR)
+    state, matrix = event_pair.exact, event_pair.exact.disc.matrix
     k = state.disc.problem.k
     T, r, stiffness = state.end, state.radius, state.disc.stiffness_scale(state.scale)
     more = (kernel_of(k).response(r, np.full_like(r, T), T - r) * T**k - 1.0) * state.tail.displacement
     enlarged = STEP / abs(more).max()
     # A matrix whose product with the pressure is larger by these displacements.
     added = np.outer(enlarged * more / stiffness, state.pressure / (state.pressure @ state.pressure))
-    other = found.with_matrix(matrix + added)
-    expected = (getattr(other, functional) - getattr(state, functional)) / enlarged
+    changed = event_pair.with_matrix(matrix + added)
+    expected = (getattr(changed, functional) - getattr(state, functional)) / enlarged
     # The first ones are those of the gap behind the mesh and of the elastic energy there.
-    of_ring = found.defect.errors(functional, found.parameter).domain[4:].sum()
+    of_ring = event_pair.defect.errors(functional, event_pair.parameter).domain[4:].sum()
     assert abs(of_ring) == pytest.approx(abs(expected), rel=RING, abs=0.0)
 
 
@@ -144,10 +148,10 @@ def test_the_part_of_the_domain_has_the_place_of_the_tails_load(functional):
 @pytest.mark.parametrize("functional", ["load", "displacement"])
 def test_the_part_of_rounding_covers_a_matrix_whose_entries_are_all_wrong_by_16_roundings(event, functional):
     """With the signs that do most harm; enlarged, so that the effect can be measured."""
-    found, enlarged = pair(*event), 1e4
-    state = found.exact
-    signs = np.outer(np.sign(found.adjoint(functional)), np.sign(state.pressure))
-    other = found.with_matrix(state.disc.matrix * (1.0 + 16.0 * np.finfo(float).eps * enlarged * signs))
-    moved = abs(getattr(other, functional) - getattr(state, functional)) / enlarged
-    rounding = found.defect.errors(functional, found.parameter).rounding
+    event_pair, enlarged = pair(*event), 1e4
+    state = event_pair.exact
+    signs = np.outer(np.sign(event_pair.adjoint(functional)), np.sign(state.pressure))
+    changed = event_pair.with_matrix(state.disc.matrix * (1.0 + 16.0 * np.finfo(float).eps * enlarged * signs))
+    moved = abs(getattr(changed, functional) - getattr(state, functional)) / enlarged
+    rounding = event_pair.defect.errors(functional, event_pair.parameter).rounding
     assert MATRIX_ALONE * rounding < moved < rounding

@@ -53,8 +53,8 @@ def test_sizes_add_up_by_cause_and_the_mesh_counts_twice():
 def test_a_shift_next_to_an_extreme_covers_both_roots(error, slope, curvature):
     """Where the error may join the two roots, or create them, either may be that of the exact function."""
     shift = root_shift(error, slope, curvature)
-    found = [np.roots([0.5 * curvature, slope, moved]) for moved in (-error, error)]
-    real = np.concatenate([roots[abs(roots.imag) < 1e-12].real for roots in found])
+    shifted = [np.roots([0.5 * curvature, slope, moved]) for moved in (-error, error)]
+    real = np.concatenate([roots[abs(roots.imag) < 1e-12].real for roots in shifted])
     assert abs(real).max() == pytest.approx(shift, rel=1e-9)
 
 
@@ -68,21 +68,21 @@ def test_a_shift_away_from_an_extreme_covers_the_closest_root_for_both_signs_of_
 @pytest.mark.parametrize("functional", ["load", "displacement", "central_gap"])
 @pytest.mark.parametrize("event", ["pull_off", "jump_out"])
 def test_the_rate_of_an_error_is_the_difference_of_the_rates_on_two_meshes(event, functional):
-    found = pair(2.0, 0.4, 1.0, event)
-    expected = getattr(rates_of(found.state), functional) - getattr(found.rates, functional)
-    rate = EventErrors(found.state).rate(functional)
+    event_pair = pair(2.0, 0.4, 1.0, event)
+    expected = getattr(rates_of(event_pair.state), functional) - getattr(event_pair.rates, functional)
+    rate = EventErrors(event_pair.state).rate(functional)
     assert rate.mesh.sum() == pytest.approx(expected, rel=RATE, abs=10.0 * rate.rounding)
 
 
 @pytest.mark.parametrize("event", ["pull_off", "jump_out"])
 def test_a_value_at_the_extreme_of_another_moves_with_its_place(event):
     """To first order: the error at a fixed parameter, less that of the place times the rate of the value."""
-    found = pair(2.0, 0.4, 1.0, event)
+    event_pair = pair(2.0, 0.4, 1.0, event)
     extremal, functional = ("load", "displacement") if event == "pull_off" else ("displacement", "load")
-    errors = EventErrors(found.state)
+    errors = EventErrors(event_pair.state)
     _, curvature, _ = errors.derivatives(extremal)
-    place = (getattr(rates_of(found.state), extremal) - getattr(found.rates, extremal)) / curvature
-    moved = found.error(functional) - place * getattr(errors.rates, functional)
+    distance = (getattr(rates_of(event_pair.state), extremal) - getattr(event_pair.rates, extremal)) / curvature
+    moved = event_pair.error(functional) - distance * getattr(errors.rates, functional)
     bound = errors.at_extreme(functional, extremal).total
     assert abs(moved) < bound < LARGEST * abs(moved)
     # Neither of the two alone explains the bound.
@@ -97,10 +97,10 @@ def test_a_value_at_a_displacement_next_to_its_fold_moves_with_the_root_of_the_e
     free = errors.on_path("displacement").total
     _, curvature, _ = errors.derivatives("displacement")
     shift = math.sqrt(2.0 * free / abs(curvature))
-    found = errors.prescribed("load", "displacement", state.displacement).total
+    error = errors.prescribed("load", "displacement", state.displacement).total
     least = errors.on_path("load").total + abs(errors.rates.load) * shift
-    assert least * (1.0 - 1e-3) < found < 2.0 * least
-    assert found > 3.0 * errors.on_path("load").total
+    assert least * (1.0 - 1e-3) < error < 2.0 * least
+    assert error > 3.0 * errors.on_path("load").total
 
 
 def test_the_energy_of_a_jump_has_the_errors_of_both_ends(monkeypatch):
@@ -119,10 +119,10 @@ def test_the_energy_of_a_jump_has_the_errors_of_both_ends(monkeypatch):
 
     monkeypatch.setattr(_bounds, "EventErrors", OfLanding)
     fold, landing = _on_panels(2, [0.0, 1.0, 3.0], 0.5), _on_panels(2, [0.0, 2.0, 4.0], 0.5)
-    found = energy_of_jump(ERRORS, displacement, fold, landing)
+    error = energy_of_jump(ERRORS, displacement, fold, landing)
     assert called == [(landing, "energy", "displacement")]
     # e + 0.7 (10 e) at the fold, and e at the landing: 9 times the size of `ERRORS`.
-    assert list(found.values()) == _exactly(bounds(ERRORS, 9.0))
+    assert list(error.values()) == _exactly(bounds(ERRORS, 9.0))
 
 
 def _on_panels(order, ends, pressure):
@@ -163,8 +163,8 @@ def test_the_hysteresis_of_a_rounded_cone_is_bounded_by_its_own_error(k, mu, slo
         Analysis(problem, meshes).solution("hysteresis_energy")
         for meshes in (Meshes.of("default"), Meshes.of("fine"), Meshes(end_height=1e4))
     )
-    for other in (fine, nearer):
-        assert abs(solution.value - other.value) <= solution.u_num + other.u_num
+    for finer in (fine, nearer):
+        assert abs(solution.value - finer.value) <= solution.u_num + finer.u_num
     assert solution.u_num < 1e-7 * solution.value
     assert fine.u_num < 1e-8 * solution.value
 
@@ -204,16 +204,16 @@ def test_what_cancels_in_a_hysteresis_is_left_out_of_its_bound_rightly(n, k, abo
     """Near the critical Tabor number the energy is a small difference: measured at most 0.2 of the bound."""
     mu = solve(Problem(n, k, 1.0), "critical_tabor_number").value * (1.0 + above)
     finer = Meshes(path=Mesh(10, 2e-5), value=Mesh(18, 1e-9), end_height=1e8 if n < 1.5 else 1e7)
-    found, fine = (Analysis(Problem(n, k, mu), m).solution("hysteresis_energy") for m in (Meshes(), finer))
-    assert abs(found.value - fine.value) <= found.u_num + fine.u_num
-    assert found.u_num < 1e-10
+    value, fine = (Analysis(Problem(n, k, mu), m).solution("hysteresis_energy") for m in (Meshes(), finer))
+    assert abs(value.value - fine.value) <= value.u_num + fine.u_num
+    assert value.u_num < 1e-10
 
 
 @pytest.mark.heavy
 @pytest.mark.parametrize(("k", "flat", "mu"), [(0, 5.0, 3.0), (0, 1.5, 1.0), (0.3, 1.5, 0.3), (0.3, 0.3, 3.0)])
 def test_the_bound_of_a_flat_end_covers_the_distance_to_a_finer_mesh(k, flat, mu):
     problem = Problem(2, k, mu, punch=RoundedFlat(flat))
-    found = solve(problem, "pull_off_force")
+    force = solve(problem, "pull_off_force")
     fine = solve(problem, "pull_off_force", Meshes(value=Mesh(18, 1e-10)))
-    assert abs(found.value - fine.value) <= found.u_num + fine.u_num
+    assert abs(force.value - fine.value) <= force.u_num + fine.u_num
     assert fine.u_num < 2e-12

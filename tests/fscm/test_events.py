@@ -88,9 +88,9 @@ def test_soft_limit(n: float, k: float) -> None:
 def test_continuity_as_k_vanishes() -> None:
     """k -> 0 tends to the homogeneous solid, linearly in k."""
     names = ("pull_off_force", "pull_off_displacement", "zero_load_displacement")
-    base, *others = (solve_together(Problem(2, k, 1.0), names) for k in (0.0, 1e-8, 2e-3, 1e-3))
+    base, *near_0 = (solve_together(Problem(2, k, 1.0), names) for k in (0.0, 1e-8, 2e-3, 1e-3))
     for name in names:
-        changes = [found[name].value - base[name].value for found in others]
+        changes = [found[name].value - base[name].value for found in near_0]
         assert abs(changes[0]) < 1e-7
         assert changes[1] / changes[2] == pytest.approx(2.0, rel=1e-2)
 
@@ -166,5 +166,5 @@ def test_jump_in_is_the_first_fold_of_a_finely_stepped_path(n: float, k: float, 
             break
         previous = point
     assert previous is not None
-    found = Analysis(problem).solution("jump_in_gap").value
-    assert point.state.central_gap - 0.1 < found < previous.state.central_gap + 0.1
+    gap = Analysis(problem).solution("jump_in_gap").value
+    assert point.state.central_gap - 0.1 < gap < previous.state.central_gap + 0.1

@@ -37,17 +37,17 @@ def energy(H, mu):
 
 @pytest.mark.parametrize("n", [1.0, 2.0, 5.0])
 def test_critical_tabor_number_is_a_closed_form(n):
-    found = solid(n, 1.0).solution("critical_tabor_number")
-    assert abs(found.value - CRITICAL) <= found.u_num < 1e-13
+    critical = solid(n, 1.0).solution("critical_tabor_number")
+    assert abs(critical.value - CRITICAL) <= critical.u_num < 1e-13
 
 
 @pytest.mark.parametrize("mu", [0.01, 0.5, 1.0, 2.0, 5.0, 20.0])
 def test_a_paraboloid_has_pull_off_two_at_any_tabor_number(mu):
     # P = integral of p d(r^2) = -2 integral of de = 2 e(H0), least where p = 0, that is at H0 = 0.
     for quantity, exact in [("pull_off_force", 2.0), ("pull_off_displacement", 0.0)]:
-        found = solid(2, mu).solution(quantity)
-        assert abs(found.value - exact) <= found.u_num
-        assert found.u_num < 1e-12 * (1 + mu**2)
+        solution = solid(2, mu).solution(quantity)
+        assert abs(solution.value - exact) <= solution.u_num
+        assert solution.u_num < 1e-12 * (1 + mu**2)
 
 
 @pytest.mark.parametrize("mu", [0.3, 1.0, 3.0])
@@ -136,8 +136,8 @@ def test_jumps_in_extended_precision(mu):
             ("jump_in_displacement", -A + M * p(A)),
             ("jump_out_displacement", -near + M * p(near)),
         ]:
-            found = model.solution(quantity)
-            assert abs(found.value - float(exact)) <= found.u_num < 1e-12
+            solution = model.solution(quantity)
+            assert abs(solution.value - float(exact)) <= solution.u_num < 1e-12
 
 
 @pytest.mark.parametrize("mu", [0.8, 2.0])
@@ -196,8 +196,8 @@ def test_other_laws():
     gap = np.geomspace(0.7, 20.0, 100)
     table = solid(2, 1.0, TabulatedLaw(gap, LAW.traction(gap - 1.0), tail_exponent=3))
     for quantity in ("jump_in_displacement", "jump_out_displacement"):
-        found, exact = table.solution(quantity), value(2, 1.0, quantity)
-        assert found.value == pytest.approx(exact, rel=2e-5)
+        solution, exact = table.solution(quantity), value(2, 1.0, quantity)
+        assert solution.value == pytest.approx(exact, rel=2e-5)
     # As for any law, P = 2 e at n = 2.
     assert table.load(-0.01) == pytest.approx(2 * table._local.energy(-0.01), rel=1e-9)
 

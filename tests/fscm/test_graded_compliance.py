@@ -71,15 +71,15 @@ def test_sharp_layers_agree_with_matrix_exponentials():
 )
 def test_a_stack_of_200_layers_converges_to_the_graded_solid(solid):
     for xi in (0.3, 1.0, 3.0):
-        found = []
+        errors = []
         for count in (100, 200):
             ends = np.append(0.0, np.geomspace(0.02, 60.0, count))
             moduli = solid.modulus(np.append(0.5 * (ends[1:] + ends[:-1]), ends[-1]))
-            found.append(transfer(xi, ends, moduli, 0.3))
+            errors.append(transfer(xi, ends, moduli, 0.3))
         exact = compliance(solid, np.array([xi]))[0]
         # The error of midpoint layers falls with the square of their number; the grid is the coarse one of 100.
-        assert abs(found[1] / exact - 1.0) < 3e-4
-        assert abs((4.0 * found[1] - found[0]) / 3.0 / exact - 1.0) < 0.2 * abs(found[1] / exact - 1.0)
+        assert abs(errors[1] / exact - 1.0) < 3e-4
+        assert abs((4.0 * errors[1] - errors[0]) / 3.0 / exact - 1.0) < 0.2 * abs(errors[1] / exact - 1.0)
 
 
 #: Digits of a Taylor series of the equations in z with 40 digits, which those of `graded_digits` have to give as well.

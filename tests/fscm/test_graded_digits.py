@@ -88,14 +88,14 @@ def _stored():
 @pytest.mark.parametrize("name", graded_digits.SOLIDS)
 def test_the_response_of_a_solid_from_25_digits(name):
     """1e-9 of the kernel at 50 random pairs of radii, and the stated bound is never exceeded."""
-    known, kernel = _stored()[name], GradedKernel(graded_digits.SOLIDS[name])
-    r, t, exact = (np.array(known[key]) for key in ("r", "t", "G"))
+    stored, kernel = _stored()[name], GradedKernel(graded_digits.SOLIDS[name])
+    r, t, exact = (np.array(stored[key]) for key in ("r", "t", "G"))
     assert len(exact) == 50
-    assert known["error"] < 1e-13
+    assert stored["error"] < 1e-13
     errors = np.abs(kernel.response(r, t) - exact)
     assert np.max(errors / exact) < 1e-9
     # Rounding of the sum, as above; the values themselves change by so much with fewer nodes.
-    rounding = 1e-16 * float(np.abs(kernel.images.strengths).sum()) * t + known["error"] * exact
+    rounding = 1e-16 * float(np.abs(kernel.images.strengths).sum()) * t + stored["error"] * exact
     assert np.all(errors <= kernel.error(r, t) + rounding)
 
 

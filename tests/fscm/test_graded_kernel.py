@@ -96,11 +96,11 @@ def by_quadrature(name, r, t):
     total = c * scipy.special.i0e(least) * scipy.special.k0e(most) * np.exp(least - most)
     # Of four lengths, so that most points share their nodes: at most 4 / (r + t + 1).
     most = 0.7 * 0.5 ** max(0, math.ceil(math.log2(0.7 * (r + t + 1.0) / 4.0)))
-    found = []
+    sums = []
     for step in (1.0, 0.5):
         xi, rest = weighted_rest(name, step, most)
-        found.append(float((rest * scipy.special.j0(xi * r)) @ scipy.special.j0(xi * t)))
-    return t * (total + found[1]), t * abs(found[1] - found[0])
+        sums.append(float((rest * scipy.special.j0(xi * r)) @ scipy.special.j0(xi * t)))
+    return t * (total + sums[1]), t * abs(sums[1] - sums[0])
 
 
 @pytest.mark.parametrize(
@@ -125,8 +125,8 @@ def _signed_error(name, xi):
     """Error of the images at wave numbers, their sum in extended precision."""
     images = kernel(name).images
     depths, strengths = images.depths.astype(np.clongdouble), images.strengths.astype(np.clongdouble)
-    found = 1.0 - np.exp(-xi.astype(np.longdouble)[:, None] * depths) @ strengths
-    return (found.real - 0.5 * contact_modulus(SOLIDS[name]) * compliance(SOLIDS[name], xi)).astype(float)
+    approximation = 1.0 - np.exp(-xi.astype(np.longdouble)[:, None] * depths) @ strengths
+    return (approximation.real - 0.5 * contact_modulus(SOLIDS[name]) * compliance(SOLIDS[name], xi)).astype(float)
 
 
 #: Rounding of the compliance: 4.4e-15 beyond the bound was measured with SciPy 1.13, on the exponential solid.
@@ -190,8 +190,8 @@ def _offset_and_exact(k, z_s):
     r, t = np.random.default_rng(3).uniform(0.1, 10.0, (2, 50))
     apart = np.abs(r - t) > 0.05  # the offset changes the kernel by its ratio to the distance
     r, t = r[apart], t[apart]
-    found = GradedKernel(OffsetPowerLaw(1.0, 1.0, k, z_s, 0.3), 1e2).response(r, t) * z_s**-k
-    return found, response_factor(k, 0.3) * ring_response(k, r, t)
+    response = GradedKernel(OffsetPowerLaw(1.0, 1.0, k, z_s, 0.3), 1e2).response(r, t) * z_s**-k
+    return response, response_factor(k, 0.3) * ring_response(k, r, t)
 
 
 @pytest.mark.parametrize(
@@ -207,12 +207,12 @@ def test_a_small_offset_gives_the_exact_kernel_of_the_power_law(k):
 )
 def test_the_limit_of_small_offsets_is_the_exact_kernel_of_the_power_law(k, z_s):
     """The difference falls like z_s, and the limit from two offsets is exact to 1e-8."""
-    found, exact = _offset_and_exact(k, z_s)
+    computed, exact = _offset_and_exact(k, z_s)
     half, _ = _offset_and_exact(k, 0.5 * z_s)
-    first, second = (float(np.max(np.abs(x / exact - 1.0))) for x in (found, half))
+    first, second = (float(np.max(np.abs(x / exact - 1.0))) for x in (computed, half))
     assert second > 5e-8 * k
     assert first / second == pytest.approx(2.0, abs=5e-2)
-    assert np.allclose(2.0 * half - found, exact, rtol=1e-8, atol=0.0)
+    assert np.allclose(2.0 * half - computed, exact, rtol=1e-8, atol=0.0)
 
 
 def test_nothing_is_left_of_the_images_beyond_their_last_wave_number():

@@ -42,11 +42,11 @@ SOFT_BELOW = Coating(5.0, 1.0, 0.7, 0.1, 0.3)
     ],
 )
 def test_a_homogeneous_solid_has_the_numbers_of_the_power_law(quantities):
-    found, exact = (
+    computed, exact = (
         solve_together(problem, quantities)
         for problem in (Problem(2, 0.0, 1.0, graded=Exponential(1.0, 1.0, 1.0, 0.3)), Problem(2, 0, 1.0))
     )
-    for name, value in found.items():
+    for name, value in computed.items():
         assert abs(value.value - exact[name].value) <= value.u_num + exact[name].u_num + 1e-13
 
 
@@ -59,9 +59,9 @@ def test_a_homogeneous_solid_has_the_numbers_of_the_power_law(quantities):
     ],
 )
 def test_a_thin_or_thick_coating_has_the_numbers_of_one_modulus(thickness, mu):
-    found = solve(Problem(2, 0.0, 1.0, graded=Coating(1.0, 4.0, thickness, 0.0, 0.3)), "pull_off_force")
+    force = solve(Problem(2, 0.0, 1.0, graded=Coating(1.0, 4.0, thickness, 0.0, 0.3)), "pull_off_force")
     # 2e-9: the coating changes the response at radii of its thickness, or of its inverse.
-    assert found.value == pytest.approx(solve(Problem(2, 0, mu), "pull_off_force").value, rel=2e-9)
+    assert force.value == pytest.approx(solve(Problem(2, 0, mu), "pull_off_force").value, rel=2e-9)
 
 
 def test_rates_along_the_path_are_exact():
@@ -95,9 +95,9 @@ FINITE_ELEMENTS = [
 @pytest.mark.parametrize(("solid", "values"), FINITE_ELEMENTS)
 def test_events_agree_with_the_finite_elements(solid, values):
     problem = Problem(solid, PowerPunch(2.0, Q=1.0), LennardJones(work_of_adhesion=1.0, z0=1.0)).dimensionless
-    found = solve_together(problem, values)
+    solutions = solve_together(problem, values)
     for name, (value, bound) in values.items():
-        assert found[name].value == pytest.approx(value, abs=bound + found[name].u_num)
+        assert solutions[name].value == pytest.approx(value, abs=bound + solutions[name].u_num)
 
 
 SOLIDS = [
@@ -140,17 +140,17 @@ def test_a_refined_mesh_keeps_the_response_between_its_old_panels():
     response = response_of(SOFT_BELOW)
     for c in (1.0, 20.0):
         table, length = response._table, 0.6
-        whole = remainder(table, length, fine, c)
+        full = remainder(table, length, fine, c)
         points = table.of
         counted = []
         spy = SimpleNamespace(of=lambda A, B, seen=counted, of=points: (seen.append(A.size), of(A, B))[1])
-        known = remainder(spy, length, fine, c, (coarse, remainder(table, length, coarse, c)))
+        reused = remainder(spy, length, fine, c, (coarse, remainder(table, length, coarse, c)))
         assert counted[0] < fine.size * (fine.size + 1) // 2
         for name in ("matrix", "rate", "axis", "axis_rate"):
             # Products of matrices of other sizes are rounded in another order.
-            assert np.allclose(getattr(whole, name), getattr(known, name), rtol=0.0, atol=1e-13)
+            assert np.allclose(getattr(full, name), getattr(reused, name), rtol=0.0, atol=1e-13)
         step = 1e-4
-        moved, there = whole.moved(step), remainder(table, length, fine, c * np.exp(step))
+        moved, there = full.moved(step), remainder(table, length, fine, c * np.exp(step))
         # The second derivative times half the square of the step.
         assert np.allclose(moved.matrix, there.matrix, rtol=0.0, atol=1e-7)
         same = remainder(table, length, fine, c, (fine, moved))
@@ -175,8 +175,8 @@ def test_the_short_path_is_for_power_laws_alone():
 def test_physical_units_scale_out():
     solid = Exponential(E_surface=1e9, E_depth=5e9, length=1e-7, nu=0.3)
     metres = Problem(solid, PowerPunch(2, Q=1e-6), LennardJones(0.05, 3e-10))
-    other = Exponential(E_surface=1.0, E_depth=5.0, length=1e2, nu=0.3)
-    nanometres = Problem(other, PowerPunch(2, Q=1e3), LennardJones(0.05, 0.3))
+    exponential = Exponential(E_surface=1.0, E_depth=5.0, length=1e2, nu=0.3)
+    nanometres = Problem(exponential, PowerPunch(2, Q=1e3), LennardJones(0.05, 0.3))
     assert metres.mu == pytest.approx(nanometres.mu, rel=1e-12)
     lengths = [problem.dimensionless.graded.length for problem in (metres, nanometres)]
     assert lengths[0] == pytest.approx(lengths[1], rel=1e-12)

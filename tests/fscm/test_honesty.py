@@ -132,8 +132,10 @@ def test_an_accuracy_is_reached_and_honest(accuracy: float | str, every: int) ->
     requested = ACCURACIES[accuracy] if isinstance(accuracy, str) else accuracy
     dishonest, reached = [], []
     for problem in _sample()[::every]:
-        found = solve_together(problem, ["pull_off_force", "pull_off_displacement", "zero_load_displacement"], accuracy)
-        for (name, solution), exact in zip(found.items(), reference(problem, *found), strict=True):
+        solutions = solve_together(
+            problem, ["pull_off_force", "pull_off_displacement", "zero_load_displacement"], accuracy
+        )
+        for (name, solution), exact in zip(solutions.items(), reference(problem, *solutions), strict=True):
             error = abs(solution.value - exact)
             reached.append(solution.u_num <= requested * abs(exact))
             if error > solution.u_num:

@@ -29,12 +29,12 @@ def _bracket(name: str) -> tuple[Point, Point]:
 
 
 def _branches(*spans: tuple[float, float]) -> list[Branch]:
-    found = []
+    branches = []
     for i, (least, largest) in enumerate(spans):
         low = None if least == -math.inf else _bracket(f"low {i}")
         high = None if largest == math.inf else _bracket(f"high {i}")
-        found.append(Branch(low, high, least, largest))
-    return found
+        branches.append(Branch(low, high, least, largest))
+    return branches
 
 
 @pytest.mark.parametrize(
@@ -56,8 +56,8 @@ def test_each_jump_lands_on_the_next_branch_with_its_displacement(
 ) -> None:
     branches = _branches(*spans)
     for inward, expected in ((True, approach), (False, retreat)):
-        found = [(fold, branches.index(branch)) for fold, branch in jumps_between(branches, inward)]
-        assert found == expected
+        jumps = [(fold, branches.index(branch)) for fold, branch in jumps_between(branches, inward)]
+        assert jumps == expected
 
 
 def test_a_jump_without_a_branch_to_land_on_is_told() -> None:
@@ -104,9 +104,9 @@ def test_the_hysteresis_of_a_film_is_the_area_of_its_loops(film: Analysis) -> No
     for fold, landing in film.jumps("jump_in") + film.jumps("jump_out"):
         displacement, load = spline(np.linspace(place(fold.value), place(landing.value), 20001)).T
         lost -= np.trapezoid(load, displacement)
-    found = film.solution("hysteresis_energy")
-    assert found.value == pytest.approx(lost, rel=SPLINE)
-    assert 0.0 < found.u_num < 1e-7 * found.value
+    energy = film.solution("hysteresis_energy")
+    assert energy.value == pytest.approx(lost, rel=SPLINE)
+    assert 0.0 < energy.u_num < 1e-7 * energy.value
 
 
 @pytest.mark.parametrize(

@@ -117,12 +117,14 @@ def test_laws_are_values():
 def test_no_traction_at_the_singular_gap_and_below():
     law = Mie(m=12, n=6, z0=0.5)
     for function in (law.traction, law.slope, law.curvature, law.energy):
-        found = function(np.array([-1.0, -0.5, -0.4]))
-        assert np.isnan(found).tolist() == [True, True, False]
+        values = function(np.array([-1.0, -0.5, -0.4]))
+        assert np.isnan(values).tolist() == [True, True, False]
 
 
 @pytest.mark.filterwarnings("error::RuntimeWarning")
 def test_a_law_without_traction_below_its_singular_gap_is_solved_as_one_that_has_it():
     """Under a sharp edge trial gaps are below it: between the nodes of a coarse mesh and behind a long step."""
-    found, known = (solve(Problem(8, 0, 257, law=law), "pull_off_force") for law in (Mie(m=9, n=3), LennardJones()))
-    assert abs(found.value - known.value) <= found.u_num + known.u_num
+    force, lennard_jones = (
+        solve(Problem(8, 0, 257, law=law), "pull_off_force") for law in (Mie(m=9, n=3), LennardJones())
+    )
+    assert abs(force.value - lennard_jones.value) <= force.u_num + lennard_jones.u_num

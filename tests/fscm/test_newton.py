@@ -43,11 +43,11 @@ def test_factors_of_one_control_serve_another(control: str) -> None:
     system = Linearisation(state)
     row = system.row(Control(0.0, **{control: 1.0}))
     right = np.linspace(-1.0, 1.0, len(row))
-    found = system.factor(Control(0.0, load=1.0, displacement=0.5)).solve(right, row)
+    solved = system.factor(Control(0.0, load=1.0, displacement=0.5)).solve(right, row)
     # Far out the terms of a row are larger than its sum by many decades.
-    rounding = 1e-13 * (np.abs(system.bordered()[:-1]) @ np.abs(found))
-    assert np.all(np.abs(system.times(found) - right[:-1]) <= rounding)
-    assert row @ found == pytest.approx(right[-1], rel=1e-9)
+    rounding = 1e-13 * (np.abs(system.bordered()[:-1]) @ np.abs(solved))
+    assert np.all(np.abs(system.times(solved) - right[:-1]) <= rounding)
+    assert row @ solved == pytest.approx(right[-1], rel=1e-9)
 
 
 def test_at_a_large_tabor_number_newton_ends_at_rounding() -> None:

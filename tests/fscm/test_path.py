@@ -169,8 +169,8 @@ def test_the_edge_of_a_small_nucleus_is_followed(n: float, k: float, mu: float) 
 @pytest.mark.heavy
 def test_an_edge_below_the_rounding_of_its_radius(k: float, mu: float, zero_load_displacement: float) -> None:
     """JKR-n-k: it is right to 5e-7 here.  A mesh that does not resolve the edge was wrong by 2e-3."""
-    found = solve_together(Problem(2.0, k, mu), ("pull_off_force", "zero_load_displacement"))
-    for solution, jkr in zip(found.values(), (0.5 * (3.0 + k), zero_load_displacement), strict=True):
+    solutions = solve_together(Problem(2.0, k, mu), ("pull_off_force", "zero_load_displacement"))
+    for solution, jkr in zip(solutions.values(), (0.5 * (3.0 + k), zero_load_displacement), strict=True):
         assert solution.value == pytest.approx(jkr, rel=5e-7)
         assert solution.u_num < 1e-6 * jkr
 

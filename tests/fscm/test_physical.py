@@ -200,7 +200,7 @@ def test_results_have_the_units_of_the_problem():
     kinds = {"pull_off_force": "load", "jump_in_gap": "gap", "hysteresis_energy": "energy"}
     both = solve_together(p, kinds), solve_together(core, kinds)
     for name, kind in kinds.items():
-        ours, plain = (found[name] for found in both)
+        ours, plain = (solutions[name] for solutions in both)
         assert (ours.value, ours.u_num) == pytest.approx((plain.value * units[kind], plain.u_num * units[kind]))
     assert solve(p, "pull_off_force").value == both[0]["pull_off_force"].value
     ours, plain = trace(p, max_load=0.0), trace(core, max_load=0.0)
@@ -217,10 +217,10 @@ def test_results_have_the_units_of_the_problem():
 
 
 def test_the_change_of_a_value_contains_that_of_its_unit():
-    found = sensitivity(physical(), "pull_off_force")
-    other = physical(Q=1.0001e-6)
-    expected = solve(other, "pull_off_force").value - found.solution.value
-    assert found.change(other) == pytest.approx(expected, rel=1e-3)
+    rates = sensitivity(physical(), "pull_off_force")
+    perturbed = physical(Q=1.0001e-6)
+    expected = solve(perturbed, "pull_off_force").value - rates.solution.value
+    assert rates.change(perturbed) == pytest.approx(expected, rel=1e-3)
 
 
 RADIUS, Z0 = 1e-6, 3e-10
@@ -235,8 +235,8 @@ SAME_SHAPES = [
 def test_a_sphere_in_another_form_has_the_same_force(punch):
     solid, law = Homogeneous(70e9, 0.2), LennardJones(0.05, Z0)
     expected = solve(Problem(solid, PowerPunch(2.0, RADIUS), law), "pull_off_force", 1e-6)
-    found = solve(Problem(solid, punch, law), "pull_off_force", 1e-6)
-    assert found.value == pytest.approx(expected.value, abs=found.u_num + expected.u_num)
+    force = solve(Problem(solid, punch, law), "pull_off_force", 1e-6)
+    assert force.value == pytest.approx(expected.value, abs=force.u_num + expected.u_num)
 
 
 def test_the_unit_of_the_radii_changes_no_result():
@@ -279,7 +279,7 @@ class OwnLaw:
 
 def test_a_law_of_ones_own_is_scaled():
     solid, punch, law = Homogeneous(70e9, 0.2), PowerPunch(2.0, RADIUS), LennardJones(0.05, Z0)
-    forces = [solve(Problem(solid, punch, each), "pull_off_force", 1e-6) for each in (law, OwnLaw(law))]
+    forces = [solve(Problem(solid, punch, same_law), "pull_off_force", 1e-6) for same_law in (law, OwnLaw(law))]
     assert forces[0].value == pytest.approx(forces[1].value, abs=forces[0].u_num + forces[1].u_num)
 
 
@@ -340,7 +340,7 @@ def test_other_refusals():
 
 @pytest.mark.parametrize("solid", [PowerLaw(1.0, 1.0, 0.4, 0.3), Layers([1.0, 2.0], [0.3, 0.3], [1.0])])
 def test_a_physical_problem_is_a_value(solid):
-    made = [Problem(solid, PowerPunch(2.0, 1.0), LennardJones()) for _ in range(2)]
-    assert pickle.loads(pickle.dumps(made[0])) == made[1]
-    assert hash(made[0]) == hash(made[1])
-    assert made[0] != Problem(solid, PowerPunch(2.0, 2.0), LennardJones())
+    problems = [Problem(solid, PowerPunch(2.0, 1.0), LennardJones()) for _ in range(2)]
+    assert pickle.loads(pickle.dumps(problems[0])) == problems[1]
+    assert hash(problems[0]) == hash(problems[1])
+    assert problems[0] != Problem(solid, PowerPunch(2.0, 2.0), LennardJones())

@@ -33,9 +33,9 @@ def test_the_pull_off_is_that_of_the_whole_path(case: tuple[float, float, float]
     with one_thread():
         path = short.pull_off_path(problem, Meshes())
     assert path is not None
-    whole, found = analysis_of(problem), solve_together(problem, ("pull_off_force", "pull_off_displacement"))
+    whole, solutions = analysis_of(problem), solve_together(problem, ("pull_off_force", "pull_off_displacement"))
     assert len(whole.points) >= len(path)
-    for quantity, solution in found.items():
+    for quantity, solution in solutions.items():
         expected = whole.solution(quantity)
         assert abs(solution.value - expected.value) <= solution.u_num + expected.u_num
 
@@ -65,9 +65,9 @@ def test_the_whole_path_is_followed_where_the_rigid_solid_might_carry_more(monke
     with one_thread():
         assert short.pull_off_path(problem, Meshes()) is None
     model = Analysis(problem)
-    found = model.solution("pull_off_force")
+    force = model.solution("pull_off_force")
     assert "_traced" in model.__dict__
-    assert abs(found.value - expected.value) <= found.u_num + expected.u_num
+    assert abs(force.value - expected.value) <= force.u_num + expected.u_num
 
 
 def test_another_punch_takes_the_whole_path() -> None:
@@ -76,16 +76,16 @@ def test_another_punch_takes_the_whole_path() -> None:
 
 def test_a_narrow_edge_has_a_small_bound_at_a_low_accuracy() -> None:
     """Without graded panels the bound was 4e-5 of the force."""
-    found = solve(Problem(7.9582, 0.8704, 1.824), "pull_off_force", 1e-6)
-    assert found.u_num <= 1e-6 * found.value
-    assert np.isfinite(found.value)
+    force = solve(Problem(7.9582, 0.8704, 1.824), "pull_off_force", 1e-6)
+    assert force.u_num <= 1e-6 * force.value
+    assert np.isfinite(force.value)
 
 
 @pytest.mark.parametrize("index", [452, 456])
 def test_a_bound_above_the_request_is_reduced(index: int) -> None:
     """On the meshes of 1e-6 the bounds are 1.3e-6 and 1.9e-6 of the force."""
-    found = solve(problems()[index], "pull_off_force", 1e-6)
-    assert found.u_num <= 1e-6 * found.value
+    force = solve(problems()[index], "pull_off_force", 1e-6)
+    assert force.u_num <= 1e-6 * force.value
 
 
 def test_a_mesh_that_is_made_longer_holds_the_deformation_of_its_end() -> None:
@@ -95,8 +95,8 @@ def test_a_mesh_that_is_made_longer_holds_the_deformation_of_its_end() -> None:
         short_end, long_end = (
             next(iter(equilibrium_path(problem, 12, 1e-8, start_gap=1.0, end_height=end))).state for end in (1e2, 1e4)
         )
-        found = lengthened(short_end, 1e4)
-    assert found.end >= 1e4
-    deformation = found.gap + found.displacement - found.radius
-    expected = long_end.disc.mesh.evaluate(long_end.deformation, found.disc.mesh.nodes)
+        path = lengthened(short_end, 1e4)
+    assert path.end >= 1e4
+    deformation = path.gap + path.displacement - path.radius
+    expected = long_end.disc.mesh.evaluate(long_end.deformation, path.disc.mesh.nodes)
     assert np.max(np.abs(deformation - expected)) < 1e-3 * np.max(np.abs(expected))

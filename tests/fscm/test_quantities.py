@@ -27,20 +27,20 @@ def test_the_gibson_solid_has_the_same_quantities() -> None:
 
 
 def test_quantities_of_one_path_together_are_those_alone() -> None:
-    found = solve_together(SOFT, reversed(PATH_QUANTITIES))
-    assert list(found) == PATH_QUANTITIES[::-1]
+    solutions = solve_together(SOFT, reversed(PATH_QUANTITIES))
+    assert list(solutions) == PATH_QUANTITIES[::-1]
     for name in ("jump_out_gap", "hysteresis_energy"):
-        solution = found[name]
+        solution = solutions[name]
         assert isinstance(solution, Solution)
         assert solution.value == pytest.approx(solve(SOFT, name).value, rel=1e-12)
 
 
 @pytest.mark.parametrize("problem", [STIFF, Problem(2, 1, 0.3)], ids=["graded", "Gibson"])
 def test_a_quantity_that_does_not_exist_is_returned_as_the_exception(problem: Problem) -> None:
-    found = solve_together(problem, PATH_QUANTITIES)
-    missing = {name for name, solution in found.items() if isinstance(solution, NoSuchEvent)}
+    solutions = solve_together(problem, PATH_QUANTITIES)
+    missing = {name for name, solution in solutions.items() if isinstance(solution, NoSuchEvent)}
     assert missing == {name for name in PATH_QUANTITIES if name.startswith("jump") or name == "hysteresis_energy"}
-    assert found["pull_off_force"].value > 0
+    assert solutions["pull_off_force"].value > 0
 
 
 @pytest.mark.parametrize("problem", [STIFF, Problem(2, 1, 0.3)], ids=["graded", "Gibson"])
@@ -64,8 +64,8 @@ def test_unknown_events_are_refused_with_the_known_names() -> None:
 
 @pytest.mark.heavy
 def test_the_critical_tabor_number_of_a_low_accuracy_is_within_its_bound() -> None:
-    found = solve(SOFT, "critical_tabor_number", "quick")
-    assert abs(found.value - solve(SOFT, "critical_tabor_number").value) <= found.u_num
+    critical = solve(SOFT, "critical_tabor_number", "quick")
+    assert abs(critical.value - solve(SOFT, "critical_tabor_number").value) <= critical.u_num
 
 
 def test_paths_and_fields_are_as_accurate_as_requested() -> None:

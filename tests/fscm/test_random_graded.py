@@ -45,11 +45,11 @@ def _solid(rng):
 def problems():
     """The random problems, the same in every run."""
     rng = np.random.default_rng(20261122)
-    found = []
+    problems = []
     for _ in range(COUNT):
         n = float(rng.choice([1.0, 1.5, 2.0, 3.0]))
-        found.append(Problem(n, 0.0, _between(rng, 0.1, 3.0), graded=_solid(rng)))
-    return found
+        problems.append(Problem(n, 0.0, _between(rng, 0.1, 3.0), graded=_solid(rng)))
+    return problems
 
 
 @pytest.fixture
@@ -85,12 +85,12 @@ def test_events_on_random_graded_solids_are_honest(place, finer):
     problem = problems()[place]
     # The light tests have no jumps, which take a whole path.
     names = QUANTITIES[:1] if place in LIGHT else QUANTITIES
-    found = solve_together(problem, names)
+    solutions = solve_together(problem, names)
     finer()
     exact = solve_together(problem, names, FINE)
     for name in names:
-        assert isinstance(found[name], NoSuchEvent) == isinstance(exact[name], NoSuchEvent), name
+        assert isinstance(solutions[name], NoSuchEvent) == isinstance(exact[name], NoSuchEvent), name
         if not isinstance(exact[name], NoSuchEvent):
-            error = abs(found[name].value - exact[name].value)
-            assert error <= found[name].u_num + ROUNDING * abs(exact[name].value), (problem, name, error)
-            assert found[name].u_num < 1e-5 * (1.0 + abs(exact[name].value)), (problem, name)
+            error = abs(solutions[name].value - exact[name].value)
+            assert error <= solutions[name].u_num + ROUNDING * abs(exact[name].value), (problem, name, error)
+            assert solutions[name].u_num < 1e-5 * (1.0 + abs(exact[name].value)), (problem, name)

@@ -30,13 +30,13 @@ def compared(cases: list[Problem]) -> Iterator[tuple[Problem, str, str, float, f
     for problem in cases:
         rows = KNOWN[problem]
         try:
-            found = solve_together(problem, tuple(rows))
+            solutions = solve_together(problem, tuple(rows))
         except NotConverged as error:
             known_limit = NARROW in str(error) or not any(row[0] == "value" for row in rows.values())
             yield problem, "all", "" if known_limit else "NotConverged", np.nan, np.nan
             continue
         for name, (status, value, _) in rows.items():
-            solution = found[name]
+            solution = solutions[name]
             if not isinstance(solution, Solution):
                 same = type(solution).__name__ == status or status == "timeout"
                 yield problem, name, "" if same else f"{type(solution).__name__}, not {status}", np.nan, np.nan

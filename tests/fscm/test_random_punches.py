@@ -50,9 +50,9 @@ def test_no_punch_of_the_table_is_silently_wrong() -> None:
 def test_the_outcome_is_that_of_the_table(number: int) -> None:
     """The path has the folds at which the stable states of a fixed mesh end as well, up to its own end."""
     row, analysis = table()[number], Analysis(random_punch(number).problem)
-    found = outcome(analysis)
-    assert found.status == row["status"], found.reason
-    assert found.force == pytest.approx(float(row["pull_off_force"]), rel=1e-6)
+    values = outcome(analysis)
+    assert values.status == row["status"], values.reason
+    assert values.force == pytest.approx(float(row["pull_off_force"]), rel=1e-6)
     for column, maximum in (("retreat", False), ("approach", True)):
         folds = [f.displacement for f in analysis.folds if f.quantity == "displacement" and f.maximum == maximum]
         for jump in map(float, row[column].split()):
@@ -73,11 +73,11 @@ def test_jumps_farther_in_than_the_last_tension_are_not_part_of_the_path() -> No
 @pytest.mark.parametrize("number", heavy_but((0,)))
 def test_stable_states_on_a_fixed_mesh_have_the_least_load_and_the_jumps_of_the_table(number: int) -> None:
     case, row = random_punch(number), table()[number]
-    found = stable_states(case.problem, case.height)
-    assert found.pull_off_force == pytest.approx(float(row["brute_force"]), rel=1e-4)
+    states = stable_states(case.problem, case.height)
+    assert states.pull_off_force == pytest.approx(float(row["brute_force"]), rel=1e-4)
     for column in ("retreat", "approach"):
         jumps = [float(jump) for jump in row[column].split()]
-        assert list(getattr(found, column)) == pytest.approx(jumps, abs=JUMP)
+        assert list(getattr(states, column)) == pytest.approx(jumps, abs=JUMP)
 
 
 def test_no_fold_appears_where_the_edge_passes_a_kink() -> None:
@@ -134,10 +134,10 @@ def test_a_small_force_of_a_tall_asperity_in_a_ring_is_bracketed_on_a_finer_path
         return r + sum(2.0 * h * (r - at) / w**2 * np.exp(-((r - at) ** 2) / w**2) for h, at, w in bumps)
 
     problem = Problem(2, 0, 1.0, CustomPunch(height, growth=2, derivative=slope))
-    found = Analysis(problem).solution("pull_off_force")
+    force = Analysis(problem).solution("pull_off_force")
     finer = Analysis(problem, Meshes(path=Mesh(8, 3e-6))).solution("pull_off_force")
-    assert 0.0 < found.u_num < 1e-9 * found.value
-    assert abs(found.value - finer.value) <= found.u_num + finer.u_num + 1e-12 * found.value
+    assert 0.0 < force.u_num < 1e-9 * force.value
+    assert abs(force.value - finer.value) <= force.u_num + finer.u_num + 1e-12 * force.value
 
 
 @pytest.mark.heavy

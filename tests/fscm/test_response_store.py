@@ -26,8 +26,8 @@ def test_known_blocks_give_the_same_matrix_bit_for_bit(k: float) -> None:
     kernel, meshes = Kernel(k), [PanelMesh(OFFSETS, 6, 1.0)]
     for i in (3, 1, 7, 0):
         meshes.append(split(meshes[-1], i))
-    found = [response_matrix(kernel, mesh) for mesh in meshes]
-    for mesh, matrix in zip(meshes, found, strict=True):
+    matrices = [response_matrix(kernel, mesh) for mesh in meshes]
+    for mesh, matrix in zip(meshes, matrices, strict=True):
         store.clear()
         np.testing.assert_array_equal(response_matrix(Kernel(k), mesh), matrix)
 

@@ -50,16 +50,16 @@ def five_points(value, at):
     return (values[0] - 8.0 * values[1] + 8.0 * values[2] - values[3]) / (12.0 * STEP)
 
 
-def close(found, expected, relative, scale=0.0):
-    return abs(found - expected) <= relative * max(abs(expected), scale)
+def close(value, expected, relative, scale=0.0):
+    return abs(value - expected) <= relative * max(abs(expected), scale)
 
 
 def test_a_power_law_by_all_its_numbers():
     problem = Problem(2, 0.4, 1.0)
-    found = sensitivity(problem, "pull_off_force")
-    assert found.solution.value == solve(problem, "pull_off_force").value
-    assert list(found.gradient) == ["mu", "k", "n"]
-    for name, slope in found.gradient.items():
+    rates = sensitivity(problem, "pull_off_force")
+    assert rates.solution.value == solve(problem, "pull_off_force").value
+    assert list(rates.gradient) == ["mu", "k", "n"]
+    for name, slope in rates.gradient.items():
 
         def value(x, name=name):
             numbers = {"n": 2.0, "k": 0.4, "mu": 1.0, name: x}
@@ -87,12 +87,12 @@ def test_a_steep_punch_with_deformations_as_unknowns():
 
 def test_another_law_and_another_punch():
     problem = Problem(1.0, 0.0, 1.5, RoundedCone(1.0), Mie(m=12, n=6))
-    found = sensitivity(problem, "pull_off_force")
+    rates = sensitivity(problem, "pull_off_force")
     for posed, at in (
         (lambda x: replace(problem, law=Mie(m=x, n=6)), 12.0),
         (lambda x: replace(problem, punch=RoundedCone(x)), 1.0),
     ):
-        slope = found.derivative(posed, at, at)
+        slope = rates.derivative(posed, at, at)
         expected = difference(lambda x, posed=posed: solve(posed(x), "pull_off_force").value, at)
         assert close(slope, expected, DIFFERENCE, scale=0.1)
 
@@ -126,8 +126,8 @@ def exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3):
     ],
 )
 def test_other_solids(posed, name, rule):
-    found, at = sensitivity(posed(), "pull_off_force"), {"thickness": 1.0, "nu": 0.3}[name]
-    slope = found.derivative(lambda x: posed(**{name: x}), at, at)
+    rates, at = sensitivity(posed(), "pull_off_force"), {"thickness": 1.0, "nu": 0.3}[name]
+    slope = rates.derivative(lambda x: posed(**{name: x}), at, at)
     expected = rule(lambda x: solve(posed(**{name: x}), "pull_off_force").value, at)
     assert close(slope, expected, FITTED, scale=0.1)
 
@@ -149,9 +149,9 @@ def test_every_quantity_of_a_coated_solid(quantity, name):
 
 @pytest.mark.heavy
 def test_only_the_ratio_of_two_moduli_matters_at_a_fixed_tabor_number():
-    found = sensitivity(exponential(), "pull_off_force")
+    rates = sensitivity(exponential(), "pull_off_force")
     slopes = [
-        at * found.derivative(lambda x, name=name: exponential(**{name: x}), at, at)
+        at * rates.derivative(lambda x, name=name: exponential(**{name: x}), at, at)
         for name, at in (("E_surface", 1.0), ("E_depth", 4.0))
     ]
     assert abs(sum(slopes)) < IDENTITY
@@ -167,10 +167,10 @@ def test_dimensions_of_the_force():
         law = LennardJones(p["work_of_adhesion"], p["z0"])
         return Problem(PowerLaw(p["E0"], p["c0"], k=0.4, nu=0.3), PowerPunch(2.0, p["Q"]), law)
 
-    found = sensitivity(posed(), "pull_off_force")
-    force = found.solution.value
+    rates = sensitivity(posed(), "pull_off_force")
+    force = rates.solution.value
     log = {
-        name: found.derivative(lambda x, name=name: posed(**{name: x}), at, at) * at / force
+        name: rates.derivative(lambda x, name=name: posed(**{name: x}), at, at) * at / force
         for name, at in values.items()
     }
     assert abs(log["E0"] + log["work_of_adhesion"] - 1.0) < IDENTITY
@@ -180,19 +180,19 @@ def test_dimensions_of_the_force():
 
 
 def test_the_incompressible_linear_solid_has_no_neighbours():
-    found = sensitivity(Problem(2, 1.0, 0.1), "pull_off_force")
+    rates = sensitivity(Problem(2, 1.0, 0.1), "pull_off_force")
     # A paraboloid has the same force at any Tabor number.
-    assert abs(found.gradient["mu"]) < IDENTITY
+    assert abs(rates.gradient["mu"]) < IDENTITY
     with pytest.raises(ValueError, match="no neighbours"):
-        found.change(Problem(2, 0.9, 0.1))
+        rates.change(Problem(2, 0.9, 0.1))
 
 
 @pytest.mark.heavy
 def test_the_incompressible_linear_solid():
-    found = sensitivity(Problem(3, 1.0, 1.0), "pull_off_force")
+    rates = sensitivity(Problem(3, 1.0, 1.0), "pull_off_force")
     expected = difference(lambda mu: solve(Problem(3, 1, mu), "pull_off_force").value, 1.0)
-    assert found.gradient["mu"] < 0.0
-    assert close(found.gradient["mu"], expected, DIFFERENCE)
+    assert rates.gradient["mu"] < 0.0
+    assert close(rates.gradient["mu"], expected, DIFFERENCE)
 
 
 def test_quantities_without_a_sensitivity():

@@ -108,10 +108,10 @@ def solved(problem):
     "problem", [Problem(5, 0.2, 1.0), *(pytest.param(Problem(2, k, 1.0), marks=pytest.mark.heavy) for k in (0.4, 0.0))]
 )
 def test_the_uncertainty_covers_the_error(problem, quantity):
-    found = stieltjes_solution(problem, quantity, 200, **COARSE)
-    error = abs(found.value - solved(problem)[quantity].value)
-    assert error <= found.u_num < 0.1
-    assert found.size == 200
+    solution = stieltjes_solution(problem, quantity, 200, **COARSE)
+    error = abs(solution.value - solved(problem)[quantity].value)
+    assert error <= solution.u_num < 0.1
+    assert solution.size == 200
 
 
 def test_a_wider_domain_carries_more_of_the_tail():
