@@ -65,6 +65,11 @@ class Ball:
         """Radius up to which the shape is a sphere."""
         return SPHERICAL * self.R
 
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """The reach: the third derivative jumps there, which inside an element costs more than the bound shows."""
+        return (self.reach,)
+
     def _taylor(self) -> tuple[float, float, float]:
         """Height and its two derivatives at the reach."""
         root = math.sqrt(1.0 - SPHERICAL**2)
