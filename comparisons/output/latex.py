@@ -131,9 +131,10 @@ def _layout(texts: Mapping[str, list[str]]) -> tuple[_Page, str]:
     page = _UPRIGHT if sum(min(width, 2 * _SHORT) for width in widths.values()) <= _UPRIGHT.characters else _TURNED
     free = page.characters - sum(width for name, width in widths.items() if name not in wraps)
     forms = {name: f"S[table-format={_number_format(texts[name])}]" if aligned(texts[name]) else "l" for name in widths}
-    # The shortest first: what it leaves is for the others.
-    for place, name in enumerate(sorted(wraps, key=widths.__getitem__)):
-        share = min(widths[name], max(free / (len(wraps) - place), 6.0))
+    # The shortest first: what it leaves is for the others.  A number does not wrap.
+    for index, name in enumerate(sorted(wraps, key=widths.__getitem__)):
+        numbers = [len(word) + _GAP for text in texts[name] for word in text.split() if number_parts(word)]
+        share = min(widths[name], max(free / (len(wraps) - index), 6.0, *numbers))
         free -= share
         if share < widths[name]:
             forms[name] = rf">{{\raggedright\arraybackslash}}p{{{(share - _GAP) * page.width:.0f}pt}}"

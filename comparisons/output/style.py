@@ -182,6 +182,7 @@ _METADATA: dict[str, Any] = {
     ".pdf": {"CreationDate": None, "Producer": None, "Creator": None},
     ".svg": {"Date": None, "Creator": None},
 }
+#: Formats of pictures, as endings of their files.
 FORMATS = tuple(_METADATA)
 
 _SETTINGS: Any = {

@@ -44,6 +44,7 @@ class File(NamedTuple):
     text: str
 
 
+#: What a section of a page is made of.
 Block = Table | Plot | Facts | File
 
 

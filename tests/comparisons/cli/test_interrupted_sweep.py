@@ -187,5 +187,6 @@ def test_a_damaged_store(grid, undisturbed, tmp_path, damages):
             content[rng.randrange(len(content))] ^= 1 << rng.randrange(8)
         (tmp_path / STORE).write_bytes(content)
         status = main(["sweep", str(grid), "--jobs", "1", "--out", str(tmp_path), "--quiet"])
-        assert status == 0 or content[:8192] != intact[:8192]
+        # A cut may take pages that the head of the file names, which SQLite refuses as a whole.
+        assert status == 0 or len(content) < len(intact) or content[:8192] != intact[:8192]
         assert tables(tmp_path) == undisturbed

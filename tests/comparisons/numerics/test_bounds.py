@@ -39,7 +39,7 @@ def test_the_bound_of_kappa_is_exact_but_for_one_factor(x, u, sign, r, u_r, sign
 
 
 #: Lengths of vectors in the plane of a picture, a task of a cache as an example, deviations of the values of a user.
-_LENGTHS = {"curve_distance.py", "fscm_model.py", "reevaluation.py", "contour_labels.py", "cache.py", "propagation.py"}
+_LENGTHS = {"curve_distance.py", "fscm_model.py", "reevaluation.py", "contour_labels.py", "cache.py", "uncertainty.py"}
 
 
 def test_nothing_else_combines_bounds():

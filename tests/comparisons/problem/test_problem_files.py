@@ -143,8 +143,8 @@ def test_a_model_is_not_evaluated_outside_its_domain(written):
 
 def test_the_bound_of_the_finite_elements_is_that_of_their_solution(written, monkeypatch):
     found = written(solid="coating", punch="sphere", law="lennard-jones-9-3")
-    family = (3.0, 2.0, 1.0), (2e-9,) * 3, {"mesh": 5e-12}
-    solution = fem_reference.Solution(2e-9, 5e-12, 1, 1, 0.0, 0.1, 6.0, 6.0, *family)
+    family = (4, 6, 7), (2e-9,) * 3, {"mesh": 5e-12}
+    solution = fem_reference.Solution(2e-9, 5e-12, 1, 1, 0.0, 0.1, *family)
     monkeypatch.setattr(fem_reference, "solve", lambda problem, quantity: solution)
     value = evaluate("fem", "pull_off_force", found)
     assert (value.value, value.u_num) == (2e-9, 5e-12)
@@ -181,9 +181,7 @@ def on_the_coarsest_mesh(problem, quantity):
     assert quantity == "pull_off_force"
     force = -pull_off_on_the_coarsest_mesh(problem).load
     parts = {"mesh": COARSEST * force}
-    return fem_reference.Solution(
-        force, COARSEST * force, 1, 1, 0.0, 0.1, 6.0, 6.0, (3.0, 2.0, 1.0), (force,) * 3, parts
-    )
+    return fem_reference.Solution(force, COARSEST * force, 1, 1, 0.0, 0.1, (4, 6, 7), (force,) * 3, parts)
 
 
 def assert_both_references_agree(found, share):
