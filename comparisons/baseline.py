@@ -29,6 +29,7 @@ from comparisons.data.file_names import (
     CURVES,
     KAPPA_FIGURE,
     LARGEST_KAPPA,
+    RECORD,
     REFERENCES,
     RESULTS,
 )
@@ -37,9 +38,8 @@ from comparisons.problem import PARAMETERS
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.committed import committed
 from comparisons.runs.csv_format import csv_text, read_csv
-from comparisons.runs.folder import RunFolder
+from comparisons.runs.frames import read_table
 from comparisons.runs.record import check_files, read_record
-from comparisons.runs.tables import read_table
 
 __all__ = [
     "BASELINE",
@@ -85,16 +85,16 @@ def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
         If it is no finished run, lacks a file, was changed, or has other models or cases than the standing ones;
         nothing is changed then.
     """
-    record, tier = _standing_run(folder)
-    models = record["arguments"]["model"]
-    if models is not None:
-        raise ValueError(f"{folder} has the models {', '.join(models)} only: the baseline needs a run without --model")
-    if (gates := record["arguments"]["gates"]) is not None:
-        raise ValueError(f"{folder} has what the gates of {gates} need: the baseline needs a run without --gates")
-    tables = _TABLES if tier == "quick" else {}
-    texts = {name: csv_text(read_table(folder / source)[columns]) for name, (source, columns) in tables.items()}
-    contents = {name: text.encode() for name, text in texts.items()}
-    for name, source in _COPIES[tier].items():
+    arguments = _standing_run(folder)
+    for option in ("model", "gates"):
+        if arguments[option] is not None:
+            raise ValueError(
+                f"{folder} is of a run with --{option} {arguments[option]}: the baseline needs a run without it"
+            )
+    contents = {}
+    for name, (source, columns) in _TABLES.items() if arguments["tier"] == "quick" else ():
+        contents[name] = csv_text(read_table(folder / source)[columns]).encode()
+    for name, source in _COPIES[arguments["tier"]].items():
         if not (folder / source).exists():
             raise ValueError(f"{folder} lacks {source}: renew the baseline from the folder of a finished run")
         contents[name] = (folder / source).read_bytes()
@@ -105,14 +105,14 @@ def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
     return [target / name for name in contents]
 
 
-def _standing_run(folder: Path) -> tuple[dict[str, Any], str]:
-    """Return the record of a run of the standing cases, and its tier."""
-    record = read_record(RunFolder(folder).record)
+def _standing_run(folder: Path) -> dict[str, Any]:
+    """Return the arguments of a run of the standing cases."""
+    record = read_record(folder / RECORD)
     check_files(record, folder)
-    tier = record["arguments"].get("tier")
-    if tier is None:
+    arguments: dict[str, Any] = record["arguments"]
+    if arguments.get("tier") is None:
         raise ValueError(f"{folder} is not the folder of a run of the standing cases: give one of `fscm-bench run`")
-    return record, str(tier)
+    return arguments
 
 
 def read_baseline(target: Path | None = None) -> tuple[pd.DataFrame, pd.DataFrame]:
@@ -128,11 +128,8 @@ def read_baseline(target: Path | None = None) -> tuple[pd.DataFrame, pd.DataFram
     ValueError
         If they are not there.
     """
-    paths = [target / name if target else committed(name) for name in _TABLES]
-    if missing := [path for path in paths if not path.is_file()]:
-        raise ValueError(f"there is no file {missing[0]}: it is not the folder of a baseline")
-    rows, curves = (read_csv(path, _TEXTS) for path in paths)
-    return rows, curves
+    results, curves = (read_csv(target / name if target else committed(name), _TEXTS) for name in _TABLES)
+    return results, curves
 
 
 def drift(stored: pd.DataFrame, computed: pd.DataFrame) -> pd.DataFrame:
@@ -169,13 +166,10 @@ def check(folder: Path) -> pd.DataFrame:
     ValueError
         If it is no finished run, or a file of it was changed.
     """
-    _, tier = _standing_run(folder)
-    if tier == "quick":
-        return drift(read_baseline()[0], read_table(RunFolder(folder).parquet(RunFolder(folder).results)))
-    stored, computed = (
-        _by_model(read_csv(path, ("model", "quantity", "reference")))
-        for path in (committed(f"references_{AGREEMENT}.csv"), folder / f"{AGREEMENT}.csv")
-    )
+    if _standing_run(folder)["tier"] == "quick":
+        return drift(read_baseline()[0], read_table(folder / f"{RESULTS}.parquet"))
+    paths = (committed(f"references_{AGREEMENT}.csv"), folder / f"{AGREEMENT}.csv")
+    stored, computed = (_by_model(read_csv(path, ("model", "quantity", "reference", "problem"))) for path in paths)
     missing = stored.merge(computed[_KEY], on=_KEY, how="left", indicator=True)["_merge"] == "left_only"
     lost = stored[missing].assign(status="missing", value=float("nan"), u_num=float("nan"))
     return drift(stored, pd.concat([computed, lost], ignore_index=True))

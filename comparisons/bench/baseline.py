@@ -6,8 +6,8 @@ import json
 from pathlib import Path
 
 from comparisons.bench.run import parts_of
+from comparisons.data.file_names import BENCH, BENCH_SUMMARY
 from comparisons.runs.atomic_files import atomic
-from comparisons.runs.folder import RunFolder
 
 __all__ = ["BENCH_BASELINE", "has_bench", "renew"]
 
@@ -17,7 +17,7 @@ BENCH_BASELINE = Path("results", "baseline", "bench")
 
 def has_bench(folder: Path) -> bool:
     """Whether a folder is that of a finished ``fscm-bench bench``."""
-    return RunFolder(folder).bench.is_file()
+    return (folder / BENCH).is_file()
 
 
 def renew(folder: Path, target: Path = BENCH_BASELINE) -> list[Path]:
@@ -28,10 +28,9 @@ def renew(folder: Path, target: Path = BENCH_BASELINE) -> list[Path]:
     ValueError
         If the run lacks a part, or a measurement failed; nothing is changed then.
     """
-    stored = RunFolder(folder)
-    record = stored.bench
+    record = folder / BENCH
     content = json.loads(record.read_text(encoding="utf-8"))
-    sources = [record, stored.bench_summary, *(path for part in parts_of(None) for path in part.files(folder))]
+    sources = [record, folder / BENCH_SUMMARY, *(path for part in parts_of(None) for path in part.files(folder))]
     if missing := [path.name for path in sources if not path.is_file()]:
         raise ValueError(
             f"{folder} lacks {', '.join(missing)}: renew the baseline from the folder of a `fscm-bench bench` without "

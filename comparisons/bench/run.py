@@ -21,12 +21,12 @@ from comparisons.bench.part import Measurement, Part, key, table_of
 from comparisons.bench.two_workers import WORKERS
 from comparisons.bench.work_precision import WORK_PRECISION
 from comparisons.console.progress import note
+from comparisons.data.file_names import BENCH, BENCH_SUMMARY
 from comparisons.output.style import save
 from comparisons.runs.atomic_files import atomic, prepare_folder, write_json
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.data_package import write_data_package
 from comparisons.runs.environment import environment
-from comparisons.runs.folder import RunFolder
 from comparisons.runs.store import Form, Store
 
 __all__ = ["FORM", "PARTS", "FinishedBench", "parts_of", "run_bench"]
@@ -127,8 +127,8 @@ def _measure(parts: Sequence[Part], full: bool, store: Store[Measurement]) -> No
         (part, settings) for part in parts for settings in part.plan(full) if (part.name, key(settings)) not in stored
     ]
     note(f"{len(missing)} measurements" + (f", {len(stored)} are stored" if stored else ""))
-    made = ((measured(part, settings), None, 1.0) for part, settings in missing)
-    store.complete("measurements", [1.0] * len(missing), made)
+    made = ((measured(part, settings), None) for part, settings in missing)
+    store.complete("measurements", len(missing), made)
 
 
 def _written(
@@ -154,8 +154,8 @@ def _written(
             summary += part.summary(finished)
     content = {"arguments": arguments, **record, "optional": adhesion_package.versions(), "parts": store.parts()}
     content["failures"] = sum(row["status"] != "ok" for row in store.items)
-    write_json(content, RunFolder(folder).bench)
-    with atomic(RunFolder(folder).bench_summary) as file:
+    write_json(content, folder / BENCH)
+    with atomic(folder / BENCH_SUMMARY) as file:
         file.write("".join(f"{line}\n" for line in summary).encode())
     write_data_package(folder, [part.files(folder)[0].name for part in parts])
     return FinishedBench(folder, tables, summary, failures)

@@ -5,14 +5,14 @@ from __future__ import annotations
 from comparisons.cli.screen import output, print_lines
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK
 from comparisons.console.progress import log
+from comparisons.data.file_names import GATES
 from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import Verdict
 from comparisons.judging.report_card import card_lines, given_models, verdict_sentence
 from comparisons.judging.summary import summarise
 from comparisons.output.gate_sentence import declared_sentence, gate_lines, gates_line, unexpected
 from comparisons.pipeline.judgement import Judgement
-from comparisons.runs.folder import RunFolder
-from comparisons.runs.tables import read_table
+from comparisons.runs.frames import read_table
 
 __all__ = ["STATUS", "print_verdicts"]
 
@@ -41,17 +41,13 @@ def print_verdicts(judgement: Judgement, *, verbose: bool, quiet: bool) -> None:
         return
     gates, width = summarise(judgement.verdicts), output().width
     if quiet:
-        for line in gate_lines(unexpected(gates), judgement.specs, width, _GATES):
+        for line in gate_lines(unexpected(gates), judgement.inputs.specs, width, _GATES):
             log(line)
     else:
         print_lines(_cards(judgement, verbose))
-        print_lines(
-            gate_lines(
-                *((gates, judgement.specs, width) if verbose else (unexpected(gates), judgement.specs, width, _GATES))
-            )
-        )
-        files = RunFolder(judgement.folder)
-        required = read_table(files.parquet(files.gates))
+        rows, most = (gates, None) if verbose else (unexpected(gates), _GATES)
+        print_lines(gate_lines(rows, judgement.inputs.specs, width, most))
+        required = read_table(judgement.folder / f"{GATES}.parquet")
         bases = dict(zip(required["id"], required["basis"], strict=True))
         print_lines(filter(None, [declared_sentence(gates), gates_line(gates, judgement.verdicts, bases)]))
     wrong = gates[gates["verdict"] == Verdict.ERROR]
@@ -64,9 +60,9 @@ def print_verdicts(judgement: Judgement, *, verbose: bool, quiet: bool) -> None:
 def _cards(judgement: Judgement, verbose: bool) -> list[str]:
     """Return the lines of the report cards of the given models; where they are long, a sentence for each."""
     lines: list[str] = []
-    names = given_models(judgement.models, judgement.verdicts)
+    names = given_models(judgement.inputs.models, judgement.verdicts)
     for name in names:
-        card = card_lines(name, judgement.verdicts, judgement.cards.get(name), judgement.domains.get(name))
+        card = card_lines(name, judgement.verdicts, judgement.cards.get(name), judgement.inputs.domains.get(name))
         label_width = max(len(label) for label, _ in card)
         lines += [f"report card of {name}", *(f"  {label:{label_width}}  {text}" for label, text in card)]
     if verbose or len(lines) <= _CARD_LINES:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import errno
 import io
 import os
-import shutil
 import signal
 import sys
 import threading
@@ -17,7 +16,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import TextIO
 
-from comparisons.console.folding import folded
 from comparisons.console.installation import sentence_on_missing_module
 from comparisons.console.printable import printable
 
@@ -89,8 +87,8 @@ def guarded(command: Callable[[], int], program: str = "fscm-bench") -> int:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  # open to the end
     status = _status(command, program)
     for stream in (sys.stdout, sys.stderr):
-        if stream is not None and not _flushed(stream):
-            _discard(stream)
+        if stream is not None:
+            _flush_or_discard(stream)
     return status
 
 
@@ -98,9 +96,9 @@ def _status(command: Callable[[], int], program: str) -> int:
     if sys.stdout is None:
         _say(program, "the standard output is closed, so results cannot be written; use > /dev/null to drop them")
         return FAILED
+    _obey_sigterm()
     try:
-        with _terminable():
-            return _finished(command)
+        return _finished(command)
     except KeyboardInterrupt as error:
         terminated = isinstance(error, Terminated)
         _say(program, "terminated" if terminated else "interrupted")
@@ -162,18 +160,11 @@ def _explained(error: Exception) -> tuple[int, str]:
     )
 
 
-@contextmanager
-def _terminable() -> Iterator[None]:
-    """Raise `Terminated` at SIGTERM, unless this process ignores it or handles it already."""
+def _obey_sigterm() -> None:
+    """Let SIGTERM raise `Terminated`, unless this process ignores it or handles it already."""
     main = threading.current_thread() is threading.main_thread()
-    if not (main and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL):
-        yield
-        return
-    signal.signal(signal.SIGTERM, _terminate)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if main and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
+        signal.signal(signal.SIGTERM, _terminate)
 
 
 def _terminate(number: int, frame: object) -> None:
@@ -182,29 +173,17 @@ def _terminate(number: int, frame: object) -> None:
 
 def _say(program: str, sentence: str) -> None:
     """Write on stderr, without control characters; if that fails too, only the exit status is left."""
-    text = f"{program}: {printable(sentence)}"
     with suppress(OSError):
-        if sys.stderr.isatty():
-            columns = shutil.get_terminal_size().columns
-            text = "\n".join(folded(text, columns))
-        print(text, file=sys.stderr, flush=True)
+        print(f"{program}: {printable(sentence)}", file=sys.stderr, flush=True)
 
 
-def _flushed(stream: TextIO) -> bool:
-    """Write what a stream still holds; return whether that was possible."""
+def _flush_or_discard(stream: TextIO) -> None:
+    """Write what a stream still holds, or point it at nothing: Python's own flush would change the exit status."""
     try:
         stream.flush()
     except OSError:
-        return False
-    return True
-
-
-def _discard(stream: TextIO) -> None:
-    """Point a stream that cannot be written at nothing: Python's own flush at the end would change the status."""
-    try:
-        descriptor = stream.fileno()
-    except io.UnsupportedOperation:  # a stream in memory
-        return
-    nothing = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nothing, descriptor)
-    os.close(nothing)
+        with suppress(io.UnsupportedOperation):  # a stream in memory has no descriptor
+            descriptor = stream.fileno()
+            nothing = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nothing, descriptor)
+            os.close(nothing)

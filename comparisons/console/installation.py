@@ -40,21 +40,22 @@ def check_packages(root: Path | None = None) -> None:
     """
     root = root or Path(__file__).resolve().parents[2]
     for name in sorted(os.listdir(root)):
-        if found := _OTHERS.fullmatch(name):
+        if clash := _OTHERS.fullmatch(name):
+            package, version = clash[1], clash[2]
             raise ValueError(
-                f"the distribution {found[1]} {found[2]} of another project is installed in {root} too, and writes to "
-                f"the same folder {found[1]} as fscm-bench: pip uninstall {found[1]}, then pip install "
+                f"the distribution {package} {version} of another project is installed in {root} too, and writes to "
+                f"the same folder {package} as fscm-bench: pip uninstall {package}, then pip install "
                 "--force-reinstall --no-deps with the clone or the wheel of fscm-bench; or use a virtual environment "
                 "for each"
             )
     for package in _PACKAGES:
         spec = find_spec(package)
-        places = [] if spec is None else list(spec.submodule_search_locations or [])
-        if str(root / package) not in [str(Path(place).resolve()) for place in places]:
-            found_at = "no package" if spec is None else f"{spec.origin or ', '.join(places)} as the package"
+        folders = [str(Path(folder).resolve()) for folder in (spec and spec.submodule_search_locations) or []]
+        if str(root / package) not in folders:
             raise ValueError(
-                f"Python finds {found_at} {package}, and not {root / package} of fscm-bench: pip uninstall the "
-                "distribution it belongs to, take its folder out of PYTHONPATH, or use a virtual environment"
+                f"Python finds {(spec and spec.origin) or folders or 'nothing'} as the package {package}, and not "
+                f"{root / package} of fscm-bench: pip uninstall the distribution it belongs to, take its folder out of "
+                "PYTHONPATH, or use a virtual environment"
             )
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from contextvars import ContextVar
 
-from rich.progress import BarColumn, Progress, ProgressColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich import progress
 
 from comparisons.console.safe_console import SafeConsole
 
@@ -51,45 +51,24 @@ def quiet() -> Iterator[None]:
 @contextmanager
 def waiting(description: str) -> Iterator[None]:
     """Show that one computation of unknown length is under way."""
-    with _bar(TimeElapsedColumn()) as bar:
+    with _bar(progress.TimeElapsedColumn()) as bar:
         bar.add_task(description, total=None)
         yield
 
 
 @contextmanager
-def counting(description: str, costs: Sequence[float]) -> Iterator[Callable[[float], None]]:
-    """Show how many computations are done, and the time left.
-
-    Parameters
-    ----------
-    description : str
-    costs : sequence of float
-        What the computations may take, in any unit; the time left follows from their sum.
-
-    Yields
-    ------
-    callable
-        Takes the cost of one more computation that is done.
-    """
-    done = 0
-    columns = (TextColumn("{task.fields[done]}/{task.fields[count]}"), TimeElapsedColumn(), TimeRemainingColumn())
-    with _bar(*columns) as bar:
-        task = bar.add_task(description, total=sum(costs), done=0, count=len(costs))
-
-        def advance(cost: float) -> None:
-            nonlocal done
-            done += 1
-            bar.update(task, advance=cost, done=done)
-
-        yield advance
+def counting(description: str, count: int) -> Iterator[Callable[[], None]]:
+    """Show how many computations are done, and the time left; the yielded function counts one more."""
+    with _bar(progress.MofNCompleteColumn(), progress.TimeElapsedColumn(), progress.TimeRemainingColumn()) as bar:
+        task = bar.add_task(description, total=count)
+        yield lambda: bar.advance(task)
 
 
 @contextmanager
-def _bar(*columns: ProgressColumn) -> Iterator[Progress]:
+def _bar(*columns: progress.ProgressColumn) -> Iterator[progress.Progress]:
     console = SafeConsole(stderr=True)
-    bar = Progress(
-        TextColumn("{task.description}", markup=False), BarColumn(), *columns, console=console, transient=True
-    )
+    text = progress.TextColumn("{task.description}", markup=False)
+    bar = progress.Progress(text, progress.BarColumn(), *columns, console=console, transient=True)
     # Without a terminal (a file, a CI log) a redrawn bar is only noise: it counts, but is not started.
     with bar if console.is_terminal and not _quiet.get() else nullcontext():
         yield bar

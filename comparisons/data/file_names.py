@@ -1,4 +1,4 @@
-"""Names of the files in the folder of a run; `comparisons.runs.folder` makes paths of them."""
+"""Names of the files in the folder of a run."""
 
 from __future__ import annotations
 

@@ -7,8 +7,7 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from comparisons.console.folding import hanging
-from comparisons.console.shell_text import wrapped_command
+from comparisons.console.folding import hanging, wrapped_command
 from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import Verdict
 from comparisons.judging.summary import coverage_text

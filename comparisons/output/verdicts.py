@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from comparisons.data.file_names import GATES, JUNIT, SUMMARY, VERDICTS, VERDICTS_MARKDOWN
 from comparisons.judging.card_gates import CARD
 from comparisons.judging.gates import Gate
 from comparisons.judging.summary import summarise
@@ -21,9 +22,8 @@ from comparisons.problem import PARAMETERS
 from comparisons.problem.problem import split_name
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic
-from comparisons.runs.folder import RunFolder
+from comparisons.runs.frames import write_table
 from comparisons.runs.rows import Key
-from comparisons.runs.tables import write_table
 
 __all__ = ["FORMATS", "GATE_COLUMNS", "command", "write_verdicts"]
 
@@ -85,12 +85,11 @@ def write_verdicts(
     The summary by gate, and what the gates required, go beside them as CSV and Parquet: a gates file may change
     later.
     """
-    files = RunFolder(folder)
     summary = summarise(judged)
     required = [[str(getattr(gate, name)) for name in GATE_COLUMNS] for gate in gates]
-    write_table(judged.assign(verdict=judged["verdict"].map(str)), files.verdicts)
-    write_table(summary.assign(verdict=summary["verdict"].map(str)), files.summary)
-    write_table(pd.DataFrame(required, columns=list(GATE_COLUMNS), dtype=str), files.gates)
+    write_table(judged.assign(verdict=judged["verdict"].map(str)), folder / VERDICTS)
+    write_table(summary.assign(verdict=summary["verdict"].map(str)), folder / SUMMARY)
+    write_table(pd.DataFrame(required, columns=list(GATE_COLUMNS), dtype=str), folder / GATES)
     requirement = {gate.id: gate.requirement for gate in gates}
     layout = [
         *columns("verdict", "gate", "candidate", "reference", "coverage", "E(U)", "limits"),
@@ -100,10 +99,10 @@ def write_verdicts(
     ]
     by_gate = Table("verdicts", "Verdicts", layout, summary)
     worst = Table("verdicts", "Verdicts of fscm-bench, worst first, each in its worst case", _WORST_CASES, summary)
-    texts = {files.verdicts.with_suffix(f".{suffix}"): made(by_gate, worst) for suffix, made in FORMATS.items()}
+    texts = {folder / f"{VERDICTS}.{suffix}": made(by_gate, worst) for suffix, made in FORMATS.items()}
     for path, text in texts.items():
         with atomic(path) as file:
             file.write(text.encode())
-    with atomic(files.junit) as file:
+    with atomic(folder / JUNIT) as file:
         file.write(junit(judged, partial(command, specs=specs), seconds))
-    return texts[files.verdicts_markdown]
+    return texts[folder / VERDICTS_MARKDOWN]

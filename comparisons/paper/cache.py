@@ -176,11 +176,11 @@ def make_calls(
         store.drop(lambda outcome: outcome.call in again)
         log_failures_used(Counter(call.function.partition(":")[2] for call in failed if call not in again))
         missing = [call for call in planned if call not in stored or call in again]
-        store.complete(description, [1.0] * len(missing), _outcomes(missing, jobs))
+        store.complete(description, len(missing), _outcomes(missing, jobs))
         used = set(planned)
         return MadeCalls(_results(store.items), len(missing), store.parts(lambda outcome: outcome.call in used))
 
 
-def _outcomes(calls: list[CachedCall], jobs: int) -> Generator[tuple[_Outcome, None, float]]:
+def _outcomes(calls: list[CachedCall], jobs: int) -> Generator[tuple[_Outcome, None]]:
     for outcome in each(_make, calls, jobs, lost=_lost):
-        yield outcome, None, 1.0
+        yield outcome, None

@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from comparisons.data.file_names import RUN_FILES
+from comparisons.data.file_names import COMPARISON, RECORD
 from comparisons.output.comparison import case_tables, summary_tables
 from comparisons.output.errors import comparison_table, error_summary
 from comparisons.output.figures import comparison as figure_of_comparison
 from comparisons.output.html import html_table
 from comparisons.output.style import save
-from comparisons.pipeline.inputs import Cases, load_cases, names_of_inputs, stored_cases
+from comparisons.pipeline.inputs import Cases, grid_text, load_cases
 from comparisons.pipeline.run import run
 from comparisons.quantities import CURVES
-from comparisons.runs.folder import RunFolder
+from comparisons.runs.frames import write_table
 from comparisons.runs.record import read_record, write_record
 from comparisons.runs.rows import Row
-from comparisons.runs.tables import write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -112,60 +110,50 @@ def compare(
     --------
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
-    ...     found = compare(["jkr", "bradley"], n=[2], k=[0], mu=[1], reference="atlas", folder=Path(folder))
-    >>> found.table[["model", "kappa"]].round(4).values.tolist()
+    ...     compared = compare(["jkr", "bradley"], n=[2], k=[0], mu=[1], reference="atlas", folder=Path(folder))
+    >>> compared.table[["model", "kappa"]].round(4).values.tolist()
     [['jkr', -0.1022], ['bradley', 0.1971]]
     """
     specs = [models] if isinstance(models, str) else list(models)
     if not specs:
         raise ValueError("no model is named; a comparison needs at least one")
+    numbers = {"n": n, "k": k, "mu": mu, "nu": nu}
     if grid is None:
-        missing = [name for name, values in (("n", n), ("k", k), ("mu", mu)) if values is None or not len(values)]
+        missing = [name for name in ("n", "k", "mu") if numbers[name] is None or not len(numbers[name] or ())]
         if missing:
             raise ValueError(f"the cases need --{' and --'.join(missing)}, or a file of them as --grid FILE")
-        grid = _grid_text(specs, {"n": n, "k": k, "mu": mu, "nu": nu}, quantities, reference or REFERENCES[0])
-    elif n is not None or k is not None or mu is not None or nu is not None or reference is not None:
+        grid = _grid_text(numbers, quantities, reference or REFERENCES[0])
+    elif reference is not None or any(values is not None for values in numbers.values()):
         raise ValueError("--grid states the cases and the references; leave out --n, --k, --mu, --nu and --reference")
     _check(load_cases(grid, None), specs)
     finished = run(grid, models=specs, folder=folder, jobs=jobs, retry_failed=retry_failed)
-    files = RunFolder(finished.folder)
-    # The names of the models, which a SPEC alone does not state.
-    record = read_record(files.record)
-    cases = stored_cases(files, None, None)
-    table = comparison_table(finished.tables.results, cases.grids, record["arguments"]["model"])
-    found = Comparison(table, error_summary(table), finished.folder, finished.failures)
-    write_table(table, files.comparison)
-    figure = found.figure()
-    for path in files.figure(files.comparison.name):
-        save(figure, path)
-    write_record(record, files.record, [*RUN_FILES, *names_of_inputs(cases)])
-    return found
+    table = comparison_table(finished.tables.results, finished.inputs.cases.grids, finished.inputs.models)
+    comparison = Comparison(table, error_summary(table), finished.folder, finished.failures)
+    write_table(table, finished.folder / COMPARISON)
+    figure = comparison.figure()
+    for suffix in (".png", ".pdf"):
+        save(figure, finished.folder / f"{COMPARISON}{suffix}")
+    # With the checksums of these files.
+    write_record(read_record(finished.folder / RECORD), finished.folder / RECORD)
+    return comparison
 
 
-def _grid_text(
-    models: Sequence[str], lists: dict[str, Sequence[float] | None], quantities: Sequence[str], reference: str
-) -> str:
+def _grid_text(numbers: Mapping[str, Sequence[float] | None], quantities: Sequence[str], reference: str) -> str:
     """Return a [[grid]] table, which the folder keeps."""
     if reference not in REFERENCES:
         raise ValueError(
             f"the reference {reference!r} is none of {', '.join(REFERENCES)}; a --grid FILE may name others"
         )
-    numbers = {name: [float(value) for value in values] for name, values in lists.items() if values is not None}
-    # Lists of texts and finite numbers are the same in JSON and in TOML; others are refused with the reason.
-    entries = {
+    texts = {
         "id": "comparison",
         "title": f"Comparison with {reference}",
         "reference": reference,
         "models": [reference],
         "quantities": list(quantities),
     }
-    lines = [f"{name} = {json.dumps(value)}" for name, value in entries.items()]
-    lines += [f"{name} = [{', '.join(map(_toml, values))}]" for name, values in numbers.items()]
-    return "\n".join(["[[grid]]", *lines, ""])
-
-
-def _toml(value: float) -> str:
-    return repr(value)
+    # The text of a number is that of TOML, also of one that is refused.
+    lists = {name: str([float(value) for value in values]) for name, values in numbers.items() if values is not None}
+    return grid_text(texts, **lists)
 
 
 def _check(cases: Cases, specs: Sequence[str]) -> None:

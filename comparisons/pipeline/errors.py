@@ -50,8 +50,9 @@ def errors(
     """
     if quantity not in QUANTITIES:
         raise ValueError(f"unknown quantity {quantity!r}; the quantities are {', '.join(QUANTITIES)}")
-    chosen = {model.name: model for model in (create(m) if isinstance(m, str) else m for m in models)}
-    if reference not in chosen:
-        chosen[reference] = create(reference)
-    rows = [evaluate(model, quantity, case) for case in cases for model in chosen.values()]
+    created = [create(model) if isinstance(model, str) else model for model in models]
+    by_name = {model.name: model for model in created}
+    if reference not in by_name:
+        by_name[reference] = create(reference)
+    rows = [evaluate(model, quantity, case) for case in cases for model in by_name.values()]
     return relative_error(frame(rows), reference)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +23,7 @@ from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.case_columns import keys_in, with_problem
 from comparisons.runs.tasks import problem_for
 
-__all__ = ["ExpectedVerdict", "expected_verdicts", "found_verdicts"]
+__all__ = ["ExpectedVerdict", "computed_verdicts", "expected_verdicts"]
 
 #: Gate, and the key of the result of its candidate; of a whole gate its candidate and a number.
 VerdictKey = tuple[Any, ...]
@@ -62,13 +61,13 @@ def expected_verdicts(gates: Path, models: Sequence[str], cases: str | Path = "q
     loaded = load_cases(cases, names)
     for gate in relevant(read_gates(gates, loaded, names).gates, loaded.grids, names):
         for case in cases_of(gate, loaded.grids, names):
-            own = problem_for(gate.candidate, case)
+            numbers = problem_for(gate.candidate, case).numbers
             key = (gate.id, *key_of(gate.candidate, gate, case))
-            place = case.name or " ".join(f"{name}={exact(value)}" for name, value in own.numbers.items())
-            yield ExpectedVerdict(key, f"{gate.id}[{gate.candidate} {place}]", gate.requirement)
+            label = case.name or " ".join(f"{name}={exact(value)}" for name, value in numbers.items())
+            yield ExpectedVerdict(key, f"{gate.id}[{gate.candidate} {label}]", gate.requirement)
 
 
-def found_verdicts(
+def computed_verdicts(
     gates: Path, models: Sequence[str], cases: str | Path, folder: Path, jobs: int = 1
 ) -> dict[VerdictKey, tuple[str, str]]:
     """Run and judge; return the verdict of each key with a text: the reason, the numbers and the command.
@@ -86,19 +85,17 @@ def found_verdicts(
     assert judgement is not None
     if without_card_gates(judgement.verdicts).empty:
         raise ValueError(f"{gates}: no gate was evaluated: no candidate of a gate is given")
-    repeat = partial(command, specs=judgement.specs)
-    verdicts = with_problem(judgement.verdicts).rename(columns={"candidate": "model"})
-    keys = keys_in(verdicts)
-    found = {}
-    for place, (key, (_, row)) in enumerate(zip(keys, judgement.verdicts.iterrows(), strict=True)):
-        # One on a whole gate has its place, since there may be several.
-        whole = pd.isna(row["n"]) and not key[-1]
-        name = (row["gate"], row["candidate"], place) if whole else (row["gate"], *key)
-        found[name] = str(row["verdict"]), _text(row, repeat(row), whole=whole)
-    return found
+    keys = keys_in(with_problem(judgement.verdicts).rename(columns={"candidate": "model"}))
+    texts = {}
+    for index, (key, (_, row)) in enumerate(zip(keys, judgement.verdicts.iterrows(), strict=True)):
+        # One on a whole gate has its index, since there may be several.
+        of_gate = pd.isna(row["n"]) and not key[-1]
+        name = (row["gate"], row["candidate"], index) if of_gate else (row["gate"], *key)
+        texts[name] = str(row["verdict"]), _text(row, command(row, judgement.inputs.specs), of_gate=of_gate)
+    return texts
 
 
-def _text(row: pd.Series, again: str, *, whole: bool) -> str:
-    before = f"{row['gate']} of {row['candidate']}: " if whole else ""
+def _text(row: pd.Series, again: str, *, of_gate: bool) -> str:
+    before = f"{row['gate']} of {row['candidate']}: " if of_gate else ""
     numbers = "" if pd.isna(row["error"]) else numbers_text(row)
     return "\n".join(filter(None, [f"{before}{row['reason']}", numbers, f"computed again by: {again}"]))

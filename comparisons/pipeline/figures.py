@@ -6,13 +6,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+from comparisons.data.file_names import RECORD
 from comparisons.model import ComputationFailed
 from comparisons.paper.cache import Results, make_calls
 from comparisons.paper.paper_figure import PaperFigure, Tables, calls_of, given
 from comparisons.paper.registry import paper_figures
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import checked_jobs
-from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import now, record_content, write_record
 
 __all__ = ["FinishedFigure", "FinishedPaper", "make_figures"]
@@ -41,7 +41,7 @@ class FinishedPaper:
     @property
     def failures(self) -> dict[str, str]:
         """Name of each figure that failed -> the reason."""
-        return {one.figure.stem: one.failure for one in self.figures if one.failure}
+        return {finished.figure.stem: finished.failure for finished in self.figures if finished.failure}
 
 
 def make_figures(
@@ -79,29 +79,27 @@ def make_figures(
     """
     checked_jobs(jobs)
     wanted = None if names is None else list(names)
-    chosen = paper_figures(wanted)
-    target = RunFolder(prepare_folder(folder))
+    figures = paper_figures(wanted)
+    prepare_folder(folder)
     started = now()
-    calls = [call for figure in chosen for call in calls_of(figure.plan())]
-    made = make_calls(calls, folder, jobs, retry_failed=retry_failed)
-    finished = tuple(_finished(figure, made.results, folder) for figure in chosen)
-    distinct = dict.fromkeys(calls)
-    failed = len(made.failed(calls))
-    content = record_content(
+    calls = list(dict.fromkeys(call for figure in figures for call in calls_of(figure.plan())))
+    computed = make_calls(calls, folder, jobs, retry_failed=retry_failed)
+    finished = tuple(_finished(figure, computed.results, folder) for figure in figures)
+    failed = len(computed.failed(calls))
+    record = record_content(
         "paper",
         {"figure": wanted, "jobs": jobs, "out": str(folder)},
         started=started,
-        parts=made.parts,
+        parts=computed.parts,
         rows={
-            "all": len(distinct),
-            "resumed": len(distinct) - made.made,
-            "ok": len(distinct) - failed,
+            "all": len(calls),
+            "resumed": len(calls) - computed.made,
+            "ok": len(calls) - failed,
             "failed": failed,
         },
         seconds={},
-        verdicts={},
     )
-    write_record(content, target.record, [path.name for one in finished for path in one.files])
+    write_record(record, folder / RECORD, [path.name for figure in finished for path in figure.files])
     return FinishedPaper(folder, finished)
 
 

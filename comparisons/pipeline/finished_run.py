@@ -9,17 +9,16 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.data.contained_paths import path_inside
-from comparisons.data.file_names import COMPARISON_FILES, GATES_TEXT, GRID_TEXT, INPUTS, RUN_FILES, is_of_verdicts
+from comparisons.data.file_names import COMPARISON_FILES, GATES_TEXT, GRID_TEXT, INPUTS, RECORD, STORE, is_of_verdicts
 from comparisons.data.input_files import LARGEST_TABLE, read_bytes
 from comparisons.judging.decision import Verdict
-from comparisons.pipeline.inputs import Cases, Gates, RunInputs, names_of_inputs
+from comparisons.pipeline.inputs import Cases, Gates, RunInputs
 from comparisons.pipeline.judgement import Judgement, judge_and_write
 from comparisons.pipeline.report_cards import make_cards
 from comparisons.pipeline.tables import RunTables, make_tables, write_pictures, write_tables
 from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.computation import Completed
-from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import read_record, record_content, write_record
 from comparisons.runs.rows import Row
 
@@ -34,6 +33,7 @@ class FinishedRun:
     ----------
     folder : Path
         With the files of the run.
+    inputs : RunInputs
     tables : RunTables
     counts : dict of str to int
         Numbers of rows: all, resumed, and by status.
@@ -44,6 +44,7 @@ class FinishedRun:
     """
 
     folder: Path
+    inputs: RunInputs
     tables: RunTables
     counts: dict[str, int]
     failures: tuple[Row, ...]
@@ -56,13 +57,13 @@ class FinishedRun:
 
 
 def write_run(
-    target: RunFolder, inputs: RunInputs, completed: Completed, arguments: Mapping[str, Any], started: str
+    folder: Path, inputs: RunInputs, completed: Completed, arguments: Mapping[str, Any], started: str
 ) -> FinishedRun:
     """Write what follows from the rows of a run into its folder: tables, pictures, verdicts and the record.
 
     Parameters
     ----------
-    target : RunFolder
+    folder : Path
     inputs : RunInputs
     completed : Completed
         The rows.
@@ -71,99 +72,93 @@ def write_run(
     started : str
         When the command began.
     """
-    chosen, rules, chosen_models, external = inputs.cases, inputs.gates, inputs.models, inputs.external
-    texts = kept_texts(target, chosen, rules)
-    rows = completed.rows
-    tables = make_tables(rows, chosen, chosen_models)
-    write_tables(tables, target)
-    if chosen.tier is not None:
-        write_pictures(tables, target)
-    for path, kept in texts.items():
+    cases, gates, rows = inputs.cases, inputs.gates, completed.rows
+    texts = kept_texts(folder, cases, gates)
+    tables = make_tables(rows, cases, inputs.models)
+    write_tables(tables, folder)
+    if cases.tier is not None:
+        write_pictures(tables, folder)
+    for path, content in texts.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         with atomic(path) as file:
-            file.write(kept)
-    specs = {name: model.spec for name, model in external.items()}
+            file.write(content)
+    tasks = inputs.plan()
     judgement: Judgement | None = None
-    cards: dict[str, Any] = {}
-    if rules is not None:
-        cards = make_cards(external, rows, completed.parts, {task.key: task.problem for task in inputs.plan()})
-        judgement = judge_and_write(target, inputs, tables.results, tables.curves, cards)
-    stale = {GRID_TEXT} if rules is not None else {GATES_TEXT}
-    _remove_stale(target, {*stale, *COMPARISON_FILES}, texts, judged=rules is not None)
+    if gates is not None:
+        cards = make_cards(inputs.external, rows, completed.parts, {task.key: task.problem for task in tasks})
+        judgement = judge_and_write(folder, inputs, tables.results, tables.curves, cards)
+    _remove_stale(folder, texts, judged=judgement is not None)
     counts = {"all": len(rows), "resumed": completed.resumed, **Counter(row.status for row in rows)}
-    seconds: Counter[str] = Counter()
-    for row in rows:
-        seconds[row.model] += row.seconds  # type: ignore[assignment]
-    content = record_content(
-        "sweep" if rules is None else "run",
+    seconds = {name: sum(row.seconds for row in rows if row.model == name) for name in {row.model for row in rows}}
+    record = record_content(
+        "sweep" if gates is None else "run",
         {
-            "tier": chosen.tier,
-            "grid": chosen.source,
-            "model": chosen_models,
-            "external": specs,
-            "gates": None if rules is None else rules.source,
+            "tier": cases.tier,
+            "grid": cases.source,
+            "model": inputs.models,
+            "external": inputs.specs,
+            "gates": None if gates is None else gates.source,
             **arguments,
-            "out": str(target.path),
+            "out": str(folder),
         },
         started=started,
         parts=completed.parts,
         rows=counts,
         seconds=dict(sorted(seconds.items())),
-        verdicts=judgement.counts if judgement else {},
     )
-    content |= {
-        "cases_sha256": chosen.sha256,
-        "models": described({task.model for task in inputs.plan()}, external),
+    record |= {
+        "cases_sha256": cases.sha256,
+        "models": described({task.model for task in tasks}, inputs.external),
         "domains": {name: domain.as_json() for name, domain in inputs.domains.items()},
     }
-    others = {
-        "gates_sha256": rules and rules.sha256,
+    if gates is not None and judgement is not None:
+        record |= {"gates_sha256": gates.sha256, **judgement.as_json()}
+    optional = {
         "evaluated_again": completed.evaluated_again,
-        "cards": cards,
+        "cards": judgement and judgement.cards,
         "fresh": inputs.fresh and inputs.fresh.as_json(),
-        "coverage": judgement and judgement.coverage,
     }
-    content |= {name: value for name, value in others.items() if value or (name == "coverage" and value is not None)}
-    write_record(content, target.record, [*RUN_FILES, *names_of_inputs(chosen)])
+    record |= {name: value for name, value in optional.items() if value}
+    write_record(record, folder / RECORD)
     failures = tuple(row for row in rows if row.status == "failed")
-    return FinishedRun(target.path, tables, counts, failures, judgement)
+    return FinishedRun(folder, inputs, tables, counts, failures, judgement)
 
 
-def kept_texts(folder: RunFolder, cases: Cases, gates: Gates | None) -> dict[Path, bytes]:
+def kept_texts(folder: Path, cases: Cases, gates: Gates | None) -> dict[Path, bytes]:
     """Return what the run keeps of its inputs; refuse to replace files that are not of a run."""
-    texts = {} if gates is None else {folder.gates_text: gates.text.encode()}
+    texts = {} if gates is None else {folder / GATES_TEXT: gates.text.encode()}
     if cases.tier is None:
-        texts[folder.grid_text] = cases.text.encode()
-        texts |= {path_inside(folder.path, f"{INPUTS}/{name}"): content for name, content in cases.files.items()}
+        texts[folder / GRID_TEXT] = cases.text.encode()
+        texts |= {path_inside(folder, f"{INPUTS}/{name}"): content for name, content in cases.files.items()}
     for path, content in texts.items():
-        if path.exists() and not folder.store.exists() and read_bytes(path, LARGEST_TABLE) != content:
+        if path.exists() and not (folder / STORE).exists() and read_bytes(path, LARGEST_TABLE) != content:
             raise ValueError(
                 f"{path} was not written by a run, and a run would replace it; choose another folder with --out"
             )
     return texts
 
 
-def _remove_stale(folder: RunFolder, names: Collection[str], kept: Collection[Path], *, judged: bool) -> None:
+def _remove_stale(folder: Path, kept: Collection[Path], *, judged: bool) -> None:
     """Remove files that an earlier run of the folder has written and that this one does not have."""
     try:
-        written = read_record(folder.record)["files"]
+        written = read_record(folder / RECORD)["files"]
     except ValueError:
         return
     for name in written:
-        path = path_inside(folder.path, name)
-        stale = name in names or name.startswith(f"{INPUTS}/") or (is_of_verdicts(name) and not judged)
-        if stale and path not in kept:
+        path = path_inside(folder, name)
+        is_input = name in (GATES_TEXT, GRID_TEXT) or name.startswith(f"{INPUTS}/")
+        if (is_input and path not in kept) or name in COMPARISON_FILES or (is_of_verdicts(name) and not judged):
             path.unlink(missing_ok=True)
 
 
 def described(names: set[str], external: Mapping[str, ExternalIdentity]) -> dict[str, dict[str, str]]:
     """Return version, citation and domain of each model, and which files the version of an external one covers."""
     models = {name: external.get(name) or create(name) for name in sorted(names)}
-    described = {
+    texts = {
         name: {"version": model.version, "citation": model.citation, "domain": model.domain}
         for name, model in models.items()
     }
-    for name, model in external.items():
-        if model.hashed:
-            described[name]["hashed"] = model.hashed
-    return described
+    for name, identity in external.items():
+        if identity.hashed:
+            texts[name]["hashed"] = identity.hashed
+    return texts

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from pathlib import Path, PurePath
 from typing import Any
 
 from comparisons.data.contained_paths import path_inside
-from comparisons.data.file_names import INPUTS
+from comparisons.data.file_names import GRID_TEXT, INPUTS, RECORD
 from comparisons.data.input_files import LARGEST_TABLE, LARGEST_TEXT, read_bytes, read_text
 from comparisons.data.validation import known_name
 from comparisons.domain import Domain, declared_domain
@@ -19,11 +19,10 @@ from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judging.selection import cases_of, load_user_gates, needed_keys
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import REFERENCES
-from comparisons.problem.variation import Variation, parse_variations, problems_of
+from comparisons.problem.variation import parse_variations, problems_of
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import MODELS, ExternalIdentity, create
-from comparisons.runs.cases import TIERS, Grid, cases_text, grids, grids_for, load_grids
-from comparisons.runs.folder import RunFolder
+from comparisons.runs.cases import TIERS, VERIFICATION, Grid, cases_text, grids, grids_for, load_grids
 from comparisons.runs.rows import Key
 from comparisons.runs.tasks import Task, plan
 
@@ -32,12 +31,11 @@ __all__ = [
     "Gates",
     "RunInputs",
     "cases_of_problem",
-    "domains_in",
     "domains_of",
+    "grid_text",
     "load_cases",
-    "names_of_inputs",
     "read_gates",
-    "stored_cases",
+    "stored_inputs",
 ]
 
 #: The name of a text that is in no file, for messages and for the record.
@@ -80,6 +78,11 @@ class Cases:
         """The tier up to which gates are used: without standing cases, all of them."""
         return self.tier or TIERS[-1]
 
+    @property
+    def compared(self) -> list[Grid]:
+        """The grids that the tables of errors are about: without those that verify the references."""
+        return [grid for grid in self.grids if self.tier is None or VERIFICATION not in grid.tags]
+
 
 @dataclass(frozen=True, slots=True)
 class Gates:
@@ -121,6 +124,11 @@ class RunInputs:
     domains: Mapping[str, Domain] = field(default_factory=dict)
     fresh: FreshCases | None = None
 
+    @property
+    def specs(self) -> dict[str, str]:
+        """The SPEC that finds each external model."""
+        return {name: model.spec for name, model in self.external.items()}
+
     def plan(self) -> list[Task]:
         """Return every task once, as `comparisons.runs.tasks.plan`."""
         standing = plan(self.cases.grids, self.models, self.external)
@@ -156,11 +164,6 @@ def domains_of(models: Iterable[str], external: Mapping[str, ExternalIdentity]) 
     return {name: domain for name, domain in declared.items() if domain is not None}
 
 
-def domains_in(record: Mapping[str, Any]) -> dict[str, Domain]:
-    """Return the domains that the record of a run states."""
-    return {name: Domain.of_json(tables) for name, tables in record.get("domains", {}).items()}
-
-
 def load_cases(cases: str | Path, models: Sequence[str] | None, folder: Path | None = None) -> Cases:
     """Return the grids of a run.
 
@@ -185,17 +188,17 @@ def load_cases(cases: str | Path, models: Sequence[str] | None, folder: Path | N
     """
     if isinstance(cases, str) and cases in TIERS:
         return Cases(grids_for(grids(cases), models), cases, cases_text(), None)
-    if isinstance(cases, str) and "\n" not in cases:
+    if isinstance(cases, Path):
+        source, text, folder = str(cases), read_text(cases, "the file of cases"), folder or cases.parent
+    elif "\n" in cases:
+        source, text = _TEXT, cases
+    else:
         raise ValueError(
             f"the cases {cases!r} are neither a tier ({', '.join(TIERS)}) nor the text of [[grid]] tables; "
             "a file is given as a pathlib.Path"
         )
-    source = str(cases) if isinstance(cases, Path) else _TEXT
-    text = read_text(cases, "the file of cases") if isinstance(cases, Path) else cases
-    if folder is None and isinstance(cases, Path):
-        folder = cases.parent
-    found = load_grids(text, tier=TIERS[0], source=source, folder=folder)
-    return Cases(found, None, text, source, _files(found, folder) if folder else {})
+    loaded = load_grids(text, tier=TIERS[0], source=source, folder=folder)
+    return Cases(loaded, None, text, source, _files(loaded, folder) if folder else {})
 
 
 def cases_of_problem(problem: Path, vary: Sequence[str], models: Sequence[str], quantities: Sequence[str]) -> Cases:
@@ -219,50 +222,66 @@ def cases_of_problem(problem: Path, vary: Sequence[str], models: Sequence[str], 
     """
     for quantity in quantities:
         known_name("quantity", quantity, tuple(QUANTITIES), "--quantity")
-    chosen = parse_variations(vary)
+    variations = parse_variations(vary)
     Problem.load(problem)
     try:
-        found = set(problems_of(problem, chosen))
+        problems = set(problems_of(problem, variations))
     except ValueError as error:
         raise ValueError(f"--vary {error}") from None
-    reference = next((name for name in REFERENCES if name in models), "")
-    grid = Grid(
-        id=problem.stem,
-        title=problem.name,
-        tier=TIERS[0],
-        reference=reference,
+    texts: dict[str, Any] = {
+        "id": problem.stem,
+        "title": problem.name,
+        "reference": next((name for name in REFERENCES if name in models), ""),
         # Models from outside are given beside the grid, as for every other.
-        models=tuple(name for name in models if name in MODELS) or (REFERENCES[0],),
-        quantities=tuple(quantities),
-        cases=tuple(sorted(found)),
-        problem=problem.name,
-    )
-    return Cases([grid], None, _text_of(grid, chosen), str(problem), _files([grid], problem.parent))
+        "models": tuple(name for name in models if name in MODELS) or (REFERENCES[0],),
+        "quantities": tuple(quantities),
+        "problem": problem.name,
+    }
+    grid = Grid(tier=TIERS[0], cases=tuple(sorted(problems)), **texts)
+    values = ", ".join(f"{json.dumps(key.name)} = {json.dumps(key.values)}" for key in variations)
+    text = grid_text(texts, vary=f"{{ {values} }}")
+    return Cases([grid], None, text, str(problem), _files([grid], problem.parent))
 
 
-def _text_of(grid: Grid, chosen: Sequence[Variation]) -> str:
-    """Return the TOML text of the grid of a problem file."""
-    # A text and a list of texts or numbers have the same form in JSON and in TOML.
-    entries = {name: getattr(grid, name) for name in ("id", "title", "reference", "models", "quantities", "problem")}
-    lines = [f"{name} = {json.dumps(value)}" for name, value in entries.items() if value]
-    vary = ", ".join(f"{json.dumps(each.name)} = {json.dumps(each.values)}" for each in chosen)
-    return "\n".join(["[[grid]]", *lines, f"vary = {{ {vary} }}", ""])
+def grid_text(texts: Mapping[str, Any], **entries: str) -> str:
+    """Return a [[grid]] table, which a folder keeps.
+
+    Parameters
+    ----------
+    texts : mapping of str to str or sequence of str
+        Without those that are empty.
+    **entries : str
+        Others, as TOML.
+
+    Examples
+    --------
+    >>> print(grid_text({"id": "mine", "models": ["jkr"], "reference": ""}, n="[2.0]"), end="")
+    [[grid]]
+    id = "mine"
+    models = ["jkr"]
+    n = [2.0]
+    """
+    # A text and a list of texts have the same form in JSON and in TOML.
+    toml = {name: json.dumps(value) for name, value in texts.items() if value} | entries
+    return "".join(["[[grid]]\n", *(f"{name} = {value}\n" for name, value in toml.items())])
 
 
-def stored_cases(folder: RunFolder, tier: str | None, models: Sequence[str] | None) -> Cases:
-    """Return the cases of a folder of results: a tier, or the copy of its grids and problem files.
+def stored_inputs(folder: Path, record: Mapping[str, Any]) -> RunInputs:
+    """Return what the command of a record has computed, without gates; external models are not loaded.
 
     Raises
     ------
     ValueError
-        As `load_cases`.
+        As `load_cases`, or if the record names a model that it does not describe: it would be loaded, and its code run.
     """
-    return load_cases(tier or folder.grid_text, models, folder.inputs)
-
-
-def names_of_inputs(cases: Cases) -> list[str]:
-    """Return the paths of the copies of the problem files and their tables in the folder of a run."""
-    return [f"{INPUTS}/{name}" for name in cases.files]
+    arguments = record["arguments"]
+    specs, models = arguments["external"], arguments["model"]
+    for name in [*specs, *(models or [])]:
+        known_name("model", name, {*MODELS, *specs} & {*record["models"]}, str(folder / RECORD))
+    cases = load_cases(arguments["tier"] or folder / GRID_TEXT, models, folder / INPUTS)
+    external = {name: ExternalIdentity(name=name, spec=spec, **record["models"][name]) for name, spec in specs.items()}
+    domains = {name: Domain.of_json(tables) for name, tables in record.get("domains", {}).items()}
+    return RunInputs(replace(cases, source=arguments["grid"]), None, models, external, domains)
 
 
 def _files(grids: Iterable[Grid], folder: Path) -> dict[str, bytes]:
@@ -272,10 +291,9 @@ def _files(grids: Iterable[Grid], folder: Path) -> dict[str, bytes]:
         if not grid.problem:
             continue
         contents[PurePath(grid.problem).as_posix()] = read_bytes(path_inside(folder, grid.problem), LARGEST_TEXT)
-        for case in grid.cases:
-            for name in case.tables:
-                place = PurePath(grid.problem).parent / name
-                contents[place.as_posix()] = read_bytes(path_inside(folder, str(place)), LARGEST_TABLE)
+        for name in dict.fromkeys(name for case in grid.cases for name in case.tables):
+            table = PurePath(grid.problem).parent / name
+            contents[table.as_posix()] = read_bytes(path_inside(folder, str(table)), LARGEST_TABLE)
     return contents
 
 

@@ -7,11 +7,8 @@ from pathlib import Path
 
 from comparisons.console.progress import log
 from comparisons.output.report.leaderboard import Entry, leaderboard_html
-from comparisons.output.report.stored_run import Stored, read_folder
-from comparisons.pipeline.inputs import stored_cases
-from comparisons.runs.cases import VERIFICATION
-from comparisons.runs.folder import RunFolder
-from comparisons.runs.rows import Key
+from comparisons.output.report.stored_run import read_folder
+from comparisons.pipeline.inputs import stored_inputs
 from comparisons.runs.tasks import plan
 
 __all__ = ["leaderboard"]
@@ -38,18 +35,13 @@ def leaderboard(folders: Sequence[Path], mixed: bool = False) -> str:
 
 
 def _entry(folder: Path) -> Entry:
+    """Return the results of a folder with the keys that its tables of errors are about, and their references."""
     stored = read_folder(folder)
-    if part := stored.record["arguments"].get("shard"):
-        raise ValueError(f"{folder} is the part {part} of a sweep: put the parts together with fscm-bench merge first")
-    return Entry(str(folder), stored, _planned(folder, stored))
-
-
-def _planned(folder: Path, stored: Stored) -> dict[Key, str] | None:
-    """Return the keys of the results that the tables of errors are about, with their references."""
-    arguments = stored.record["arguments"]
-    cases = stored_cases(RunFolder(folder), arguments["tier"], arguments["model"])
-    if cases.sha256 != stored.record["cases_sha256"]:
+    if shard := stored.record["arguments"].get("shard"):
+        raise ValueError(f"{folder} is the part {shard} of a sweep: put the parts together with fscm-bench merge first")
+    inputs = stored_inputs(folder, stored.record)
+    if inputs.cases.sha256 != stored.record["cases_sha256"]:
         log(f"the standing cases have changed since {folder} was computed: its coverage counts every stored result")
-        return None
-    grids = [grid for grid in cases.grids if cases.tier is None or VERIFICATION not in grid.tags]
-    return {task.key: grid.reference for grid in grids for task in plan([grid], arguments["model"])}
+        return Entry(str(folder), stored, None)
+    planned = {task.key: grid.reference for grid in inputs.cases.compared for task in plan([grid], inputs.models)}
+    return Entry(str(folder), stored, planned)

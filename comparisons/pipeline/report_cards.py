@@ -63,15 +63,13 @@ def make_cards(
 
 def _card(identity: ExternalIdentity, rows: Sequence[Row], exact: bool, cases: Mapping[Key, Problem]) -> dict[str, Any]:
     with closing(load_again(identity.spec)) as model:
-        if isinstance(model, DataModel):
-            return {"kind": "data", "check_model": _findings(model)}
-        # The evaluations first, so that the process has made none before.
-        repeated = {"repeated": _repeated(identity, model, rows, exact, cases)} if rows else {}
-        return {"kind": "program" if model.is_program else "code", **repeated, "check_model": _findings(model)}
-
-
-def _findings(model: AnyExternalModel) -> list[dict[str, str]]:
-    return [asdict(finding) for finding in examine(model)]
+        card: dict[str, Any] = {"kind": "data"}
+        if not isinstance(model, DataModel):
+            card["kind"] = "program" if model.is_program else "code"
+            # The evaluations first, so that the process has made none before.
+            if rows:
+                card["repeated"] = _repeated(identity, model, rows, exact, cases)
+        return card | {"check_model": [asdict(finding) for finding in examine(model)]}
 
 
 def _repeated(
@@ -84,7 +82,7 @@ def _repeated(
     """Evaluate some results again, the last first; the seed of the choice is nothing that a model can know."""
     seed = SystemRandom().randrange(2**32)
     repeated, cause = [], ""
-    for row in reversed(_chosen(rows, seed)):
+    for row in reversed(_sample(rows, seed)):
         again = evaluate(model, row.quantity, cases[row.key])
         allowed = 0.0 if exact else (row.u_num or 0.0) + (again.u_num or 0.0)
         facts = {"quantity": row.quantity, **row.numbers, "problem": row.problem}
@@ -95,7 +93,7 @@ def _repeated(
     return {"seed": seed, "cause": cause, "cases": repeated}
 
 
-def _chosen(rows: Sequence[Row], seed: int) -> list[Row]:
+def _sample(rows: Sequence[Row], seed: int) -> list[Row]:
     """Return some rows in their order, not more than take a minute."""
     order = random.Random(seed).sample(range(len(rows)), min(AGAIN, len(rows)))
     in_time = sum(seconds <= _SECONDS for seconds in accumulate(rows[number].seconds for number in order))

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from datetime import UTC, datetime
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from random import SystemRandom
 
 from comparisons.console.progress import note
-from comparisons.domain import Domain
 from comparisons.judging.fresh_cases import FreshCases, draw
 from comparisons.pipeline.finished_run import FinishedRun, kept_texts, write_run
-from comparisons.pipeline.inputs import Cases, Gates, RunInputs, domains_of, load_cases, read_gates
+from comparisons.pipeline.inputs import Cases, RunInputs, domains_of, load_cases, read_gates
 from comparisons.registry import identify
 from comparisons.runs.computation import checked_jobs, complete, folder_for
-from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import now
 from comparisons.runs.shards import Shard
 from comparisons.runs.workers import backend_of
@@ -105,41 +103,41 @@ def run(
     workers = backend_of(backend, scheduler)
     part = None if shard is None else Shard.parse(shard)
     # Before anything is computed or written, every model is loaded and every text is read.
-    names, external = identify(models or [])
-    chosen_models = None if models is None else names
-    chosen = cases if isinstance(cases, Cases) else load_cases(cases, chosen_models)
-    rules = None if chosen.tier is None and gates is None else read_gates(gates, chosen, chosen_models)
-    if part is not None and rules is not None:
+    inputs = _inputs(cases, gates, models, random, seed)
+    if part is not None and inputs.gates is not None:
         raise ValueError(f"shard {part} of a run cannot be judged: only cases without gates are computed in shards")
-    domains = domains_of(chosen_models or {name for grid in chosen.grids for name in grid.models}, external)
-    fresh = _fresh(random, seed, chosen, rules, chosen_models, domains)
-    started, start = datetime.now(UTC), now()
-    target = RunFolder(folder_for(folder, started))
-    kept_texts(target, chosen, rules)
-    inputs = RunInputs(chosen, rules, chosen_models, external, domains, fresh)
+    started = now()
+    target = folder_for(folder)
+    kept_texts(target, inputs.cases, inputs.gates)
     tasks = inputs.plan() if part is None else part.of(inputs.plan())
-    by_gates = chosen.tier is not None and (chosen_models is not None or gates is not None)
+    by_gates = inputs.cases.tier is not None and (models is not None or gates is not None)
     needed = (lambda rows: inputs.needed({row.key: row.status for row in rows})) if by_gates else None
-    completed = complete(tasks, target.path, jobs, retry_failed, workers, needed)
-    others: dict[str, str | int | None] = {
+    completed = complete(tasks, target, jobs, retry_failed, workers, needed)
+    arguments = {
+        "jobs": jobs,
         "backend": None if backend == "processes" else backend,
         "scheduler": scheduler,
         "shard": shard,
-        "random": fresh.count if fresh else None,
-        "seed": fresh.seed if fresh else None,
+        "random": inputs.fresh and inputs.fresh.count,
+        "seed": inputs.fresh and inputs.fresh.seed,
     }
-    arguments = {"jobs": jobs, **{name: value for name, value in others.items() if value is not None}}
-    return write_run(target, inputs, completed, arguments, start)
+    stated = {name: value for name, value in arguments.items() if value is not None}
+    return write_run(target, inputs, completed, stated, started)
 
 
-def _fresh(
-    count: int,
-    seed: int | None,
-    cases: Cases,
-    gates: Gates | None,
-    models: Sequence[str] | None,
-    domains: Mapping[str, Domain],
-) -> FreshCases | None:
+def _inputs(
+    cases: str | Path | Cases, gates: str | Path | None, models: Sequence[str] | None, random: int, seed: int | None
+) -> RunInputs:
+    identified, external = identify(models or [])
+    names = None if models is None else identified
+    loaded = cases if isinstance(cases, Cases) else load_cases(cases, names)
+    rules = None if loaded.tier is None and gates is None else read_gates(gates, loaded, names)
+    domains = domains_of(names or {name for grid in loaded.grids for name in grid.models}, external)
+    inputs = RunInputs(loaded, rules, names, external, domains)
+    return replace(inputs, fresh=_fresh(random, seed, inputs))
+
+
+def _fresh(count: int, seed: int | None, inputs: RunInputs) -> FreshCases | None:
     """Return the fresh cases of a run, or refuse them where nothing could be judged in them."""
     if not 0 <= count <= _MOST_FRESH:
         raise ValueError(f"--random {count} is outside 0 to {_MOST_FRESH}: a number of fresh cases for each gate")
@@ -149,11 +147,11 @@ def _fresh(
         if seed is not None:
             raise ValueError(f"--seed {seed} is for the fresh cases of --random N, which is missing")
         return None
-    if gates is None or not models:
+    if inputs.gates is None or not inputs.models:
         raise ValueError("--random needs --model: fresh cases are drawn from the domain of a given model")
-    fresh = draw(
-        gates.gates, cases.grids, models, domains, count, SystemRandom().randrange(2**32) if seed is None else seed
-    )
+    if seed is None:
+        seed = SystemRandom().randrange(2**32)
+    fresh = draw(inputs.gates.gates, inputs.cases.grids, inputs.models, inputs.domains, count, seed)
     if not (fresh.parts or fresh.undrawn):
         raise ValueError("--random: no gate of this run can be judged in fresh cases of a given model: leave it out")
     note(f"{sum(len(part.grid.cases) for part in fresh.parts)} fresh cases, --seed {fresh.seed}")

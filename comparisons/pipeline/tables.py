@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import pandas as pd
 
-from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA
+from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA, LARGEST_KAPPA, RESULTS
 from comparisons.output.errors import agreement, largest, relative_error
 from comparisons.output.figures.of_run import figures_of
 from comparisons.output.style import save
 from comparisons.pipeline.inputs import Cases
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.case_columns import in_case_order, keys_in, varied_of
-from comparisons.runs.cases import VERIFICATION
-from comparisons.runs.folder import RunFolder
-from comparisons.runs.frames import curve_frame, frame
+from comparisons.runs.frames import curve_frame, frame, write_table
 from comparisons.runs.rows import Row
-from comparisons.runs.tables import write_curves, write_results, write_table
 from comparisons.runs.tasks import plan
 
 __all__ = ["RunTables", "make_tables", "write_pictures", "write_tables"]
@@ -68,10 +66,9 @@ def make_tables(rows: Sequence[Row], cases: Cases, models: list[str] | None) -> 
 
 def _kappa(results: pd.DataFrame, cases: Cases, models: list[str] | None) -> pd.DataFrame:
     """Return the relative errors over the grids that are not for the verification of the references."""
-    chosen = [grid for grid in cases.grids if cases.tier is None or VERIFICATION not in grid.tags]
     tables = []
-    for reference in sorted({grid.reference for grid in chosen} - {""}):
-        keys = {task.key for task in plan((grid for grid in chosen if grid.reference == reference), models)}
+    for reference in sorted({grid.reference for grid in cases.compared} - {""}):
+        keys = {task.key for task in plan((grid for grid in cases.compared if grid.reference == reference), models)}
         of_grids = [key in keys for key in keys_in(results)]
         # An empty list would select no columns.
         rows = results[pd.Series(of_grids, index=results.index, dtype=bool)]
@@ -84,27 +81,26 @@ def _with_keys_of_files(kappa: pd.DataFrame, results: pd.DataFrame) -> pd.DataFr
     if "problem" not in kappa:
         return kappa
     varied, on = varied_of(results), ["quantity", "problem"]
-    keys = results[[*on, *varied, "unit"]].drop_duplicates(on)
-    joined = kappa.merge(keys, on=on)
-    before = list(kappa.columns[: kappa.columns.get_loc("problem") + 1])
-    values, after = ["value", "u_num", "unit"], list(kappa.columns[len(before) :])
-    columns = [*before, *varied, *values, *(name for name in after if name not in values)]
-    return in_case_order(joined[columns], "quantity", "model")
+    joined = kappa.merge(results[[*on, *varied, "unit"]].drop_duplicates(on), on=on)
+    names = list(kappa.columns)
+    # The keys beside their problem, the unit beside the value.
+    for name, beside in (*((key, "problem") for key in reversed(varied)), ("unit", "u_num")):
+        names.insert(names.index(beside) + 1, name)
+    return in_case_order(joined[names], "quantity", "model")
 
 
-def write_tables(tables: RunTables, folder: RunFolder) -> None:
+def write_tables(tables: RunTables, folder: Path) -> None:
     """Write the tables as CSV and Parquet."""
-    write_results(tables.results, folder.results)
-    write_curves(tables.curves, folder.curves)
-    write_table(tables.kappa, folder.kappa)
-    write_table(tables.largest, folder.largest_kappa)
+    write_table(tables.results, folder / RESULTS)
+    write_table(tables.curves, folder / CURVES)
+    write_table(tables.kappa, folder / KAPPA)
+    write_table(tables.largest, folder / LARGEST_KAPPA)
     if not tables.agreement.empty:
-        write_table(tables.agreement, folder.agreement)
+        write_table(tables.agreement, folder / AGREEMENT)
 
 
-def write_pictures(tables: RunTables, folder: RunFolder) -> None:
-    """Draw the pictures of the standing cases, as far as there are rows for them."""
-    shown = {KAPPA: tables.kappa, AGREEMENT: tables.agreement, CURVES: tables.curves}
-    for name, figure in figures_of(shown):
-        for path in folder.figure(name):
-            save(figure, path)
+def write_pictures(tables: RunTables, folder: Path) -> None:
+    """Draw the pictures of the standing cases, as far as there are rows for them, for screen and print."""
+    for name, figure in figures_of({KAPPA: tables.kappa, AGREEMENT: tables.agreement, CURVES: tables.curves}):
+        for suffix in (".png", ".pdf"):
+            save(figure, folder / f"{name}{suffix}")

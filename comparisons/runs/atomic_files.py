@@ -14,26 +14,49 @@ from comparisons.console.exit_status import full_disk
 
 __all__ = ["atomic", "prepare_folder", "writable_file", "write_json", "writing"]
 
+_ELSEWHERE = "choose another place"
+
+
+@contextmanager
+def writing(path: Path, kind: str = "file", remedy: str = "") -> Iterator[None]:
+    """Name a file or a folder in the error of the system when it cannot be written.
+
+    Parameters
+    ----------
+    path : Path
+    kind : str
+        What it is, for the sentence.
+    remedy : str
+        What a user can do unless the disk is full; empty where nothing but room helps.
+
+    Raises
+    ------
+    OSError
+        One sentence with the path and the system's reason.
+    ValueError
+        The same with the remedy, if there is one and the disk has room.
+    """
+    try:
+        yield
+    except OSError as error:
+        sentence = f"the {kind} {path} cannot be written ({error.strerror or error})"
+        if remedy and not full_disk(error):
+            raise ValueError(f"{sentence}; {remedy}") from None
+        raise OSError(sentence) from error
+
 
 def prepare_folder(path: Path) -> Path:
     """Create a folder for results and make sure that files can be written there.
 
     Raises
     ------
-    ValueError
-        If it cannot be created or written; the sentence gives the system's reason.
+    ValueError, OSError
+        As `writing`, if it cannot be created or written.
     """
-    try:
+    with writing(path, "output folder", "choose another one with --out"):
         path.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=path):
-            pass
-    except OSError as error:
-        if full_disk(error):
-            raise OSError(f"the output folder {path} cannot be written ({error.strerror})") from error
-        raise ValueError(
-            f"the output folder {path} cannot be written ({error.strerror}); choose another one with --out"
-        ) from None
-    return path
+            return path
 
 
 def writable_file(path: Path) -> Path:
@@ -41,38 +64,13 @@ def writable_file(path: Path) -> Path:
 
     Raises
     ------
-    ValueError
-        If it cannot; the sentence gives the system's reason.
+    ValueError, OSError
+        As `writing`, if it cannot.
     """
     if path.is_dir():
-        raise ValueError(f"the file {path} cannot be written (it is a folder); choose another place")
-    with _explained(path), tempfile.TemporaryFile(dir=path.parent):
+        raise ValueError(f"the file {path} cannot be written (it is a folder); {_ELSEWHERE}")
+    with writing(path, remedy=_ELSEWHERE), tempfile.TemporaryFile(dir=path.parent):
         return path
-
-
-@contextmanager
-def _explained(path: Path) -> Iterator[None]:
-    try:
-        yield
-    except OSError as error:
-        if full_disk(error):
-            raise OSError(f"the file {path} cannot be written ({error.strerror})") from error
-        raise ValueError(f"the file {path} cannot be written ({error.strerror}); choose another place") from None
-
-
-@contextmanager
-def writing(path: Path) -> Iterator[None]:
-    """Name the file in the error of the system when its content cannot be written, as on a full disk.
-
-    Raises
-    ------
-    OSError
-        One sentence with the path and the system's reason.
-    """
-    try:
-        yield
-    except OSError as error:
-        raise OSError(f"the file {path} cannot be written ({error.strerror or error})") from error
 
 
 @contextmanager
@@ -81,12 +79,10 @@ def atomic(path: Path) -> Iterator[IO[bytes]]:
 
     Raises
     ------
-    ValueError
-        If the file cannot be written there; the sentence gives the system's reason.
-    OSError
-        If there is no room for its content; the sentence gives the system's reason.
+    ValueError, OSError
+        As `writing`, if the file cannot be written there, or there is no room for its content.
     """
-    with _explained(path):
+    with writing(path, remedy=_ELSEWHERE):
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     temporary = Path(name)
     try:

@@ -74,7 +74,7 @@ def unit_in(column: str) -> tuple[str, str]:
     return key, unit or "1"
 
 
-def in_case_order(table: pd.DataFrame, *first: str) -> pd.DataFrame:
+def in_case_order(table: pd.DataFrame, *leading: str) -> pd.DataFrame:
     """Return a table sorted by some columns and then by the case; problems of a file by its name and the varied keys.
 
     Examples
@@ -86,5 +86,5 @@ def in_case_order(table: pd.DataFrame, *first: str) -> pd.DataFrame:
     """
     ordered = with_problem(table)
     ordered = ordered.assign(_file=[split_name(label)[0] for label in ordered["problem"]])
-    order = [*first, *PARAMETERS, "_file", *varied_of(table), "problem"]
+    order = [*leading, *PARAMETERS, "_file", *varied_of(table), "problem"]
     return ordered.sort_values(order, ignore_index=True)[list(table.columns)]

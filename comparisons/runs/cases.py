@@ -93,7 +93,8 @@ def _grid(table: dict[str, Any], where: str, tier: str | None, folder: Path | No
         raise ValueError(f"{where}: tier missing; it is one of {', '.join(TIERS)}")
     if tier is not None and "tier" in table:
         raise ValueError(f"{where}: unknown key 'tier': the grids of a sweep have none")
-    for model in (*(table[key] for key in ("reference",) if key in table), *table["models"]):
+    reference = table.get("reference", "")
+    for model in {reference, *table["models"]} - {""}:
         known_name("model", model, MODELS, where)
     for quantity in table["quantities"]:
         known_name("quantity", quantity, tuple(ALL_QUANTITIES), where)
@@ -101,7 +102,7 @@ def _grid(table: dict[str, Any], where: str, tier: str | None, folder: Path | No
         id=table["id"],
         title=table["title"],
         tier=tier or table["tier"],
-        reference=table.get("reference", ""),
+        reference=reference,
         models=tuple(table["models"]),
         quantities=tuple(table["quantities"]),
         cases=tuple(sorted(_cases(table, where, folder))),
@@ -115,10 +116,10 @@ def _cases(table: dict[str, Any], where: str, folder: Path | None) -> set[Proble
     if "problem" in table:
         return _cases_of_file(table, where, folder)
     points = parameter_sets(table, where)
-    ends = table.get("latin_hypercube", {})
+    ranges = table.get("latin_hypercube", {})
     try:
-        for end in (0, 1) if ends else ():
-            Problem.dimensionless(*(ends[name][end] for name in PARAMETERS if name in ends))
+        for end in (0, 1) if ranges else ():
+            Problem.dimensionless(*(ranges[name][end] for name in PARAMETERS if name in ranges))
         return {Problem.dimensionless(*values) for values in points}
     except ValueError as refusal:
         raise ValueError(f"{where}: {refusal}") from None
@@ -126,9 +127,9 @@ def _cases(table: dict[str, Any], where: str, folder: Path | None) -> set[Proble
 
 def _cases_of_file(table: dict[str, Any], where: str, folder: Path | None) -> set[Problem]:
     """Return the cases of a problem file, which is in a folder, for every combination of values of its keys."""
-    others = [name for name in (*PARAMETERS, "cases", "latin_hypercube") if name in table]
-    if others:
-        raise ValueError(f"{where}: it has problem and {', '.join(others)} together; state the cases once: {FORMS}")
+    numbers = [name for name in (*PARAMETERS, "cases", "latin_hypercube") if name in table]
+    if numbers:
+        raise ValueError(f"{where}: it has problem and {', '.join(numbers)} together; state the cases once: {FORMS}")
     name = table["problem"]
     if folder is None:
         raise ValueError(
@@ -136,8 +137,8 @@ def _cases_of_file(table: dict[str, Any], where: str, folder: Path | None) -> se
             "not as a text"
         )
     try:
-        chosen = [Variation.of_values(key, values) for key, values in table.get("vary", {}).items()]
-        return set(problems_of(path_inside(folder, name), chosen, name))
+        variations = [Variation.of_values(key, values) for key, values in table.get("vary", {}).items()]
+        return set(problems_of(path_inside(folder, name), variations, name))
     except ValueError as refusal:
         raise ValueError(f"{where}: {refusal}") from None
 
@@ -210,7 +211,7 @@ def cases_text() -> str:
     return _DATA.joinpath("cases.toml").read_text(encoding="utf-8")
 
 
-def grids_for(chosen: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
+def grids_for(every: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
     """Return the grids that a run computes: without those of verification if it has models of its own.
 
     Examples
@@ -218,7 +219,7 @@ def grids_for(chosen: Iterable[Grid], models: Sequence[str] | None) -> list[Grid
     >>> all(VERIFICATION not in grid.tags for grid in grids_for(grids("quick"), ["jkr"]))
     True
     """
-    return [grid for grid in chosen if models is None or VERIFICATION not in grid.tags]
+    return [grid for grid in every if models is None or VERIFICATION not in grid.tags]
 
 
 def grids(tier: str) -> list[Grid]:

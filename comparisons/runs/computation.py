@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Generator, Iterable, Mapping
+from collections.abc import Callable, Collection, Generator, Mapping
 from contextlib import closing
 from dataclasses import dataclass
 from datetime import datetime
@@ -16,7 +16,6 @@ from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.environment import computing_environment, differences, fingerprint
 from comparisons.runs.reevaluation import drop_changed
 from comparisons.runs.rows import Key, Row
-from comparisons.runs.shards import cost
 from comparisons.runs.store import rows_in
 from comparisons.runs.tasks import Task, batches, evaluate_task, lost_row
 from comparisons.runs.workers import LOST, Backend, each, processes
@@ -31,9 +30,9 @@ def checked_jobs(jobs: int) -> int:
     return jobs
 
 
-def folder_for(out: Path | None, started: datetime) -> Path:
+def folder_for(out: Path | None) -> Path:
     """Return the folder for the results, made and found writable: `out`, or one named by the time."""
-    return prepare_folder(out or Path("results", "runs", started.astimezone().strftime("%Y-%m-%dT%H-%M-%S")))
+    return prepare_folder(out or Path("results", "runs", datetime.now().astimezone().strftime("%Y-%m-%dT%H-%M-%S")))
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,28 +110,30 @@ def complete(
 
     with rows_in(folder) as store, store.interruptible():
 
-        def chosen() -> list[Task]:
+        def rows_of_plan() -> dict[Key, Row]:
+            return {row.key: row for row in store.items if row.key in planned}
+
+        def needed_keys(rows: Mapping[Key, Row]) -> list[Key]:
             keys = planned if needed is None else needed(list(rows.values()))
-            return [task for task in tasks if task.key in keys]
+            return [key for key in planned if key in keys]
 
         store.drop(lambda row: row.key in planned and not counts(row))
         evaluated_again = drop_changed(planned, store)
-        rows = {row.key: row for row in store.items if row.key in planned}
-        stored = set(rows)
-        log_failures_used(Counter(row.model for row in rows.values() if row.status == "failed"))
-        missing = [task for task in chosen() if task.key not in rows]
+        stored = rows = rows_of_plan()
+        log_failures_used(Counter(row.model for row in stored.values() if row.status == "failed"))
         workers = f"{jobs} processes" if backend is processes else "a Dask cluster"
+        missing = [planned[key] for key in needed_keys(rows) if key not in rows]
         note(f"{len(missing)} computations on {workers}" + (f", {len(stored)} are stored" if stored else ""))
         while missing:
-            store.complete("computing", [cost(task.model) for task in missing], _rows(missing, jobs, backend))
-            rows = {row.key: row for row in store.items if row.key in planned}
-            missing = [task for task in chosen() if task.key not in rows]
+            store.complete("computing", len(missing), compute(missing, jobs, backend))
+            rows = rows_of_plan()
+            missing = [planned[key] for key in needed_keys(rows) if key not in rows]
             if missing:
                 note(f"{len(missing)} computations more, with which these are compared")
-        keys = {task.key for task in chosen()}
+        keys = set(needed_keys(rows))
         return Completed(
             [row for key, row in rows.items() if key in keys],
-            len(stored & keys),
+            len(stored.keys() & keys),
             store.parts(lambda row: row.key in keys),
             evaluated_again,
         )
@@ -167,13 +168,8 @@ def _lost_batch(batch: list[Task]) -> _Computed:
     return _Computed([lost_row(task) for task in batch], *_of_this_process())
 
 
-def _single(batch: list[Task]) -> Iterable[list[Task]]:
+def _single(batch: list[Task]) -> list[list[Task]]:
     return [[task] for task in batch]
-
-
-def _rows(tasks: list[Task], jobs: int, backend: Backend) -> Generator[tuple[Row, dict[str, str], float]]:
-    for row, environment in compute(tasks, jobs, backend):
-        yield row, environment, cost(row.model)
 
 
 def compute(tasks: list[Task], jobs: int, backend: Backend = processes) -> Generator[tuple[Row, dict[str, str]]]:

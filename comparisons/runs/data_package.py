@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-import pyarrow as pa
 from pandas.io.json import build_table_schema
 
 from comparisons.data.columns import column, title
@@ -19,7 +18,7 @@ from comparisons.data.file_names import DATA_PACKAGE
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.runs.atomic_files import write_json
 
-__all__ = ["described", "quantities", "write_data_package"]
+__all__ = ["quantities", "write_data_package"]
 
 _DESCRIPTION = (
     "Tables of fscm-bench. Numbers have 17 significant digits, which give every double back; an empty cell is a number "
@@ -44,21 +43,6 @@ def quantities() -> dict[str, dict[str, str]]:
         for name, row in CURVES.items()
     }
     return numbers | curves
-
-
-def described(table: str, schema: pa.Schema) -> pa.Schema:
-    """Return a schema with unit and meaning of each column in the metadata of its field.
-
-    Examples
-    --------
-    >>> described("kappa", pa.schema([("kappa", pa.float64())])).field("kappa").metadata[b"unit"]
-    b'1'
-    """
-    fields = []
-    for field in schema:
-        known = column(table, field.name)
-        fields.append(field.with_metadata(known._asdict()) if known else field)
-    return pa.schema(fields, metadata=schema.metadata)
 
 
 def write_data_package(folder: Path, names: Iterable[str]) -> bool:
@@ -88,18 +72,18 @@ def write_data_package(folder: Path, names: Iterable[str]) -> bool:
 
 
 def _resource(path: Path) -> dict[str, Any]:
-    text = path.read_bytes()
-    known = title(path.stem)
+    content = path.read_bytes()
+    meaning = title(path.stem)
     return {
         "name": path.stem.lower(),
-        **({"title": known} if known else {}),
+        **({"title": meaning} if meaning else {}),
         "path": path.name,
         "type": "table",
         "format": "csv",
         "mediatype": "text/csv",
         "encoding": "utf-8",
-        "bytes": len(text),
-        "hash": f"sha256:{sha256(text).hexdigest()}",
+        "bytes": len(content),
+        "hash": f"sha256:{sha256(content).hexdigest()}",
         "schema": {"fields": _fields(path), "missingValues": [""]},
     }
 
@@ -109,9 +93,9 @@ def _fields(path: Path) -> list[dict[str, str]]:
     table = pd.read_csv(path)
     fields = []
     for field in build_table_schema(table, index=False)["fields"]:
-        described = column(path.stem, field["name"])
-        kind = field["type"]
-        if table[field["name"]].isna().all():
+        name, kind = field["name"], field["type"]
+        described = column(path.stem, name)
+        if table[name].isna().all():
             kind = "number" if described and described.unit else "string"
-        fields.append({"name": field["name"], "type": kind} | (described._asdict() if described else {}))
+        fields.append({"name": name, "type": kind} | (described._asdict() if described else {}))
     return fields

@@ -13,6 +13,7 @@ import platform
 import re
 import subprocess
 from importlib.metadata import PackageNotFoundError, distribution, requires, version
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -69,14 +70,8 @@ def code_digest(root: Path | None = None) -> str:
     root = root or _running_root()
     not_installed = {root / folder for folder in NOT_INSTALLED}
     digest = hashlib.sha256()
-    # Not `rglob`, which makes a path of every file that Python compiled.
-    for path in sorted(
-        Path(folder, name)
-        for package in _PACKAGES
-        for folder, _, names in os.walk(root / package)
-        for name in names
-        if os.path.splitext(name)[1] in _CODE
-    ):
+    paths = [path for package in _PACKAGES for path in (root / package).rglob("*") if path.suffix in _CODE]
+    for path in sorted(paths):
         if not_installed.isdisjoint(path.parents):
             digest.update(f"{path.relative_to(root).as_posix()}\0".encode() + path.read_bytes())
     return digest.hexdigest()
@@ -106,10 +101,8 @@ def differences(stored: str, now: str) -> str:
     >>> differences("code 123, NumPy 2.2, SciPy 1.16", "code 123, NumPy 2.3, SciPy 1.16")
     'NumPy 2.2, now NumPy 2.3'
     """
-    then, today = (re.sub(r"\b([0-9a-f]{12})[0-9a-f]{52}\b", r"\1", text).split(", ") for text in (stored, now))
-    if stored == now or len(then) != len(today):
-        return "" if stored == now else f"{stored}, now {now}"
-    return "; ".join(f"{a}, now {b}" for a, b in zip(then, today, strict=True) if a != b)
+    before, after = (re.sub(r"\b([0-9a-f]{12})[0-9a-f]{52}\b", r"\1", text).split(", ") for text in (stored, now))
+    return "; ".join(f"{a}, now {b}" for a, b in zip_longest(before, after) if a != b)
 
 
 def computing_environment() -> dict[str, str]:

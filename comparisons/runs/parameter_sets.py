@@ -55,8 +55,8 @@ def parameter_sets(table: Mapping[str, Any], where: str) -> list[Point]:
     stated = [", ".join(lists)] if lists else []
     stated += [name for name in ("cases", "latin_hypercube") if name in table]
     if len(stated) != 1:
-        found = f"{' and '.join(stated)} together" if stated else "no cases"
-        raise ValueError(f"{where}: it has {found}; state the cases once: {FORMS}")
+        forms = f"{' and '.join(stated)} together" if stated else "no cases"
+        raise ValueError(f"{where}: it has {forms}; state the cases once: {FORMS}")
     if "cases" in table:
         return [(case["n"], case["k"], case["mu"], case.get("nu")) for case in table["cases"]]
     if "latin_hypercube" in table:

@@ -22,7 +22,7 @@ from jsonschema.exceptions import best_match
 
 from comparisons.console.progress import log
 from comparisons.data.contained_paths import path_inside
-from comparisons.data.file_names import DATA_PACKAGE, RECORD, RUN_FILES, VERDICTS, is_of_verdicts
+from comparisons.data.file_names import DATA_PACKAGE, INPUTS, RECORD, RUN_FILES, VERDICTS, is_of_verdicts
 from comparisons.data.input_files import LARGEST_ROWS, LARGEST_TABLE, read_bytes
 from comparisons.runs.atomic_files import write_json
 from comparisons.runs.data_package import write_data_package
@@ -67,9 +67,8 @@ def record_content(
     parts: Sequence[Mapping[str, Any]],
     rows: Mapping[str, int],
     seconds: Mapping[str, float],
-    verdicts: Mapping[str, str | int],
 ) -> dict[str, Any]:
-    """Return the entries that the records of a run, of a sweep and of the paper have in common.
+    """Return the entries that the records of a run, of a sweep and of the paper have in common, without verdicts.
 
     Parameters
     ----------
@@ -85,8 +84,6 @@ def record_content(
         Numbers of rows: all, resumed, and by status.
     seconds : mapping of str to float
         Computing time by model.
-    verdicts : mapping
-        The verdict over all and the number of cases with each; empty if nothing was judged.
     """
     return {
         "format": FORMAT,
@@ -98,12 +95,12 @@ def record_content(
         "seconds": {"run": sum(part["seconds"] for part in parts), "by_model": dict(seconds)},
         "parts": list(parts),
         "rows": dict(rows),
-        "verdicts": dict(verdicts),
+        "verdicts": {},
         **environment(),
     }
 
 
-def write_record(content: dict[str, Any], path: Path, files: Collection[str] = RUN_FILES) -> None:
+def write_record(content: dict[str, Any], path: Path, files: Collection[str] | None = None) -> None:
     """Write a record with the checksums of the files beside it, and before it the data package of the tables.
 
     Parameters
@@ -111,18 +108,21 @@ def write_record(content: dict[str, Any], path: Path, files: Collection[str] = R
     content : dict
         All but the checksums.
     path : Path
-    files : collection of str
-        Names of the files that get a checksum, as far as they exist.
+    files : collection of str, optional
+        Names of the files that get a checksum; by default those of a run, as far as they exist.
 
     Raises
     ------
     RuntimeError
         If it does not fit the schema: a defect of the code that made it.
     """
-    if write_data_package(path.parent, files):
+    folder = path.parent
+    if files is None:
+        paths = [*folder.glob(f"{VERDICTS}.*"), *(folder / INPUTS).rglob("*")]
+        files = [*RUN_FILES, *(path.relative_to(folder).as_posix() for path in sorted(paths))]
+    if write_data_package(folder, files):
         files = [*files, DATA_PACKAGE]
-    files = [*files, *(file.name for file in path.parent.glob(f"{VERDICTS}.*"))]
-    sums = {name: _sum_of(path.parent / name) for name in files if (path.parent / name).is_file()}
+    sums = {name: _sum_of(folder / name) for name in files if (folder / name).is_file()}
     content = content | {"files": sums}
     content["sha256"] = _own_sum(content)
     if problem := _problem(content):
@@ -139,37 +139,26 @@ def read_record(path: Path) -> dict[str, Any]:
         If there is none, it does not fit the schema, or its own checksum is not that of its
         content; one sentence says which.
     """
+    folder = path.parent
     try:
         content = json.loads(read_bytes(path, LARGEST_TABLE).decode())
     except OSError as error:
         raise ValueError(
-            f"{path} cannot be read ({error.strerror}): {path.parent} is not the folder of a finished run"
+            f"{path} cannot be read ({error.strerror}): {folder} is not the folder of a finished run"
         ) from None
-    except (UnicodeDecodeError, json.JSONDecodeError):
-        raise ValueError(f"{path} is not JSON text") from None
-    except RecursionError:
-        raise ValueError(f"{path} is not the record of a run: its brackets are nested too deeply") from None
-    if isinstance(content, dict) and content.get("format") in range(1, FORMAT):
-        raise ValueError(
-            f"{path} has format {content['format']}, of an earlier version of fscm-bench, and not {FORMAT}: "
-            "run again with another --out"
-        )
+    except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
+        raise ValueError(f"{path} is not the record of a run: it is not JSON text ({error})") from None
     if problem := _problem(content):
         raise ValueError(f"{path} is not the record of a run: {problem}")
     stated = content.pop("sha256")
     if stated != _own_sum(content):
-        raise ValueError(_changed(path, f"run again with --out {quote(str(path.parent))}"))
-    _check_paths(content, path)
-    return dict(content)
-
-
-def _check_paths(content: Mapping[str, Any], path: Path) -> None:
-    """Refuse a record that names a file outside of its folder: it may come from elsewhere."""
-    try:
+        raise ValueError(_changed(path, f"run again with --out {quote(str(folder))}"))
+    try:  # It may come from elsewhere, and name files outside of its folder.
         for name in content["files"]:
-            path_inside(path.parent, name)
+            path_inside(folder, name)
     except ValueError as error:
         raise ValueError(f"{path} is not the record of a run: {error}") from None
+    return dict(content)
 
 
 def check_files(record: dict[str, Any], folder: Path, written_again: bool = False) -> None:

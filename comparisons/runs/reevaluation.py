@@ -7,7 +7,6 @@ calls, may change without that; then the stored numbers are no longer those of t
 from __future__ import annotations
 
 import random
-from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
@@ -36,7 +35,8 @@ def drop_changed(planned: Mapping[Key, Task], store: Store[Row]) -> dict[str, An
     seed = random.SystemRandom().randrange(2**32)
     models = {}
     for model in sorted({row.model for row in stored.values()}):
-        sample = _sample([planned[key] for key in stored if planned[key].model == model], seed)
+        tasks = sorted((planned[key] for key in stored if key[0] == model), key=lambda task: str(task.key))
+        sample = random.Random(seed).sample(tasks, min(AT_MOST, len(tasks)))
         again = {task: evaluate_task(task) for task in sample}
         differences = [_difference(task, stored[task.key], row) for task, row in again.items()]
         if difference := next(filter(None, differences), ""):
@@ -44,18 +44,6 @@ def drop_changed(planned: Mapping[Key, Task], store: Store[Row]) -> dict[str, An
             log(f"{model} has changed ({difference}): its stored results ({dropped}) are all computed again")
         models[model] = {"same": not difference, "tasks": [task.as_json() for task in sample]}
     return {"seed": seed, "models": models} if models else None
-
-
-def _sample(tasks: list[Task], seed: int) -> list[Task]:
-    """Return a few tasks at random, of as many quantities as possible."""
-    shuffled = sorted(tasks, key=lambda task: str(task.key))
-    random.Random(seed).shuffle(shuffled)
-    turns: Counter[str] = Counter()
-    order: list[tuple[int, int, Task]] = []
-    for task in shuffled:
-        order.append((turns[task.quantity], len(order), task))
-        turns[task.quantity] += 1
-    return [task for _, _, task in sorted(order)[:AT_MOST]]
 
 
 def same(stored: Row, now: Row) -> bool:

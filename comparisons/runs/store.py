@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import sqlite3
 import time
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import BrokenExecutor
 from contextlib import closing, contextmanager
 from dataclasses import asdict, dataclass
@@ -180,8 +180,8 @@ class Store(Generic[_Item]):
     def complete(
         self,
         description: str,
-        costs: Sequence[float],
-        computed: Generator[tuple[_Item, Mapping[str, str] | None, float]],
+        count: int,
+        computed: Generator[tuple[_Item, Mapping[str, str] | None]],
     ) -> None:
         """Store items as they are computed, with a progress bar.
 
@@ -189,20 +189,20 @@ class Store(Generic[_Item]):
         ----------
         description : str
             Of the bar.
-        costs : sequence of float
-            What the items may take, as of `comparisons.console.progress.counting`.
+        count : int
+            Number of items.
         computed : generator
-            Yields each item with the environment of its computation and its cost.
+            Yields each item with the environment of its computation, as of `add`.
 
         Raises
         ------
         comparisons.model.ComputationFailed
             If the workers cannot compute.
         """
-        with self.interruptible(), counting(description, costs) as advance, closing(computed):
-            for item, environment, cost in computed:
+        with self.interruptible(), counting(description, count) as advance, closing(computed):
+            for item, environment in computed:
                 self.add(item, environment)
-                advance(cost)
+                advance()
 
     @contextmanager
     def interruptible(self) -> Iterator[None]:

@@ -133,7 +133,8 @@ def evaluate(model: str | Model, quantity: str, problem: Problem) -> Row:
     if quantity not in ALL_QUANTITIES:
         raise ValueError(f"unknown quantity {quantity!r}; the quantities are {', '.join(ALL_QUANTITIES)}")
     if isinstance(model, str):
-        model = _created(model, problem)
+        # Some need Poisson's ratio.
+        model = create(model, problem.nu)
     started = time.perf_counter()
     status, reason, result = "ok", "", None
     try:
@@ -149,11 +150,6 @@ def evaluate(model: str | Model, quantity: str, problem: Problem) -> Row:
         function = extract_tb(error.__traceback__)[-1].name
         status, reason = "failed", f"{type(error).__name__} in {function}: {error}"
     return _row(model, quantity, problem, started, status=status, reason=reason, result=result)
-
-
-def _created(spec: str, problem: Problem) -> Model:
-    """Return the model of a SPEC for a problem: some need Poisson's ratio."""
-    return create(spec, problem.nu)
 
 
 def _row(
@@ -200,7 +196,7 @@ def evaluate_task(task: Task) -> Row:
     2.0
     """
     started = time.perf_counter()
-    model = task.external or _created(task.model, task.problem)
+    model = task.external or create(task.model, task.problem.nu)
     try:
         if isinstance(model, ExternalIdentity):
             return _evaluate_external(model, task)
@@ -217,7 +213,7 @@ def lost_row(task: Task) -> Row:
     >>> lost_row(Task("jkr", "pull_off_force", Problem.dimensionless(2, 0, 1))).status
     'failed'
     """
-    model = task.external or _created(task.model, task.problem)
+    model = task.external or create(task.model, task.problem.nu)
     return _row(model, task.quantity, task.problem, time.perf_counter(), status="failed", reason=LOST)
 
 
@@ -231,7 +227,7 @@ def _evaluate_external(identity: ExternalIdentity, task: Task) -> Row:
     if domain is not None and problem.is_of_the_paper and not domain.contains(task.quantity, problem.numbers):
         reason = domain.refusal(task.quantity)
         return _row(identity, task.quantity, problem, started, status="not-applicable", reason=reason)
-    model = _created(identity.spec, problem)
+    model = create(identity.spec, problem.nu)
     if (model.name, model.version) != (identity.name, identity.version):
         reason = contradiction((identity.name, identity.version), (model.name, model.version))
         return _row(identity, task.quantity, problem, started, status="failed", reason=reason)

@@ -10,9 +10,9 @@ import pandas as pd
 from comparisons.cli.options import file, option
 from comparisons.console.exit_status import OK
 from comparisons.console.printable import printable
+from comparisons.data.file_names import KAPPA, RECORD
 from comparisons.output.citation import as_bibtex, as_text, methods, works
 from comparisons.runs.environment import version_text
-from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record
 
 __all__ = ["call"]
@@ -39,10 +39,9 @@ def call(args: argparse.Namespace) -> int:
     """Print the citation; return the exit status."""
     record, paragraph = None, ""
     if args.folder is not None:
-        folder = RunFolder(args.folder)
-        record = read_record(folder.record)
+        record = read_record(args.folder / RECORD)
         check_files(record, args.folder)
-        paragraph = methods(record, _references(folder.parquet(folder.kappa)))
+        paragraph = methods(record, _references(args.folder / f"{KAPPA}.parquet"))
     cited = works("" if record else version_text(), record)
     print(printable(as_bibtex(cited) if args.format == "bibtex" else as_text(cited, paragraph)), end="")
     return OK

@@ -8,12 +8,11 @@ from pathlib import Path
 from comparisons.cli.options import file
 from comparisons.console.exit_status import OK
 from comparisons.console.progress import log
-from comparisons.data.file_names import RECORD, RUN_FILES, STORE
+from comparisons.data.file_names import RECORD, REPORT, RUN_FILES, STORE
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
 from comparisons.runs.atomic_files import atomic, writable_file
-from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import read_record
 
 __all__ = ["call"]
@@ -39,8 +38,8 @@ def call(args: argparse.Namespace) -> int:
 
 def _page_path(folder: Path, out: Path | None) -> Path:
     """Return where the page goes, which is no other file of the run."""
-    path = writable_file(out or RunFolder(folder).report)
-    for name in (RECORD, STORE, *RUN_FILES, *read_record(RunFolder(folder).record)["files"]):
+    path = writable_file(out or folder / REPORT)
+    for name in (RECORD, STORE, *RUN_FILES, *read_record(folder / RECORD)["files"]):
         if path.resolve() == (folder / name).resolve():
             raise ValueError(f"--out {path} is a file of the run, which the page would replace; choose another file")
     return path

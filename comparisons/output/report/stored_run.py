@@ -18,11 +18,9 @@ from comparisons.judging.judge import Judged
 from comparisons.judging.summary import COVERAGE
 from comparisons.output.errors import COMPARED, KAPPA_COLUMNS, LARGEST_COLUMNS
 from comparisons.output.verdicts import GATE_COLUMNS
-from comparisons.runs.folder import RunFolder
-from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
+from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS, read_table
 from comparisons.runs.record import check_files, read_record, warn_of_other_code
 from comparisons.runs.rows import DIMENSIONLESS
-from comparisons.runs.tables import read_table
 
 __all__ = ["TABLES", "Stored", "read_folder"]
 
@@ -77,7 +75,7 @@ def read_folder(folder: Path) -> Stored:
     ValueError
         If there is none, or a file of it is broken or was changed; one sentence says which and how.
     """
-    record = read_record(RunFolder(folder).record)
+    record = read_record(folder / file_names.RECORD)
     check_files(record, folder)
     warn_of_other_code(record, folder)
     tables = {

@@ -136,11 +136,11 @@ class GatesFile(pytest.File):
         """
         if self._verdicts is None and not self._failure:
             from comparisons.model import ComputationFailed
-            from comparisons.pipeline.expected_verdicts import found_verdicts
+            from comparisons.pipeline.expected_verdicts import computed_verdicts
 
             run = self._gates
             try:
-                self._verdicts = found_verdicts(run.path, run.models, run.cases, run.folder, run.jobs)
+                self._verdicts = computed_verdicts(run.path, run.models, run.cases, run.folder, run.jobs)
             except (ValueError, OSError, ComputationFailed) as failure:
                 self._failure = str(failure)
         if self._failure:

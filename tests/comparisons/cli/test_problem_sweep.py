@@ -5,14 +5,13 @@ import math
 from pathlib import Path
 
 import pandas as pd
-import pyarrow.parquet as pq
 import pytest
 
 from comparisons.cli.main import main
 from comparisons.problem.variation import parse_variation, parse_variations, problems_of
 from comparisons.runs.csv_format import read_csv
+from comparisons.runs.frames import read_table
 from comparisons.runs.record import read_record
-from comparisons.runs.tables import read_table
 
 PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad.toml"
 COATED = PAD.with_name("coated_solid.toml")
@@ -188,8 +187,6 @@ def test_every_column_is_described_in_si(tmp_path):
         assert [name for name, field in fields.items() if not field.get("description")] == []
         assert fields["punch.R [m]"]["unit"] == "m"
         assert "SI" in fields["unit"]["description"]
-    described = pq.read_schema(tmp_path / "results.parquet")
-    assert described.field("law.work_of_adhesion [J/m^2]").metadata[b"unit"] == b"J/m^2"
 
 
 def test_values_of_a_range_have_no_rounding():

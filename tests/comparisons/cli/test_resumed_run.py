@@ -10,8 +10,8 @@ from comparisons.data.file_names import STORE
 from comparisons.runs import computation as computing
 from comparisons.runs import store
 from comparisons.runs.computation import compute
+from comparisons.runs.frames import read_table
 from comparisons.runs.record import read_record
-from comparisons.runs.tables import read_table
 
 from .test_run import interrupt_after, run
 

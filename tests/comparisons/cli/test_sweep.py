@@ -3,7 +3,7 @@
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.runs.tables import read_table
+from comparisons.runs.frames import read_table
 
 GRID = """
 [[grid]]

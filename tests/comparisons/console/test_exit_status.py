@@ -19,7 +19,7 @@ from comparisons.data.file_names import STORE
 from comparisons.output.markdown import to_step_summary
 from comparisons.output.style import FORMATS, save
 from comparisons.runs.atomic_files import write_json
-from comparisons.runs.tables import write_table
+from comparisons.runs.frames import write_table
 
 SOLVE = '["solve", "--model", "jkr", "--quantity", "pull_off_force", "--n", "2", "--k", "0.4", "--mu", "1"]'
 ROOT = Path(__file__).resolve().parents[3]
@@ -187,7 +187,7 @@ def figure():
     ("name", "write"),
     [
         ("run.json", lambda path: write_json({"a": 1}, path)),
-        ("results.csv", lambda path: write_table(pd.DataFrame({"a": [1.0]}), path.with_suffix(""))),
+        ("kappa.csv", lambda path: write_table(pd.DataFrame({"a": [1.0]}), path.with_suffix(""))),
         *[(f"figure{suffix}", lambda path: save(figure(), path)) for suffix in FORMATS],
     ],
 )

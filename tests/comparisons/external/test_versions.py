@@ -11,8 +11,8 @@ from comparisons.external import fingerprint as module
 from comparisons.external.model_source import GROUP, close_models
 from comparisons.problem import Problem
 from comparisons.registry import ExternalIdentity, create, identify
+from comparisons.runs.frames import read_table
 from comparisons.runs.record import read_record
-from comparisons.runs.tables import read_table
 from comparisons.runs.tasks import Task, evaluate_task
 
 from .conftest import GATE, GOOD, opened, row_of

@@ -15,9 +15,8 @@ from comparisons.judging.summary import coverage_text
 from comparisons.output.comparison import WIDTH, case_tables, terminal_tables
 from comparisons.output.errors import comparison_table, error_summary
 from comparisons.runs.cases import load_grids
-from comparisons.runs.frames import frame
+from comparisons.runs.frames import frame, read_table
 from comparisons.runs.record import check_files, read_record
-from comparisons.runs.tables import read_table
 from tests.comparisons.rows import row
 
 ROOT = Path(__file__).resolve().parents[3]

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.pipeline.expected_verdicts import found_verdicts
+from comparisons.pipeline.expected_verdicts import computed_verdicts
 
 from ..conftest import GATES
 
@@ -19,7 +19,7 @@ PLUGIN = "fscm_bench_pytest"
 def small_grid(small_grid, tmp_path, pytester):
     """The four cases of toy models, after one run: pytester drops every module that a run inside it imports first."""
     (tmp_path / "first.toml").write_text(GATES)
-    found = found_verdicts(tmp_path / "first.toml", ["ten-percent"], "quick", tmp_path / "first")
+    found = computed_verdicts(tmp_path / "first.toml", ["ten-percent"], "quick", tmp_path / "first")
     assert {verdict for verdict, _ in found.values()} == {"PASS"}
     (tmp_path / "first.toml").unlink()
 

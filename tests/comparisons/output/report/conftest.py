@@ -14,9 +14,8 @@ from comparisons.judging.gates import gates_text, load_gates
 from comparisons.output.errors import largest, relative_error
 from comparisons.output.verdicts import write_verdicts
 from comparisons.runs.environment import computing_environment, environment
-from comparisons.runs.frames import curve_frame, frame
+from comparisons.runs.frames import curve_frame, frame, write_table
 from comparisons.runs.record import read_record, write_record
-from comparisons.runs.tables import write_curves, write_results, write_table
 from tests.comparisons.rows import row as made_row
 
 from .browsing import ARGUMENTS, DESKTOP, PATIENCE, package, programs, show
@@ -102,8 +101,8 @@ def write_run(folder: Path) -> Path:
     every = list(rows())
     table, shapes = frame(every), curve_frame(curves())
     kappa = relative_error(table[table["quantity"] == "pull_off_force"], "fscm")
-    write_results(table, folder / "results")
-    write_curves(shapes, folder / "curves")
+    write_table(table, folder / "results")
+    write_table(shapes, folder / "curves")
     write_table(kappa, folder / "kappa")
     write_table(largest(kappa), folder / "largest_kappa")
     specs = {IMAGE: SPEC, SCRIPT: "plain.py:Model"}

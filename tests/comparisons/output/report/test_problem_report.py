@@ -12,7 +12,7 @@ from comparisons.cli.main import main
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
-from comparisons.runs.tables import read_table
+from comparisons.runs.frames import read_table
 
 from .browsing import (
     DESKTOP,
