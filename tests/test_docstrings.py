@@ -21,10 +21,10 @@ MODULES = sorted(
 #: Modules whose examples solve several problems, or of other solids than power laws, half a second or more;
 #: the functions that users call are not among them.
 LONG = {
-    "comparisons.paper.figures.fig11_gradient_effect",
-    "comparisons.paper.studies.errors",
+    "comparisons.paper.figures.gradient_effect",
+    "comparisons.paper.studies.error_maps",
     "comparisons.paper.values.printed_values",
-    "comparisons.paper.studies.graded_routes",
+    "comparisons.paper.studies.graded_solids",
     "comparisons.paper.studies.layered_adhesion",
     "comparisons.problem.elastic_energy",
     "comparisons.description.equivalent_power_law",

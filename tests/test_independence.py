@@ -18,15 +18,15 @@ ALLOWED = {
     # Shows what is inside the finite elements: fields, checks, solver table.
     "comparisons.cli.commands.fem": ("fem_reference", "fscm.problem", "fscm.punch", "fscm.laws"),
     # Shows the functions inside the FSCM.
-    "comparisons.paper.figures.fig02_kernel_functions": ("fscm",),
+    "comparisons.paper.figures.functions": ("fscm",),
     # A solid that is no power law has no dimensionless problem.
-    "comparisons.paper.studies.graded_routes": ("fscm", "fem_reference"),
+    "comparisons.paper.studies.graded_solids": ("fscm", "fem_reference"),
     "comparisons.paper.studies.layered_adhesion": ("fscm",),
     # The landing of a jump and the surface at pull-off are no quantities of a model; both jumps of one path, in half
     # the time of two computations.
-    "comparisons.paper.solver_tasks": ("fscm",),
+    "comparisons.paper.tasks": ("fscm",),
     # Judges statements on the functions inside the FSCM and on the two Tabor numbers (Eqs. 18-22 and 30).
-    "comparisons.paper.statements.formula_measures": ("fscm",),
+    "comparisons.paper.statements.formulas": ("fscm",),
     # Measure a solver at every accuracy, the others beside it, and the linear solvers inside the finite elements.
     "comparisons.bench.pull_off": ("fscm", "fem_reference"),
     "comparisons.bench.elements": ("fem_reference",),
@@ -43,7 +43,7 @@ ALLOWED = {
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
     # The references of the error maps are those of the atlas.
-    "comparisons.paper.studies.errors": ("fscm.interpolation",),
+    "comparisons.paper.studies.error_maps": ("fscm.interpolation",),
     "comparisons.models.atlas_model": ("fscm",),
     "comparisons.models.gibson_limit": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),

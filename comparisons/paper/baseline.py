@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import pandas as pd
@@ -11,7 +12,7 @@ from comparisons.paper.registry import paper_figures
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.committed import committed
 
-__all__ = ["PAPER_BASELINE", "changes", "check", "has_figures", "renew"]
+__all__ = ["PAPER_BASELINE", "changes", "check", "has_figures", "renew", "replace_files"]
 
 #: Folder of the committed figures, in a clone of the repository.
 PAPER_BASELINE = BASELINE_FOLDER / "paper"
@@ -39,10 +40,15 @@ def renew(folder: Path, target: Path = PAPER_BASELINE) -> list[Path]:
         raise ValueError(
             f"{folder} lacks {', '.join(missing)}: renew the baseline from the folder of a whole `fscm-bench paper`"
         )
+    return replace_files([path for files in sources.values() for path in files], target)
+
+
+def replace_files(sources: Iterable[Path], target: Path) -> list[Path]:
+    """Replace the files of a folder by copies of others; return their paths."""
     target.mkdir(parents=True, exist_ok=True)
     for stale in target.iterdir():
         stale.unlink()
-    copies = {target / path.name: path for files in sources.values() for path in files}
+    copies = {target / path.name: path for path in sources}
     for copy, source in copies.items():
         with atomic(copy) as file:
             file.write(source.read_bytes())
@@ -58,22 +64,21 @@ def changes(stored: pd.DataFrame, computed: pd.DataFrame) -> list[str]:
     --------
     >>> stored = pd.DataFrame({"n": [1.0, 2.0], "value": [3.0, 4.0]})
     >>> changes(stored, stored.assign(value=[3.0, 4.1]))
-    ['value: up to 0.1 apart']
+    ['value differs in 1 of 2 rows, the first is row 2']
     """
     if list(stored.columns) != list(computed.columns) or len(stored) != len(computed):
         return [f"{len(stored)} rows of {list(stored.columns)}, now {len(computed)} of {list(computed.columns)}"]
     different = []
     for name in stored:
         before, now = stored[name], computed[name]
-        is_bound = name == "u" or name.startswith("u_") or name.endswith("_u_num")
-        if is_bound or before.equals(now):
+        if name == "u" or name.startswith("u_") or name.endswith("_u_num"):
             continue
-        if not (pd.api.types.is_float_dtype(before) and pd.api.types.is_float_dtype(now)):
-            different.append(f"{name}: other texts")
-        elif (before.isna() != now.isna()).any():
-            different.append(f"{name}: a number where there was none, or none where there was")
-        elif (apart := (now - before).abs().max()) > SAME * before.abs().max():
-            different.append(f"{name}: up to {apart:.2g} apart")
+        differs = (before != now) & ~(before.isna() & now.isna())
+        if pd.api.types.is_float_dtype(before) and pd.api.types.is_float_dtype(now):
+            differs &= ~((now - before).abs() <= SAME * before.abs().max())
+        if differs.any():
+            first_row = int(differs.to_numpy().argmax()) + 1
+            different.append(f"{name} differs in {differs.sum()} of {len(stored)} rows, the first is row {first_row}")
     return different
 
 

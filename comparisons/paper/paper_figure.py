@@ -15,7 +15,7 @@ from rich.console import RenderableType
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
 from comparisons.output.style import save, styled
-from comparisons.paper.cache import CachedCall, Results
+from comparisons.paper.cache import CachedCall, Outcome
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text
 
@@ -26,17 +26,17 @@ __all__ = [
     "Tables",
     "calls_of",
     "given",
-    "lines_of",
     "paper_figure",
     "result_of",
     "rows_of",
+    "table_of",
     "together",
 ]
 
 T = TypeVar("T")
 K = TypeVar("K")
 
-#: The data of a figure, by the name of each table.
+#: The data of a figure, by the name of each table; the main table has the empty name.
 Tables = dict[str, pd.DataFrame]
 
 #: What is made of calls: it yields once, the calls by keys of its own; is sent their results; and returns what it made.
@@ -57,15 +57,15 @@ def calls_of(plan: Plan[Any]) -> list[CachedCall]:
     return list(dict.fromkeys(next(plan).values()))
 
 
-def given(plan: Plan[T], results: Results) -> T:
-    """Return what a plan makes of results.
+def given(plan: Plan[T], outcomes: Mapping[CachedCall, Outcome]) -> T:
+    """Return what a plan makes of the outcomes of its calls.
 
     Raises
     ------
     ComputationFailed
         If a call that it needs has failed.
     """
-    return _made(plan, {key: results[call] for key, call in next(plan).items()})
+    return _made(plan, {key: outcomes[call].get() for key, call in next(plan).items()})
 
 
 def _made(plan: Plan[T], results: Mapping[Any, Any]) -> T:
@@ -90,22 +90,34 @@ def result_of(function: Callable[..., Any], *arguments: float | str) -> Plan[Any
     return results[""]
 
 
-def rows_of(calls: Iterable[tuple[Mapping[str, Any], CachedCall]]) -> Plan[pd.DataFrame]:
-    """Plan a table of one row a call: its keys, and the dictionary that it returns."""
+def rows_of(calls: Iterable[tuple[Mapping[str, Any], CachedCall]], *names: str) -> Plan[pd.DataFrame]:
+    """Plan the table of several calls: the keys of each, and its result, of which these names, by default all.
+
+    A result that lacks a name has NaN there.
+    """
     keyed = list(calls)
     results = yield dict(enumerate(call for _, call in keyed))
-    return pd.DataFrame([{**key, **results[index]} for index, (key, _) in enumerate(keyed)])
+    rows = []
+    for index, (key, _) in enumerate(keyed):
+        result = results[index]
+        rows.append({**key, **({name: result.get(name, math.nan) for name in names} or result)})
+    return table_of(rows)
 
 
-def lines_of(key: Mapping[str, Any], result: Mapping[str, Any], names: Iterable[str]) -> pd.DataFrame:
-    """Return the lists and numbers of these names in a result as columns, one row without numbers if it has none.
+def table_of(rows: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
+    """Return a table of rows of the same names; lists of one length make as many rows, with the numbers repeated.
 
     Examples
     --------
-    >>> lines_of({"k": 0.4}, {"load": [0.0, -1.0], "u": 0.1}, ["load", "u"]).values.tolist()
-    [[0.4, 0.0, 0.1], [0.4, -1.0, 0.1]]
+    >>> table_of([{"k": 0.4, "load": [0.0, -1.0]}, {"k": 0.6, "load": 2.0}]).values.tolist()
+    [[0.4, 0.0], [0.4, -1.0], [0.6, 2.0]]
     """
-    return pd.DataFrame({**key, **{name: result.get(name, [math.nan]) for name in names}})
+    columns: dict[str, list[Any]] = {}
+    for row in rows:
+        length = max(len(value) if isinstance(value, list) else 1 for value in row.values())
+        for name, value in row.items():
+            columns.setdefault(name, []).extend(value if isinstance(value, list) else [value] * length)
+    return pd.DataFrame(columns)
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +135,8 @@ class PaperFigure:
     plan : callable
         Returns the plan of its tables.
     picture : callable or None
-        Draws the tables on a page; None for a figure that is a table only.
+        Draws the tables on a page, the main one as `table`, the others by their names; None for a figure that is a
+        table only.
     size : tuple of float
         Width and height of the page in inches.
     texts : callable or None
@@ -139,7 +152,7 @@ class PaperFigure:
     stem: str
     title: str
     plan: Callable[[], Plan[Tables]]
-    picture: Callable[[Figure, Tables], None] | None = None
+    picture: Callable[..., None] | None = None
     size: tuple[float, float] = (7.2, 3.4)
     texts: Callable[[Tables], dict[str, str]] | None = None
     shown: Callable[[Tables], RenderableType] | None = None
@@ -151,7 +164,7 @@ class PaperFigure:
             return None
         with styled():
             figure = Figure(figsize=self.size, layout="constrained")
-            self.picture(figure, tables)
+            self.picture(figure, **{name or "table": table for name, table in tables.items()})
         return figure
 
     def table_file(self, name: str) -> str:
@@ -188,7 +201,7 @@ FIGURES: dict[str, PaperFigure] = {}
 
 
 def paper_figure(
-    picture: Callable[[Figure, Tables], None] | None = None, *, name: str | None = None, **options: Any
+    picture: Callable[..., None] | None = None, *, name: str | None = None, **options: Any
 ) -> Callable[[Callable[[], Plan[Tables]]], Callable[[], Plan[Tables]]]:
     """Declare the figure of a plan: the plan's name is the stem of its files, its docstring the title.
 

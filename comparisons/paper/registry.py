@@ -10,7 +10,7 @@ from comparisons.paper.paper_figure import FIGURES, PaperFigure
 
 __all__ = ["NAMES", "paper_figures"]
 
-for _folder in ("figures", "values", "statements", "findings", "studies"):
+for _folder in ("figures", "values", "statements", "studies"):
     for _module in iter_modules(import_module(f"comparisons.paper.{_folder}").__path__):
         import_module(f"comparisons.paper.{_folder}.{_module.name}")
 

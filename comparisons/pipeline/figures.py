@@ -8,7 +8,7 @@ from pathlib import Path
 
 from comparisons.data.file_names import RECORD
 from comparisons.model import ComputationFailed
-from comparisons.paper.cache import Results, make_calls
+from comparisons.paper.cache import CachedCall, Outcome, make_calls
 from comparisons.paper.paper_figure import PaperFigure, Tables, calls_of, given
 from comparisons.paper.registry import paper_figures
 from comparisons.runs.atomic_files import prepare_folder
@@ -82,10 +82,10 @@ def make_figures(
     figures = paper_figures(wanted)
     prepare_folder(folder)
     started = now()
-    calls = list(dict.fromkeys(call for figure in figures for call in calls_of(figure.plan())))
+    calls = dict.fromkeys(call for figure in figures for call in calls_of(figure.plan()))
     computed = make_calls(calls, folder, jobs, retry_failed=retry_failed)
-    finished = tuple(_finished(figure, computed.results, folder) for figure in figures)
-    failed = len(computed.failed(calls))
+    finished = tuple(_finished(figure, computed.outcomes, folder) for figure in figures)
+    failed = sum(computed.outcomes[call].failed for call in calls)
     record = record_content(
         "paper",
         {"figure": wanted, "jobs": jobs, "out": str(folder)},
@@ -103,9 +103,9 @@ def make_figures(
     return FinishedPaper(folder, finished)
 
 
-def _finished(figure: PaperFigure, results: Results, folder: Path) -> FinishedFigure:
+def _finished(figure: PaperFigure, outcomes: dict[CachedCall, Outcome], folder: Path) -> FinishedFigure:
     try:
-        tables = given(figure.plan(), results)
+        tables = given(figure.plan(), outcomes)
         return FinishedFigure(figure, tables, tuple(figure.write(tables, folder)))
     except ComputationFailed as failure:
         return FinishedFigure(figure, {}, (), str(failure))

@@ -31,7 +31,7 @@ def _surface(r: np.ndarray) -> np.ndarray:
     return np.where(beyond > 0.0, rim / (1.0 + beyond / _FALL) ** 1.5, _punch(r) - _GAP)
 
 
-def _picture(figure: Figure, tables: Tables) -> None:
+def _picture(figure: Figure) -> None:
     axes = figure.subplots()
     r, share = np.linspace(-_WIDTH, _WIDTH, 841), np.linspace(0.0, 1.0, 128)[:, None]
     depth = share * -_DEPTH + (1.0 - share) * _surface(r)

@@ -1,4 +1,4 @@
-"""Figs. 4, 6 and 13: families of force-displacement curves, over Tabor numbers, gradient exponents and models."""
+"""Figs. 3, 4, 6 and 13: force-displacement curves, their named points and hysteresis, and a path that folds often."""
 
 from __future__ import annotations
 
@@ -6,22 +6,32 @@ from collections.abc import Iterable
 from itertools import product
 from typing import Any
 
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
+from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered
 from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import LABELS, by_model, gradient, held, legend_below, level, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, lines_of, paper_figure
-from comparisons.paper.tasks import curve
+from comparisons.paper.drawing import LABELS, by_model, crosses, gradient, held, legend_below, level, of_model, panels
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, rows_of, together
+from comparisons.paper.statements.paths import turning_points
+from comparisons.paper.tasks import GRADIENTS, curve, named_points, quantity
 
-__all__ = ["curves"]
+__all__ = ["curves", "loop"]
 
-Case = tuple[float, float, float]
 Range = tuple[float, float]
 
-#: Ranges of displacement and load of each panel, by shape index.
+#: Fig. 3: the case.
+_CASE = (2.0, 0.4, 3.0)
+#: The points, and the offsets of their names in (b), in points of the page.
+_BESIDE = {"B'": (-3, 6), "A": (4, 5), "B": (-11, -9), "A'": (7, -3), "C": (-3, -12), "D": (-12, 3)}
+#: Ranges of the axes: the approach continues to the left of (b) and to the right of (a).
+_S_RANGES = {"displacement": (-7.2, 7.6), "load": (-2.05, 0.55)}
+#: In contact the central gap hardly moves; the scale is linear in the middle of (a) and logarithmic beyond.
+_LINEAR_GAP = 0.05
+
+#: Figs. 4, 6 and 13: ranges of displacement and load of each panel, by shape index.
 _SHAPES: dict[float, tuple[Range, Range]] = {
     1.0: ((-5.0, 13.0), (-17.5, 2.5)),
     1.5: ((-5.0, 6.0), (-3.6, 1.0)),
@@ -34,22 +44,83 @@ _TABOR_PANELS: dict[float, tuple[Range, Range]] = {
     1.0: ((-4.0, 2.5), (-2.15, 0.8)),
 }
 _TABOR_NUMBERS = (0.1, 0.3, 0.5, 1.0, 1.5, 2.0, 3.0)
-#: k = 1 is the Gibson limit.
-_GRADIENTS = (0.0, 0.2, 0.4, 0.6, 1.0)
 _K, _MU = 0.4, 1.0
 #: Fig. 13 ends to the left where the FSCM's load has faded to this share of the pull-off force.
 _FAINT = 0.04
 
+_COLUMNS = ("displacement", "u_displacement", "load", "u_load")
+#: Cases of the additional folds, and the displacements of the part that has them.
+_FOLDS = {(2.0, 0.4, 3.0): (-3.36, -3.22), (2.0, 0.6, 3.0): (-3.36, -3.32)}
 
-def curves(cases: Iterable[Case]) -> Plan[Tables]:
+
+def _s_curve(figure: Figure, curves: pd.DataFrame, points: pd.DataFrame, hysteresis: pd.DataFrame) -> None:
+    points = points.set_index("name")
+    path, jkr = of_model(curves, "fscm", "jkr")
+    grid = figure.add_gridspec(2, 2, width_ratios=(1.0, 1.35))
+    above = figure.add_subplot(grid[0, 0])
+    below = figure.add_subplot(grid[1, 0], sharex=above)
+    lettered(above, "a")
+    above.tick_params(labelbottom=False)
+    for axes, name in ((above, "displacement"), (below, "load")):
+        _marked(axes, path, points, "central_gap", name)
+        axes.set_xscale("symlog", linthresh=_LINEAR_GAP)
+        axes.set(xlim=(-0.04, 7.0), ylabel=LABELS[name])
+    below.set_xlabel(LABELS["central_gap"])
+    below.set_xticks([0.0, 0.1, 1.0, 5.0], ["0", "0.1", "1", "5"])
+    right = figure.add_subplot(grid[:, 1])
+    lettered(right, "b", held(n=_CASE[0], k=_CASE[1], mu=_CASE[2]))
+    right.fill(*loop(path, points), color=COLOURS[6], alpha=0.35, lw=0)
+    _marked(right, path, points, "displacement", "load")
+    right.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label=MODEL_NAMES["jkr"])
+    for start, end in (("A", "A'"), ("B", "B'")):
+        head, tail = (points.loc[name, ["displacement", "load"]] for name in (end, start))
+        right.annotate("", head, tail, arrowprops={"arrowstyle": "-|>", "color": COLOURS[1], "lw": 1.2, "ls": ":"})
+    energy = hysteresis["value"].item()
+    right.annotate(f"hysteresis loss\n$\\oint\\,\\bar P\\,d\\delta/z_0$ = {energy:.4f}", (-1.9, -0.62))
+    right.set(xlim=_S_RANGES["displacement"], xlabel=LABELS["displacement"], ylabel=LABELS["load"])
+    right.legend(loc="lower right")
+
+
+def _marked(axes: Axes, path: pd.DataFrame, points: pd.DataFrame, x: str, y: str) -> None:
+    """Draw the path and its named points."""
+    level(axes)
+    axes.plot(path[x], path[y], color=COLOURS[0], label=MODEL_NAMES["fscm"])
+    axes.plot(points[x], points[y], ls="none", marker="o", ms=4, color=COLOURS[2])
+    for name, point in points.iterrows():
+        offset = _BESIDE[str(name)] if x == "displacement" else (5, 3) if y == "displacement" else (6, -5)
+        axes.annotate(str(name), (point[x], point[y]), offset, textcoords="offset points", fontsize=8)
+    axes.set_ylim(_S_RANGES[y])
+
+
+def loop(path: pd.DataFrame, points: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
+    """Outline B'-A-A'-B-B' of the energy that a cycle of displacement control loses."""
+    gap, displacement = path["central_gap"], path["displacement"]
+    approach = path[(gap >= points.loc["A", "central_gap"]) & (displacement >= points.loc["B'", "displacement"])]
+    contact = path[(gap <= points.loc["B", "central_gap"]) & (displacement <= points.loc["A'", "displacement"])]
+    sides = [points.loc[["B'"]], approach, points.loc[["A", "A'"]], contact[::-1], points.loc[["B"]]]
+    outline = pd.concat(sides)[["displacement", "load"]].to_numpy(float)
+    return outline[:, 0], outline[:, 1]
+
+
+def _points() -> Plan[pd.DataFrame]:
+    points = yield from result_of(named_points, *_CASE)
+    return pd.DataFrame([{"name": name} | point for name, point in points.items()])
+
+
+@paper_figure(_s_curve, size=(7.2, 4.8), follows_path=True)
+def fig03_s_curve() -> Plan[Tables]:
+    """The S-shaped curve at n = 2, k = 0.4, mu = 3."""
+    paths = [({"model": model}, CachedCall.of(curve, model, *_CASE)) for model in ("fscm", "jkr")]
+    energy = {"quantity": "hysteresis_energy"}, CachedCall.of(quantity, "fscm", "hysteresis_energy", *_CASE)
+    # The coordinate along the path, at which displacement and load are uncertain; JKR has none.
+    curves = rows_of(paths, "central_gap", *_COLUMNS)
+    return together({"curves": curves, "points": _points(), "hysteresis": rows_of([energy])})
+
+
+def curves(cases: Iterable[tuple[float, float, float]]) -> Plan[pd.DataFrame]:
     """Plan the table of the curves of the FSCM in these cases."""
-    results = yield {case: CachedCall.of(curve, "fscm", *case) for case in cases}
-    columns = ["displacement", "u_displacement", "load", "u_load"]
-    parts = [
-        lines_of({"n": n, "k": k, "mu": mu, "status": path["status"]}, path, columns)
-        for (n, k, mu), path in results.items()
-    ]
-    return {"": pd.concat(parts, ignore_index=True)}
+    calls = (({"n": n, "k": k, "mu": mu}, CachedCall.of(curve, "fscm", n, k, mu)) for n, k, mu in cases)
+    return rows_of(calls, "status", *_COLUMNS)
 
 
 def _family(axes: Axes, table: pd.DataFrame, name: str, ranges: tuple[Range, Range]) -> None:
@@ -62,38 +133,38 @@ def _family(axes: Axes, table: pd.DataFrame, name: str, ranges: tuple[Range, Ran
     axes.set(xlim=ranges[0], ylim=ranges[1])
 
 
-def _over_tabor_numbers(figure: Figure, tables: Tables) -> None:
+def _over_tabor_numbers(figure: Figure, table: pd.DataFrame) -> None:
     words = [held(n=n, k=_K) for n in _SHAPES]
     lattice = panels(figure, 2, 2, words, LABELS["displacement"], LABELS["load"])
     for axes, (n, ranges) in zip(lattice, _SHAPES.items(), strict=True):
-        _family(axes, tables[""][tables[""]["n"] == n], "mu", ranges)
+        _family(axes, table[table["n"] == n], "mu", ranges)
     legend_below(figure, len(_TABOR_NUMBERS))
 
 
 @paper_figure(_over_tabor_numbers, size=(7.2, 6.0), follows_path=True)
 def fig04_force_curves_over_tabor_numbers() -> Plan[Tables]:
     """Force-displacement curves for k = 0.4 and four shapes, over the Tabor number."""
-    return (yield from curves((n, _K, mu) for n in _SHAPES for mu in _TABOR_NUMBERS))
+    return together({"": curves((n, _K, mu) for n in _SHAPES for mu in _TABOR_NUMBERS)})
 
 
-def _over_gradients(figure: Figure, tables: Tables) -> None:
+def _over_gradients(figure: Figure, table: pd.DataFrame) -> None:
     words = [held(n=2, mu=mu) for mu in _TABOR_PANELS]
     lattice = panels(figure, 1, 2, words, LABELS["displacement"], LABELS["load"])
     for axes, (mu, ranges) in zip(lattice, _TABOR_PANELS.items(), strict=True):
-        _family(axes, tables[""][tables[""]["mu"] == mu], "k", ranges)
-    legend_below(figure, len(_GRADIENTS))
+        _family(axes, table[table["mu"] == mu], "k", ranges)
+    legend_below(figure, 5)
 
 
 @paper_figure(_over_gradients, size=(7.2, 3.6), follows_path=True)
 def fig06_force_curves_over_gradients() -> Plan[Tables]:
     """Force-displacement curves for n = 2, mu = 0.5 and 1, over the gradient exponent."""
-    return (yield from curves((2.0, k, mu) for mu in _TABOR_PANELS for k in _GRADIENTS))
+    return together({"": curves((2.0, k, mu) for mu in _TABOR_PANELS for k in (*GRADIENTS, 1.0))})
 
 
-def _over_models(figure: Figure, tables: Tables) -> None:
+def _over_models(figure: Figure, table: pd.DataFrame) -> None:
     words = [held(n=n, k=_K, mu=_MU) for n in _SHAPES]
     lattice = panels(figure, 2, 2, words, LABELS["displacement"], LABELS["load"])
-    for axes, (_, of_shape) in zip(lattice, tables[""].groupby("n"), strict=True):
+    for axes, (_, of_shape) in zip(lattice, table.groupby("n"), strict=True):
         by_model(axes, of_shape, "displacement", "load")
         level(axes)
         (exact,) = of_model(of_shape, "fscm")
@@ -108,13 +179,39 @@ def _over_models(figure: Figure, tables: Tables) -> None:
 @paper_figure(_over_models, size=(7.2, 5.6), follows_path=True)
 def fig13_force_curve_models() -> Plan[Tables]:
     """Force-displacement curves of both Maugis-Dugdale models, which end at first contact, and the FSCM."""
-    places = product(_SHAPES, MODEL_LINES)
-    results = yield {(n, model): CachedCall.of(curve, model, n, _K, _MU) for n, model in places}
-    columns = ["displacement", "load", "u_displacement", "u_load"]
-    parts = [
-        lines_of({"n": n, "k": _K, "mu": _MU, "model": model}, path, columns).assign(
-            status=path["status"], reason=path["reason"]
-        )
-        for (n, model), path in results.items()
+    cases = product(_SHAPES, MODEL_LINES)
+    calls = (
+        ({"n": n, "k": _K, "mu": _MU, "model": model}, CachedCall.of(curve, model, n, _K, _MU)) for n, model in cases
+    )
+    columns = ("displacement", "load", "u_displacement", "u_load", "status", "reason")
+    return together({"": rows_of(calls, *columns)})
+
+
+def _draw_fold_pairs(figure: Figure, table: pd.DataFrame) -> None:
+    words = [held(n=n, k=k, mu=mu) for n, k, mu in _FOLDS]
+    lattice = panels(figure, 1, 2, words, LABELS["central_gap"], LABELS["displacement"])
+    for axes, ((_, k, _), limits) in zip(lattice, _FOLDS.items(), strict=True):
+        exact, fem = of_model(table[table["k"] == k], "fscm", "fem")
+        turns = exact[exact["turning_point"]]
+        axes.plot(exact["central_gap"], exact["displacement"], color=COLOURS[0], label="fscm")
+        crosses(axes, fem["central_gap"], fem["displacement"], ms=4, color=COLOURS[1], label="fem")
+        open_circle = {"marker": "o", "mfc": "white", "color": COLOURS[2]}
+        crosses(axes, turns["central_gap"], turns["displacement"], ms=6, label="turning points", **open_circle)
+        axes.set(xlim=(0.0, 2.6), ylim=limits)
+    legend_below(figure, 3)
+
+
+@paper_figure(_draw_fold_pairs, follows_path=True)
+def finding_fold_pairs() -> Plan[Tables]:
+    """Additional turning points of the displacement at mu = 3."""
+    cases = product(_FOLDS, ("fscm", "fem"))
+    calls = [
+        ({"model": model, "n": n, "k": k, "mu": mu}, CachedCall.of(curve, model, n, k, mu))
+        for (n, k, mu), model in cases
     ]
-    return {"": pd.concat(parts, ignore_index=True)}
+    table = yield from rows_of(calls, "central_gap", "displacement", "u_displacement")
+    turns: list[int] = []
+    for _, path in table.groupby(["n", "k", "mu", "model"]):
+        points = turning_points(path["displacement"].to_numpy(), path["u_displacement"].iloc[0])
+        turns.extend(path.index[points])
+    return {"": table.assign(turning_point=table.index.isin(turns))}

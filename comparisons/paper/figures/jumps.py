@@ -1,4 +1,4 @@
-"""Figs. 8 and 9: displacement and central gap at the two jumps over the Tabor number, and their asymptotes."""
+"""Figs. 8 and 9: displacement and central gap at the two jumps over mu, their onset, and their asymptotes."""
 
 from __future__ import annotations
 
@@ -9,18 +9,26 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from comparisons.models.semi_rigid import jump_in_coefficient
-from comparisons.output.style import COLOURS, MODEL_LINES
+from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
 from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import LABELS, dashed, held, legend_below, line_a_value, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure
-from comparisons.paper.solver_tasks import jumps, near_critical
-from comparisons.paper.tasks import quantity
+from comparisons.paper.drawing import (
+    LABELS,
+    crosses,
+    dashed,
+    held,
+    legend_below,
+    level,
+    line_a_value,
+    of_model,
+    panels,
+)
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, rows_of, table_of, together
+from comparisons.paper.statements.measures import named, table_of_terms
+from comparisons.paper.tasks import GRADIENTS, SHAPES, jumps, near_critical, quantity
 
 __all__ = ["TABOR_NUMBERS", "asymptotes", "coefficients"]
 
 _N, _K = 2.0, 0.4
-_SHAPES = (1.0, 1.5, 2.0, 5.0)
-_GRADIENTS = (0.0, 0.2, 0.4, 0.6)
 #: Above the critical Tabor numbers, which are between 0.69 and 0.79.
 TABOR_NUMBERS = (0.85, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0)
 #: Quantity -> the model whose asymptote it has: Eqs. 47 and 54.
@@ -30,15 +38,22 @@ _INSETS = {"displacement": (0.13, 0.08, 0.38, 0.4), "gap": (0.52, 0.16, 0.45, 0.
 _INSET_RANGES = {"displacement": (-1.7, -1.1), "gap": (0.0, 0.6)}
 _NAMED_AT = 3.5
 _OFFSETS = {"displacement": ((12, 10), (32, 2)), "gap": ((-28, 10), (-75, 6))}
+#: A Tabor number at which the gradient exponent decides whether there are jumps, and the cases shown.
+_ONSET = [(model, k, 0.74) for model in ("fscm", "fem") for k in (0.0, 0.4)]
+#: Reference, n and mu at which the deformation is shown.
+_DEFORMED = [
+    *(("fscm", n, mu) for n in SHAPES for mu in (1.25, 1.5, 2.0, 3.0, 5.0)),
+    *(("fem", n, 3.0) for n in SHAPES),
+]
 
 
-def _branches(figure: Figure, tables: Tables) -> None:
-    table, lattice = tables[""], panels(figure, 1, 2, (held(n=_N),) * 2, LABELS["mu"])
+def _branches(figure: Figure, table: pd.DataFrame, critical: pd.DataFrame) -> None:
+    lattice = panels(figure, 1, 2, (held(n=_N),) * 2, LABELS["mu"])
     for axes, (kind, position) in zip(lattice, _INSETS.items(), strict=True):
         # Where the branches begin, enlarged.
         inset = axes.inset_axes(position)
         names = [f"jump_{name}_{kind}" for name in ("in", "out")]
-        for index, (k, mu) in enumerate(zip(_GRADIENTS, tables["critical"]["mu"], strict=True)):
+        for index, (k, mu) in enumerate(zip(GRADIENTS, critical["mu"], strict=True)):
             # Both branches begin in one point, at the critical Tabor number, between their first points.
             rows_of_k = table[table["k"] == k]
             meeting = rows_of_k[names].iloc[0].mean()
@@ -60,56 +75,55 @@ def _branches(figure: Figure, tables: Tables) -> None:
 @paper_figure(_branches, size=(7.2, 3.8))
 def fig08_jumps() -> Plan[Tables]:
     """Displacement and central gap at the jumps for n = 2, over the Tabor number."""
-    calls: dict[Any, CachedCall] = {k: CachedCall.of(near_critical, _N, k) for k in _GRADIENTS}
-    calls |= {(k, mu): CachedCall.of(jumps, _N, k, mu) for mu in TABOR_NUMBERS for k in _GRADIENTS}
-    results = yield calls
-    critical = pd.DataFrame([{"n": _N, "k": k} | results[k] for k in _GRADIENTS])
-    rows = [{"n": _N, "k": k} | row for k in _GRADIENTS for row in results[k]["jumps"]]
-    rows += [{"n": _N, "k": k, "mu": mu} | results[k, mu] for k in _GRADIENTS for mu in TABOR_NUMBERS]
+    onsets = {k: result_of(near_critical, _N, k) for k in GRADIENTS}
+    beyond = {(k, mu): result_of(jumps, _N, k, mu) for mu in TABOR_NUMBERS for k in GRADIENTS}
+    results = yield from together(onsets | beyond)
+    rows = [{"n": _N, "k": k} | row for k in GRADIENTS for row in results[k]["jumps"]]
+    rows += [{"n": _N, "k": k, "mu": mu} | results[k, mu] for k, mu in beyond]
     table = pd.DataFrame(rows).sort_values(["k", "mu"], ignore_index=True)
-    return {"": table, "critical": critical.drop(columns="jumps")}
+    return {"": table, "critical": _critical(results)}
 
 
-def asymptotes(n: float, k: float) -> list[dict[str, Any]]:
-    """Return rows of mu and the displacements at the jumps by Eqs. 47 and 54; None where Eq. 46 has no jump.
+def _critical(onsets: dict[Any, Any]) -> pd.DataFrame:
+    """Critical Tabor number of each gradient exponent, from results of `near_critical`."""
+    return pd.DataFrame([{"n": _N, "k": k} | {name: onsets[k][name] for name in ("mu", "u_mu")} for k in GRADIENTS])
+
+
+def asymptotes(n: float, k: float) -> dict[str, list[float | None]]:
+    """Return mu and the displacements at the jumps by Eqs. 47 and 54; None where Eq. 46 has no jump.
 
     Examples
     --------
-    >>> round(asymptotes(2, 0.4)[-1]["jump_out_displacement"], 2)
+    >>> round(asymptotes(2, 0.4)["jump_out_displacement"][-1], 2)
     -7.98
     """
-    rows = []
-    for mu in np.linspace(0.05, 5.0, 100).tolist():
-        row: dict[str, Any] = {"mu": mu}
-        for name, model in _ASYMPTOTES.items():
-            closed = quantity(model, name, n, k, mu)
-            row |= {name: closed["value"], f"u_{name}": closed["u_num"]}
-        rows.append(row)
-    return rows
+    columns = {"mu": np.linspace(0.05, 5.0, 100).tolist()}
+    for name, model in _ASYMPTOTES.items():
+        values = [quantity(model, name, n, k, mu) for mu in columns["mu"]]
+        columns |= {name: [row["value"] for row in values], f"u_{name}": [row["u_num"] for row in values]}
+    return columns
 
 
-def coefficients(n: float) -> list[dict[str, float]]:
-    """Return rows of k, C_in (Eq. 48) and C_out (Eq. 55), from k = 0 to the Gibson limit.
+def coefficients(n: float) -> dict[str, list[float]]:
+    """Return k, C_in (Eq. 48) and C_out (Eq. 55), from k = 0 to the Gibson limit.
 
     Examples
     --------
-    >>> last = coefficients(5)[-1]
-    >>> round(last["C_in"], 12), round(last["C_out"], 12)
+    >>> columns = coefficients(5)
+    >>> round(columns["C_in"][-1], 12), round(columns["C_out"][-1], 12)
     (2.666666666667, 2.0)
     """
-    return [
-        {
-            "k": k,
-            "C_in": jump_in_coefficient(n, k),
-            "C_out": -quantity("jkr", "jump_out_displacement", n, k, 1.0)["value"],
-        }
-        for k in np.linspace(0.0, 1.0, 101).tolist()
-    ]
+    gradients = np.linspace(0.0, 1.0, 101).tolist()
+    return {
+        "k": gradients,
+        "C_in": [jump_in_coefficient(n, k) for k in gradients],
+        "C_out": [-quantity("jkr", "jump_out_displacement", n, k, 1.0)["value"] for k in gradients],
+    }
 
 
-def _beside_asymptotes(figure: Figure, tables: Tables) -> None:
+def _beside_asymptotes(figure: Figure, displacements: pd.DataFrame, coefficients: pd.DataFrame) -> None:
     left, right = panels(figure, 1, 2, (held(n=_N, k=_K), ""))
-    fscm, closed = of_model(tables["displacements"], "fscm", "asymptote")
+    fscm, closed = of_model(displacements, "fscm", "asymptote")
     for index, (column, words) in enumerate(zip(_ASYMPTOTES, ("jump in, Eq. 47", "jump out, Eq. 54"), strict=True)):
         left.plot(closed["mu"], closed[column], label=words, color=COLOURS[index], ls=("-", "--")[index])
         broad = MODEL_LINES["fscm"] | {"color": COLOURS[index]}
@@ -120,8 +134,8 @@ def _beside_asymptotes(figure: Figure, tables: Tables) -> None:
     left.text(0.03, 0.03, words, transform=left.transAxes, fontsize=8)
     left.set(xlim=(0.0, 5.1), xlabel=LABELS["mu"], ylabel=r"displacement at the jumps $\delta/z_0$")
     left.legend()
-    line_a_value(right, tables["coefficients"], "n", "k", "C_in")
-    line_a_value(right, tables["coefficients"], "n", "k", "C_out", lw=0.8, label="_")
+    line_a_value(right, coefficients, "n", "k", "C_in")
+    line_a_value(right, coefficients, "n", "k", "C_out", lw=0.8, label="_")
     for limit, text in ((8.0 / 3.0, "8/3"), (2.0, "2")):
         right.plot(1.0, limit, ls="none", marker="o", ms=4, color="0.2", clip_on=False)
         right.annotate(text, (1.0, limit), (6, -3), textcoords="offset points", annotation_clip=False)
@@ -133,18 +147,70 @@ def _beside_asymptotes(figure: Figure, tables: Tables) -> None:
 @paper_figure(_beside_asymptotes, size=(7.2, 3.5))
 def fig09_jump_asymptotes() -> Plan[Tables]:
     """Asymptotes of the jumps beside the FSCM, and their coefficients."""
-    calls: dict[Any, CachedCall] = {mu: CachedCall.of(jumps, _N, _K, mu) for mu in TABOR_NUMBERS}
-    calls |= {"onset": CachedCall.of(near_critical, _N, _K), "asymptotes": CachedCall.of(asymptotes, _N, _K)}
-    calls |= {("C", n): CachedCall.of(coefficients, n) for n in _SHAPES}
-    results = yield calls
+    of_shapes = rows_of(({"n": n}, CachedCall.of(coefficients, n)) for n in SHAPES)
+    return together({"displacements": _displacements(), "coefficients": of_shapes})
+
+
+def _displacements() -> Plan[pd.DataFrame]:
+    plans: dict[Any, Plan[Any]] = {mu: result_of(jumps, _N, _K, mu) for mu in TABOR_NUMBERS}
+    plans |= {"onset": result_of(near_critical, _N, _K), "asymptote": result_of(asymptotes, _N, _K)}
+    results = yield from together(plans)
     # Where the two jumps part, then evenly.
-    computed = [results["onset"]["jumps"][0], *({"mu": mu} | results[mu] for mu in TABOR_NUMBERS)]
+    rows = [results["onset"]["jumps"][0], *({"mu": mu} | results[mu] for mu in TABOR_NUMBERS)]
     columns = ["mu", *(f"{u}{name}" for name in _ASYMPTOTES for u in ("", "u_"))]
-    fscm = pd.DataFrame(computed)[columns].assign(model="fscm")
-    closed = pd.DataFrame(results["asymptotes"]).assign(model="asymptote")
-    constants = pd.concat([pd.DataFrame(results["C", n]).assign(n=n) for n in _SHAPES], ignore_index=True)
-    displacements = pd.concat([fscm, closed], ignore_index=True)[["model", *columns]]
-    return {
-        "displacements": displacements.assign(n=_N, k=_K),
-        "coefficients": constants[["n", "k", "C_in", "C_out"]],
-    }
+    of_fscm = [{"model": "fscm"} | {name: row[name] for name in columns} for row in rows]
+    return table_of([*of_fscm, {"model": "asymptote"} | results["asymptote"]]).assign(n=_N, k=_K)
+
+
+def _draw_onset(figure: Figure, table: pd.DataFrame, energies: pd.DataFrame) -> None:
+    axes = figure.subplots()
+    axes.plot(table["k"], table["mu"], color=COLOURS[0], marker="o", ms=4, label="critical Tabor number")
+    low, high = table["mu"].min(), table["mu"].max()
+    axes.axhspan(low, high, color=COLOURS[1], alpha=0.15, lw=0, label="the gradient exponent decides")
+    for mu in (0.5, 1.0):
+        level(axes, mu, ls=":")
+        axes.annotate(f"Fig. 6: μ = {mu:g}", (0.6, mu), (0, 3), textcoords="offset points", ha="right", fontsize=8)
+    (fem,) = of_model(energies, "fem")
+    for status, face, label in (("ok", COLOURS[2], "jumps"), ("not-applicable", "white", "no jump")):
+        squares = fem[fem["status"] == status]
+        square = {"marker": "s", "ms": 7, "color": COLOURS[2], "mfc": face}
+        crosses(axes, squares["k"], squares["mu"], label=f"{label} (both references)", **square)
+    axes.set(xlabel=LABELS["k"], ylabel=LABELS["mu"], ylim=(0.2, 1.1), xlim=(-0.03, 0.63))
+    axes.legend(loc="lower left", fontsize=8)
+
+
+@paper_figure(_draw_onset, size=(5.0, 3.6))
+def finding_onset() -> Plan[Tables]:
+    """Onset of hysteresis over the gradient exponent at n = 2."""
+    energies = (
+        ({"model": model, "n": _N, "k": k, "mu": mu}, CachedCall.of(quantity, model, "hysteresis_energy", _N, k, mu))
+        for model, k, mu in _ONSET
+    )
+    return together({"": _onsets(), "energies": rows_of(energies)})
+
+
+def _onsets() -> Plan[pd.DataFrame]:
+    return _critical((yield from together({k: result_of(near_critical, _N, k) for k in GRADIENTS})))
+
+
+def _draw_semi_rigid(figure: Figure, table: pd.DataFrame) -> None:
+    lattice = panels(figure, 1, 2, (held(k=_K),) * 2, LABELS["mu"])
+    for axes, column, scale in zip(lattice, ("deformation", "error"), (1.0, 100.0), strict=True):
+        for index, (n, line) in enumerate(table.groupby("n")):
+            exact, fem = of_model(line, "fscm", "fem", column="reference")
+            style: Any = {"marker": MARKERS[index], "ms": 3.5, "label": f"fscm, {held(n=n)}"}
+            axes.plot(exact["mu"], scale * exact[column], **dashed(index), **style)
+            crosses(axes, fem["mu"], scale * fem[column])
+        axes.set(ylim=(0.0, None))
+    crosses(lattice[0], [], [], label="fem")
+    lattice[0].set_ylabel(r"deformation over gap at jump-in, $|w(0)|/H_0$")
+    lattice[1].set_ylabel("error of the asymptote of jump-in (%)")
+    legend_below(figure, 5)
+
+
+@paper_figure(_draw_semi_rigid)
+def finding_semi_rigid() -> Plan[Tables]:
+    """Deformation at jump-in, and the error of the asymptote that neglects it."""
+    places: Any = [(reference, {}, named(n, _K, mu)) for reference, n, mu in _DEFORMED]
+    error = "relative_error jump_in_displacement semi-rigid"
+    return together({"": table_of_terms(places, deformation="jump_in_deformation", error=error)})

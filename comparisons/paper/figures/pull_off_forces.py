@@ -18,15 +18,13 @@ from comparisons.output.figures.of_run import kappa_handles, kappa_panels
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, by_model, dashed, gradient, held, legend_below, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure, rows_of
-from comparisons.paper.tasks import quantity
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure, rows_of, together
+from comparisons.paper.tasks import GRADIENTS, quantity
 
 __all__ = ["TABOR_NUMBERS", "by_limit"]
 
 #: Range of the pull-off force of each panel of Fig. 10, by shape index: a panel spans less than two decades.
 _SHAPES = {1.0: (2.0, 80.0), 1.5: (1.5, 7.0), 2.0: (1.45, 2.05), 5.0: (0.25, 2.2)}
-#: k = 1 is the Gibson limit.
-_GRADIENTS = (0.0, 0.2, 0.4, 0.6, 1.0)
 _TRANSITION = (0.01, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)
 #: The closed forms are power laws of mu: two points are the line.  JKR is drawn where it is near the curves.
 _ENDS, _JKR_FROM = (_TRANSITION[0], _TRANSITION[-1]), 0.3
@@ -45,12 +43,11 @@ _TICKS = {
 }
 
 
-def _forces(places: Iterable[tuple[str, float, float, float]]) -> Plan[pd.DataFrame]:
-    table = yield from rows_of(
+def _forces(cases: Iterable[tuple[str, float, float, float]]) -> Plan[pd.DataFrame]:
+    return rows_of(
         ({"model": model, "n": n, "k": k, "mu": mu}, CachedCall.of(quantity, model, "pull_off_force", n, k, mu))
-        for model, n, k, mu in places
+        for model, n, k, mu in cases
     )
-    return table
 
 
 def _log_forces(axes: Axes, low: float, high: float) -> None:
@@ -62,8 +59,8 @@ def _log_forces(axes: Axes, low: float, high: float) -> None:
     axes.set_yticks([], minor=True)
 
 
-def _transition(figure: Figure, tables: Tables) -> None:
-    forces = tables[""][tables[""]["status"] == "ok"]
+def _transition(figure: Figure, table: pd.DataFrame) -> None:
+    forces = table[table["status"] == "ok"]
     lattice = panels(figure, 2, 2, [held(n=n) for n in _SHAPES], LABELS["mu"], LABELS["force"], sharex=True)
     thin: Any = {"ls": (0, (2, 1.5)), "lw": 0.7}
     for axes, (n, limits) in zip(lattice, _SHAPES.items(), strict=True):
@@ -88,10 +85,11 @@ def _smooth(forces: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
 @paper_figure(_transition, size=(7.2, 6.0))
 def fig10_transition() -> Plan[Tables]:
     """Pull-off force from the Bradley to the JKR limit."""
+    gradients = (*GRADIENTS, 1.0)
     table = yield from _forces(
         [
-            *product(("fscm",), _SHAPES, _GRADIENTS, _TRANSITION),
-            *product(("jkr",), _SHAPES, _GRADIENTS, (_JKR_FROM, _ENDS[1])),
+            *product(("fscm",), _SHAPES, gradients, _TRANSITION),
+            *product(("jkr",), _SHAPES, gradients, (_JKR_FROM, _ENDS[1])),
             *product(("bradley",), _SHAPES, (0.0,), _ENDS),
         ]
     )
@@ -135,27 +133,26 @@ def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str, d
     legend_below(figure, 5)
 
 
-def _with_limits(figure: Figure, tables: Tables) -> None:
+def _with_limits(figure: Figure, table: pd.DataFrame) -> None:
     def limits(axes: Axes, of_shape: pd.DataFrame) -> None:
         for name, dashes in (("bradley", "-."), ("jkr", ":")):
             (line,) = of_model(of_shape, name)
             axes.plot(line["mu"], line["value"], color="0.55", lw=0.9, ls=dashes, label=MODEL_NAMES[name])
 
-    _panels_of_models(figure, tables[""], "value", LABELS["force"], limits)
+    _panels_of_models(figure, table, "value", LABELS["force"], limits)
 
 
 @paper_figure(_with_limits, size=(7.2, 5.6))
 def fig14_pull_off_models() -> Plan[Tables]:
     """Pull-off force of the original and improved Maugis-Dugdale models and of the FSCM, k = 0.4."""
-    table = yield from _of_models("bradley", "jkr")
-    return {"": table}
+    return together({"": _of_models("bradley", "jkr")})
 
 
-def _by_rigid(figure: Figure, tables: Tables) -> None:
+def _by_rigid(figure: Figure, table: pd.DataFrame) -> None:
     def limit(axes: Axes, of_shape: pd.DataFrame) -> None:
         axes.axhline(1.0, color="0.55", lw=0.9, ls="-.")
 
-    _panels_of_models(figure, tables[""], "ratio", r"$P_c/P_c^{\mathrm{Bradley}}$", limit)
+    _panels_of_models(figure, table, "ratio", r"$P_c/P_c^{\mathrm{Bradley}}$", limit)
 
 
 @paper_figure(_by_rigid, size=(7.2, 5.6))
@@ -165,11 +162,11 @@ def fig15_pull_off_by_rigid_limit() -> Plan[Tables]:
     return {"": tables[""]}
 
 
-def _by_soft(figure: Figure, tables: Tables) -> None:
+def _by_soft(figure: Figure, table: pd.DataFrame, kappa: pd.DataFrame) -> None:
     above, below = np.ravel(figure.subfigures(2, 1, height_ratios=[1.0, 1.15], squeeze=False))
     axes = above.subplots()
     handles = [Line2D([], [], label=MODEL_NAMES[name], **MODEL_LINES[name] | {"color": "0.45"}) for name in MODEL_LINES]
-    for index, (n, of_shape) in enumerate(tables[""].groupby("n")):
+    for index, (n, of_shape) in enumerate(table.groupby("n")):
         marked: Any = {"color": COLOURS[index], "marker": MARKERS[index], "ms": 3.5, "mfc": "white"}
         handles.append(Line2D([], [], label=held(n=n), **marked))
         for model, line in zip(MODEL_LINES, of_model(of_shape, *MODEL_LINES), strict=True):
@@ -177,10 +174,10 @@ def _by_soft(figure: Figure, tables: Tables) -> None:
             axes.plot(line["mu"], line["ratio"], **MODEL_LINES[model] | marked | places)
     axes.axhline(1.0, color="0.55", lw=0.9, ls=":")
     axes.set(xscale="log", xlim=(0.008, 12.0), xlabel=LABELS["mu"], ylabel=r"$P_c/P_c^{\mathrm{JKR}}$")
-    _log_forces(axes, tables[""]["ratio"].min() / 1.2, tables[""]["ratio"].max() * 1.2)
+    _log_forces(axes, table["ratio"].min() / 1.2, table["ratio"].max() * 1.2)
     above.legend(handles=handles, loc="outside right center")
     complete, enlarged = below.subplots(1, 2)
-    kappa_panels(complete, enlarged, tables["kappa"])
+    kappa_panels(complete, enlarged, kappa)
     for panel, letter, words in (
         (axes, "a", f"scaled by the soft limit, {held(k=_K)}"),
         (complete, "b", f"relative error, {held(k=_K)}"),
@@ -193,4 +190,4 @@ def _by_soft(figure: Figure, tables: Tables) -> None:
 @paper_figure(_by_soft, size=(7.2, 6.6))
 def fig16_pull_off_by_soft_limit() -> Plan[Tables]:
     """Pull-off force scaled by the soft (JKR) limit, and the relative error kappa of both models, k = 0.4."""
-    return (yield from by_limit("jkr"))
+    return by_limit("jkr")

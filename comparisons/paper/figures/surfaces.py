@@ -5,23 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
-from comparisons.output.style import MODEL_LINES
+from comparisons.output.style import COLOURS, MODEL_LINES, MODEL_NAMES
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, by_model, held, legend_below, level, line_a_value, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, lines_of, paper_figure
-from comparisons.paper.solver_tasks import surface
-from comparisons.paper.tasks import COHESIVE, cohesive_surface, profile, quantity
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, rows_of, table_of, together
+from comparisons.paper.tasks import COHESIVE, GRADIENTS, cohesive_surface, profile, quantity, surface
 
-__all__ = ["fig05_pull_off_over_tabor_numbers", "fig07_pull_off_over_gradients", "fig17_surface_models"]
+__all__: list[str] = []
 
 _TABOR_NUMBERS = (0.1, 0.3, 0.5, 1.0, 2.0, 3.0)
-#: k = 1 is the Gibson limit.
-_GRADIENTS = (0.0, 0.2, 0.4, 0.6, 1.0)
 _N, _K, _MU = 2.0, 0.4, 1.0
+#: Radii at which surfaces are subtracted.
+_RADII = np.linspace(0.02, 3.0, 150)
 _PUNCH: Any = {"lw": 0.6, "ls": (0, (6, 3)), "label": "_"}
 #: How a and c of each model are written: the side of the text that is at the line, and a height without other texts.
 _MARKS = {
@@ -32,13 +32,9 @@ _MARKS = {
 }
 
 
-def _surfaces(cases: Iterable[tuple[float, float, float]]) -> Plan[Tables]:
-    results = yield {case: CachedCall.of(surface, *case) for case in cases}
-    parts = []
-    for (n, k, mu), shape in sorted(results.items()):
-        profile_rows = pd.DataFrame({"n": n, "k": k, "mu": mu} | shape)
-        parts.append(profile_rows.assign(punch=profile_rows["radius"] ** n / n - profile_rows["displacement"]))
-    return {"": pd.concat(parts, ignore_index=True)}
+def _surfaces(cases: Iterable[tuple[float, float]]) -> Plan[Tables]:
+    table = yield from rows_of(({"n": _N, "k": k, "mu": mu}, CachedCall.of(surface, _N, k, mu)) for k, mu in cases)
+    return {"": table.assign(punch=table["radius"] ** _N / _N - table["displacement"])}
 
 
 def _draw(figure: Figure, table: pd.DataFrame, name: str, words: str, farthest: float, top: float) -> None:
@@ -55,37 +51,53 @@ def _draw(figure: Figure, table: pd.DataFrame, name: str, words: str, farthest: 
     legend_below(figure, 4)
 
 
-def _over_tabor_numbers(figure: Figure, tables: Tables) -> None:
-    _draw(figure, tables[""], "mu", held(n=_N, k=_K), 5.0, 6.2)
+def _over_tabor_numbers(figure: Figure, table: pd.DataFrame) -> None:
+    _draw(figure, table, "mu", held(n=_N, k=_K), 5.0, 6.2)
 
 
 @paper_figure(_over_tabor_numbers, size=(7.2, 3.7), follows_path=True)
 def fig05_pull_off_over_tabor_numbers() -> Plan[Tables]:
     """Surface and pressure at pull-off for n = 2, k = 0.4, over the Tabor number."""
-    return (yield from _surfaces((_N, _K, mu) for mu in _TABOR_NUMBERS))
+    return _surfaces((_K, mu) for mu in _TABOR_NUMBERS)
 
 
-def _over_gradients(figure: Figure, tables: Tables) -> None:
-    _draw(figure, tables[""], "k", held(n=_N, mu=_MU), 4.0, 2.0)
+def _over_gradients(figure: Figure, table: pd.DataFrame) -> None:
+    _draw(figure, table, "k", held(n=_N, mu=_MU), 4.0, 2.0)
 
 
 @paper_figure(_over_gradients, size=(7.2, 3.7), follows_path=True)
 def fig07_pull_off_over_gradients() -> Plan[Tables]:
     """Surface and pressure at pull-off for n = 2, mu = 1, over the gradient exponent."""
-    return (yield from _surfaces((_N, k, _MU) for k in _GRADIENTS))
+    return _surfaces((k, _MU) for k in (*GRADIENTS, 1.0))
 
 
-def _over_models(figure: Figure, tables: Tables) -> None:
+def _shapes(*references: str) -> Plan[dict[str, dict[str, Any]]]:
+    """Plan the surface of each reference and Maugis-Dugdale model at pull-off, with its displacement."""
+    case = (_N, _K, _MU)
+    plans: dict[Any, Plan[Any]] = {model: result_of(profile, model, *case) for model in references}
+    plans |= {model: result_of(cohesive_surface, model, *case) for model in COHESIVE}
+    plans |= {(model,): result_of(quantity, model, "pull_off_displacement", *case) for model in references}
+    results = yield from together(plans)
+    at = {model: {"displacement": results[model,]["value"]} for model in references}
+    return {model: {"model": model} | results[model] | at.get(model, {}) for model in (*references, *COHESIVE)}
+
+
+def _radii(shapes: dict[str, dict[str, Any]]) -> pd.DataFrame:
+    names = ("model", "contact_radius", "cohesive_radius")
+    return pd.DataFrame([{name: shapes[model][name] for name in names} for model in COHESIVE])
+
+
+def _over_models(figure: Figure, table: pd.DataFrame, radii: pd.DataFrame) -> None:
     words = held(n=_N, k=_K, mu=_MU)
     left, right = panels(figure, 1, 2, (words, words), LABELS["radius"], sharex=True)
-    by_model(left, tables[""], "radius", "height")
-    by_model(right, tables[""], "radius", "pressure")
-    (exact,) = of_model(tables[""], "fscm")
+    by_model(left, table, "radius", "height")
+    by_model(right, table, "radius", "pressure")
+    (exact,) = of_model(table, "fscm")
     left.plot(exact["radius"], exact["punch"], color="0.45", ls=":", lw=0.9, label="punch (FSCM)")
     level(right)
     left.set(xlim=(0.0, 3.0), ylim=(0.0, 1.75), ylabel=LABELS["height"])
     right.set(ylabel=LABELS["pressure"])
-    radii = tables["radii"].set_index("model")
+    radii = radii.set_index("model")
     for (model, name), (text, side, height) in _MARKS.items():
         style = MODEL_LINES[model]
         for axes, at in ((left, height), (right, 0.93 - height)):
@@ -98,17 +110,39 @@ def _over_models(figure: Figure, tables: Tables) -> None:
 @paper_figure(_over_models, size=(7.2, 3.7), follows_path=True)
 def fig17_surface_models() -> Plan[Tables]:
     """Surface and pressure at pull-off of both Maugis-Dugdale models and the FSCM; n = 2, k = 0.4, mu = 1."""
-    case = (_N, _K, _MU)
-    calls = {"fscm": CachedCall.of(profile, "fscm", *case)}
-    calls |= {model: CachedCall.of(cohesive_surface, model, *case) for model in COHESIVE}
-    results = yield calls | {"": CachedCall.of(quantity, "fscm", "pull_off_displacement", *case)}
+    shapes = yield from _shapes("fscm")
     parts = []
-    for model in calls:
-        # The closed form is good to rounding.
-        shape = {"displacement": results[""]["value"], "u_distance": 0.0} | results[model]
-        table = lines_of({"model": model}, shape, ("radius", "gap", "pressure"))
+    for shape in shapes.values():
+        table = table_of([{name: shape[name] for name in ("model", "radius", "gap", "pressure")}])
         punch = table["radius"] ** _N / _N - shape["displacement"]
-        # The height of the deformed surface, -w = f - delta - H (Eq. 4).
-        parts.append(table.assign(height=punch - table["gap"], punch=punch, u_distance=shape["u_distance"]))
-    radii = [{"model": model} | {name: results[model][name] for _, name in list(_MARKS)[:2]} for model in COHESIVE]
-    return {"": pd.concat(parts, ignore_index=True), "radii": pd.DataFrame(radii)}
+        # The height of the deformed surface, -w = f - delta - H (Eq. 4).  The closed form is good to rounding.
+        u_distance = shape.get("u_distance", 0.0)
+        parts.append(table.assign(height=punch - table["gap"], punch=punch, u_distance=u_distance))
+    return {"": pd.concat(parts, ignore_index=True), "radii": _radii(shapes)}
+
+
+def _draw_surface_inside(figure: Figure, table: pd.DataFrame, radii: pd.DataFrame) -> None:
+    heights = table.pivot(index="radius", columns="model", values="gap_and_displacement")
+    axes = figure.subplots()
+    for model in COHESIVE:
+        axes.plot(heights.index, heights[model] - heights["fscm"], label=MODEL_NAMES[model], **MODEL_LINES[model])
+    axes.plot(heights.index, heights["fem"] - heights["fscm"], color=COLOURS[0], lw=0.9, ls=":", label="fem")
+    level(axes)
+    inner = radii["contact_radius"].min()
+    axes.axvspan(0.0, inner, color="0.5", alpha=0.12, lw=0)
+    position = (0.5 * inner, 0.93)
+    axes.annotate("contact of both models", position, xycoords=("data", "axes fraction"), ha="center", fontsize=8)
+    axes.set(xlim=(0.0, 3.0), xlabel=LABELS["radius"], ylabel=r"difference of the surfaces from fscm, in $z_0$")
+    axes.legend(loc="upper right", fontsize=8)
+
+
+@paper_figure(_draw_surface_inside, size=(5.4, 3.6), follows_path=True)
+def finding_surface_inside() -> Plan[Tables]:
+    """Difference of the surfaces of both Maugis-Dugdale models from the FSCM; n = 2, k = 0.4, mu = 1."""
+    shapes = yield from _shapes("fscm", "fem")
+    rows = []
+    for model, shape in shapes.items():
+        # H + delta is the height of the surface below the punch's tip, w + f (Eq. 4).
+        height = np.interp(_RADII, shape["radius"], shape["gap"]) + shape["displacement"]
+        rows.append({"model": model, "radius": _RADII.tolist(), "gap_and_displacement": height.tolist()})
+    return {"": table_of(rows), "radii": _radii(shapes)}

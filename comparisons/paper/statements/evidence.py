@@ -3,13 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import pandas as pd
 
-__all__ = ["READING", "REFERENCES", "Evidence", "Number", "by_clause", "clauses", "evidence_frame", "flips", "verdict"]
+__all__ = [
+    "READING",
+    "REFERENCES",
+    "Evidence",
+    "Number",
+    "by_clause",
+    "clauses",
+    "evidence_frame",
+    "flips",
+    "grouped",
+    "verdict",
+]
+
+T = TypeVar("T")
+K = TypeVar("K")
 
 #: Outcomes of a comparison of a clause.
 HOLDS, FAILS, UNDECIDED = "holds", "fails", "not decided"
@@ -33,6 +47,20 @@ _RANK = {FAILS: 0, UNDECIDED: 1, HOLDS: 2}
 _FAR = 2.0
 #: A factor below this has an exponent.
 _SMALL = 1e-3
+
+
+def grouped(items: Iterable[T], key: Callable[[T], K]) -> dict[K, list[T]]:
+    """Return the items of each key, in the order of the first ones.
+
+    Examples
+    --------
+    >>> grouped([1, 3, 2], lambda number: number % 2)
+    {1: [1, 3], 0: [2]}
+    """
+    groups: dict[K, list[T]] = {}
+    for item in items:
+        groups.setdefault(key(item), []).append(item)
+    return groups
 
 
 class Number(NamedTuple):
@@ -119,17 +147,14 @@ def by_clause(comparisons: Iterable[Evidence]) -> list[Evidence]:
     >>> [(row.clause, row.value.value, row.comparisons) for row in by_clause(rows)]
     [('a', 3, 2), ('b', 2, 1)]
     """
-    groups: dict[tuple[str, str, bool], list[Evidence]] = {}
-    for row in comparisons:
-        groups.setdefault((row.clause, row.model, row.is_read), []).append(row)
+    groups = grouped(comparisons, lambda row: (row.clause, row.model, row.is_read))
     if not groups:
         raise ValueError("a statement has no comparison: its cases are empty")
-    return [
-        min(rows, key=lambda row: (_RANK[row.outcome], row.margin))._replace(
-            comparisons=sum(row.comparisons for row in rows)
-        )
-        for rows in groups.values()
-    ]
+    decisive = []
+    for rows in groups.values():
+        least_certain = min(rows, key=lambda row: (_RANK[row.outcome], row.margin))
+        decisive.append(least_certain._replace(comparisons=sum(row.comparisons for row in rows)))
+    return decisive
 
 
 def clauses(evidence: Iterable[Evidence]) -> dict[str, str]:
@@ -145,10 +170,7 @@ def clauses(evidence: Iterable[Evidence]) -> dict[str, str]:
     >>> clauses([by_one]), clauses([by_one, by_one._replace(model="fem")])
     ({'n = 2': 'not decided'}, {'n = 2': 'fails'})
     """
-    rows_of: dict[str, list[Evidence]] = {}
-    for row in evidence:
-        rows_of.setdefault(row.clause, []).append(row)
-    return {clause: _outcome(rows) for clause, rows in rows_of.items()}
+    return {clause: _outcome(rows) for clause, rows in grouped(evidence, lambda row: row.clause).items()}
 
 
 def _outcome(rows: Sequence[Evidence]) -> str:
@@ -220,12 +242,14 @@ def verdict_at(evidence: Iterable[Evidence], number: float) -> str:
 
     Both references are given what only one of them computes: nothing is left open for lack of the other.
     """
-    rows = [row._replace(limit=Number(number, 0.0, READING)) if row.is_read else row for row in evidence]
-    models: dict[str, set[str]] = {}
-    for row in rows:
-        models.setdefault(row.clause, set()).add(row.model)
-    alone = [row for row in rows if row.model in REFERENCES and models[row.clause] == {row.model}]
-    return verdict([*rows, *(row._replace(model=model) for row in alone for model in REFERENCES)])
+    completed: list[Evidence] = []
+    for rows in grouped(evidence, lambda row: row.clause).values():
+        models = {row.model for row in rows}
+        is_alone = len(models) == 1 and models <= set(REFERENCES)
+        for row in rows:
+            changed = row._replace(limit=Number(number, 0.0, READING)) if row.is_read else row
+            completed += [changed._replace(model=model) for model in (REFERENCES if is_alone else [row.model])]
+    return verdict(completed)
 
 
 def flips(evidence: Sequence[Evidence]) -> dict[str, float]:

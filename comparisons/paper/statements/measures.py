@@ -10,32 +10,59 @@ import pandas as pd
 
 from comparisons.models.closed_form import EPS
 from comparisons.paper.paper_figure import Plan, result_of, together
-from comparisons.paper.solver_tasks import JUMPS, jumps
 from comparisons.paper.statements.evidence import Number
-from comparisons.paper.tasks import quantity
+from comparisons.paper.tasks import JUMPS, jumps, quantity
 from comparisons.quantities import title_of
 
 __all__ = [
     "MEASURES",
     "ROUNDING",
     "Case",
-    "Made",
+    "Measured",
+    "Place",
+    "call",
     "label",
     "measure",
     "measured",
     "model_of",
     "named",
-    "of_case",
-    "table_of",
-    "two",
+    "table_of_terms",
+    "term",
 ]
 
 #: Parameters of a case with their names, in order.
 Case = tuple[tuple[str, float], ...]
 
-
 #: What a measure makes: value and bound, and what it is of if that is not the measure's title with the case.
-Made = Plan[Any]
+Measured = tuple[Any, ...]
+
+
+class Place(NamedTuple):
+    """Where a number is measured: the reference, the case, and the arguments of the term."""
+
+    reference: str
+    case: Case
+    arguments: tuple[str, ...]
+
+    def __getattr__(self, name: str) -> float:
+        """Return a parameter of the case, as n."""
+        try:
+            return dict(self.case)[name]
+        except KeyError:
+            raise AttributeError(f"the case {label(self.case)} has no {name}") from None
+
+    @property
+    def label(self) -> str:
+        """The case as a text."""
+        return label(self.case)
+
+    def text(self, template: str) -> str:
+        """Return a text whose `{0}`, ... are the arguments of the term, and `{reference}` is the model."""
+        return template.format(*self.arguments, reference=self.reference)
+
+
+#: What a measure is made of: a plan at a place.
+Need = Callable[[Place], Plan[Any]]
 
 
 class Measure(NamedTuple):
@@ -44,16 +71,18 @@ class Measure(NamedTuple):
     Attributes
     ----------
     title : str
-        What it is of; `{0}`, ... are the arguments of the term, `{reference}` is the model.
+        What it is of, as of `Place.text`.
     model : str
         Whose number it is if not of a reference: "formula" or a model.
-    plan : callable
-        Of the reference, the parameters and the arguments of the term.
+    needs : tuple of Need
+    function : callable
+        Of the place, and what is made of each need.
     """
 
     title: str
     model: str
-    plan: Callable[..., Made]
+    needs: tuple[Need, ...]
+    function: Callable[..., Measured]
 
 
 #: Measures by name; every other name is that of a quantity.
@@ -74,37 +103,48 @@ def label(case: Case, without: str = "") -> str:
     return ", ".join(f"{name} = {value:g}" for name, value in case if name != without)
 
 
-def measure(title: str, model: str = "") -> Callable[[Callable[..., Made]], Callable[..., Made]]:
+def measure(title: str, *needs: Need, model: str = "") -> Callable[[Callable[..., Measured]], Callable[..., Measured]]:
     """Register a measure by the name of its function."""
 
-    def register(plan: Callable[..., Made]) -> Callable[..., Made]:
-        MEASURES[plan.__name__] = Measure(title, model, plan)
-        return plan
+    def register(function: Callable[..., Measured]) -> Callable[..., Measured]:
+        MEASURES[function.__name__] = Measure(title, model, needs, function)
+        return function
 
     return register
 
 
-def _measure_of(term: str) -> tuple[Measure, list[str]]:
-    name, *arguments = term.split()
-    return (MEASURES[name], arguments) if name in MEASURES else (MEASURES["quantity_of"], [name, *arguments])
+def call(function: Callable[..., Any], *texts: str) -> Need:
+    """Need the result of a function of n, k and mu, and of texts before them."""
+    return lambda at: result_of(function, *map(at.text, texts), at.n, at.k, at.mu)
 
 
-def model_of(term: str) -> str:
+def term(text: str, **changes: Callable[[float], float]) -> Need:
+    """Need another term of the same case, or of one whose parameters are changed by functions."""
+
+    def need(at: Place) -> Plan[Number]:
+        case = tuple((name, changes[name](value) if name in changes else value) for name, value in at.case)
+        return measured(at.text(text), at.reference, case)
+
+    return need
+
+
+def _measure_of(text: str) -> tuple[Measure, tuple[str, ...]]:
+    name, *arguments = text.split()
+    return (MEASURES[name], tuple(arguments)) if name in MEASURES else (MEASURES["quantity_of"], (name, *arguments))
+
+
+def model_of(text: str) -> str:
     """Return the model of a term that is not of a reference, else nothing."""
-    return _measure_of(term)[0].model
+    return _measure_of(text)[0].model
 
 
-def measured(term: str, reference: str, case: Case) -> Plan[Number]:
+def measured(text: str, reference: str, case: Case) -> Plan[Number]:
     """Plan the number of a term, as ``relative_error pull_off_force jkr``, by a reference in a case."""
-    (title, _, plan), arguments = _measure_of(term)
-    value, u, *what = yield from plan(reference, dict(case), *arguments)
-    title = title.format(*arguments, reference=reference)
-    return Number(float(value), float(u), what[0] if what else f"{title}, {label(case)}")
-
-
-def of_case(case: dict[str, float]) -> tuple[float, float, float]:
-    """Return n, k and mu of a case."""
-    return case["n"], case["k"], case["mu"]
+    (title, _, needs, function), arguments = _measure_of(text)
+    at = Place(reference, case, arguments)
+    made = yield from together({index: need(at) for index, need in enumerate(needs)})
+    value, u, *what = function(at, *made.values())
+    return Number(float(value), float(u), what[0] if what else f"{at.text(title)}, {at.label}")
 
 
 def named(n: float, k: float, mu: float) -> Case:
@@ -112,61 +152,56 @@ def named(n: float, k: float, mu: float) -> Case:
     return (("n", n), ("k", k), ("mu", mu))
 
 
-def table_of(places: list[tuple[str, dict[str, str], Case]], **terms: str) -> Plan[pd.DataFrame]:
+def table_of_terms(places: list[tuple[str, dict[str, str], Case]], **terms: str) -> Plan[pd.DataFrame]:
     """Plan a table of references in cases: what else the row says, and a column and its ``u_`` for each term."""
-    columns = [f"{u}{name}" for name in terms for u in ("", "u_")]
-    numbers = yield from together(
-        {
-            (index, name): measured(term.format(**keys), reference, case)
-            for index, (reference, keys, case) in enumerate(places)
-            for name, term in terms.items()
-        }
-    )
-    rows = [
-        {"reference": reference, **keys, **dict(case)}
-        | dict(zip(columns, (number for name in terms for number in numbers[index, name][:2]), strict=True))
+    plans = {
+        (index, name): measured(text.format(**keys), reference, case)
         for index, (reference, keys, case) in enumerate(places)
-    ]
+        for name, text in terms.items()
+    }
+    numbers = yield from together(plans)
+    rows = []
+    for index, (reference, keys, case) in enumerate(places):
+        row: dict[str, Any] = {"reference": reference, **keys, **dict(case)}
+        for name in terms:
+            row[name], row[f"u_{name}"], _ = numbers[index, name]
+        rows.append(row)
     return pd.DataFrame(rows)
 
 
-@measure("")
-def quantity_of(reference: str, case: dict[str, float], name: str, model: str = "") -> Made:
-    """A quantity of the reference, or of another model."""
-    what = f"{title_of(name)}, {label(tuple(case.items()))}"
-    model = model or reference
+def _quantity(at: Place) -> Plan[Any]:
+    name, model = (*at.arguments, at.reference)[:2]
     if model == "fscm" and name in JUMPS:
-        both = yield from result_of(jumps, *of_case(case))
-        return both[name], both[f"u_{name}"], what
-    result = yield from result_of(quantity, model, name, *of_case(case))
+        return call(jumps)(at)
+    return call(quantity, model, name)(at)
+
+
+@measure("", _quantity)
+def quantity_of(at: Place, result: dict[str, Any]) -> Measured:
+    """A quantity of the reference, or of another model."""
+    name = at.arguments[0]
+    what = f"{title_of(name)}, {at.label}"
+    if name in result:
+        return result[name], result[f"u_{name}"], what
     if result["status"] != "ok":
         return np.nan, np.nan, f"{what}: {result['reason']}"
     return result["value"], result["u_num"], what
 
 
-def two(reference: str, case: dict[str, float], term: str, against: str) -> Plan[tuple[Number, Number]]:
-    """Plan two terms of the same case."""
-    both = yield from together({name: measured(name, reference, tuple(case.items())) for name in (term, against)})
-    return both[term], both[against]
-
-
-@measure("displacement at jump-in minus that at jump-out")
-def jump_distance(reference: str, case: dict[str, float]) -> Made:
-    inward, outward = yield from two(reference, case, "jump_in_displacement", "jump_out_displacement")
+@measure("displacement at jump-in minus that at jump-out", term("jump_in_displacement"), term("jump_out_displacement"))
+def jump_distance(at: Place, inward: Number, outward: Number) -> Measured:
     return inward.value - outward.value, inward.u + outward.u
 
 
-@measure("deformation at the centre over the gap there, at jump-in")
-def jump_in_deformation(reference: str, case: dict[str, float]) -> Made:
+@measure("deformation at the centre over the gap there, at jump-in", term("jump_in_gap"), term("jump_in_displacement"))
+def jump_in_deformation(at: Place, gap: Number, displacement: Number) -> Measured:
     """w(0) = H_0 + delta (Eq. 4)."""
-    gap, displacement = yield from two(reference, case, "jump_in_gap", "jump_in_displacement")
     share = abs(gap.value + displacement.value) / abs(gap.value)
     return share, (gap.u + displacement.u + share * gap.u) / abs(gap.value)
 
 
-@measure("")
-def size(reference: str, case: dict[str, float], name: str) -> Made:
-    number = yield from measured(name, reference, tuple(case.items()))
+@measure("", term("{0}"))
+def size(at: Place, number: Number) -> Measured:
     return abs(number.value), number.u, f"size of {number.what}"
 
 
@@ -182,42 +217,46 @@ def signed(value: Number, exact: Number) -> tuple[float, float]:
     return kappa, (value.u + (1.0 + abs(kappa)) * exact.u) / (abs(exact.value) - exact.u)
 
 
-@measure("")
-def signed_error(reference: str, case: dict[str, float], name: str, model: str, against: str = "") -> Made:
-    against = against or reference
-    value, exact = yield from two(reference, case, f"{name} {model}", f"{name} {against}")
-    return *signed(value, exact), f"relative error of {model} against {against}: {value.what}"
+def _against(at: Place) -> str:
+    """Model that an error is against: the third argument, or the reference."""
+    return (*at.arguments, at.reference)[2]
 
 
-@measure("")
-def relative_error(reference: str, case: dict[str, float], *of: str) -> Made:
-    kappa, u, what = yield from signed_error(reference, case, *of)
+def _exact(at: Place) -> Plan[Number]:
+    return measured(f"{at.arguments[0]} {_against(at)}", at.reference, at.case)
+
+
+@measure("", term("{0} {1}"), _exact)
+def signed_error(at: Place, value: Number, exact: Number) -> Measured:
+    what = f"relative error of {at.arguments[1]} against {_against(at)}: {value.what}"
+    return *signed(value, exact), what
+
+
+@measure("", term("{0} {1}"), _exact)
+def relative_error(at: Place, value: Number, exact: Number) -> Measured:
+    kappa, u, what = signed_error(at, value, exact)
     return abs(kappa), u, what
 
 
-@measure("")
-def difference(reference: str, case: dict[str, float], name: str, model: str) -> Made:
-    value, exact = yield from two(reference, case, f"{name} {model}", name)
-    return exact.value - value.value, exact.u + value.u, f"difference of {model} from {reference}: {value.what}"
+@measure("", term("{0} {1}"), term("{0}"))
+def difference(at: Place, value: Number, exact: Number) -> Measured:
+    what = f"difference of {at.arguments[1]} from {at.reference}: {value.what}"
+    return exact.value - value.value, exact.u + value.u, what
 
 
-@measure("")
-def gradient_error(reference: str, case: dict[str, float], name: str) -> Made:
+@measure("", term("{0}"), term("{0}", k=lambda _: 0.0))
+def gradient_error(at: Place, graded: Number, homogeneous: Number) -> Measured:
     """Deviation from the homogeneous solid of the same Tabor number."""
-    cases = [tuple(of.items()) for of in (case, case | {"k": 0.0})]
-    graded, homogeneous = (yield from together({of: measured(name, reference, of) for of in cases})).values()
     kappa, u = signed(graded, homogeneous)
     return abs(kappa), u, f"relative error of the graded solid against k = 0: {graded.what}"
 
 
-@measure("")
-def power_of_mu(reference: str, case: dict[str, float], name: str) -> Made:
+@measure("", term("{0}"), term("{0}", mu=lambda mu: 2.0 * mu))
+def power_of_mu(at: Place, small: Number, large: Number) -> Measured:
     """Difference of the power of mu, between it and its double, from that of the asymptote."""
-    n, k, mu = of_case(case)
-    cases = [named(n, k, at) for at in (mu, 2.0 * mu)]
-    small, large = (yield from together({of: measured(name, reference, of) for of in cases})).values()
+    n, k, mu = at.n, at.k, at.mu
     # Eq. 47 is 1 - C mu^p; Eq. 54 is -C mu.
-    is_jump_in = name == "jump_in_displacement"
+    is_jump_in = at.arguments[0] == "jump_in_displacement"
     shift, expected = (1.0, (2 * n + k - 1) / (4 * n + k - 1)) if is_jump_in else (0.0, 1.0)
     steps = np.log(2.0)
     power = np.log((shift - large.value) / (shift - small.value)) / steps
@@ -226,9 +265,13 @@ def power_of_mu(reference: str, case: dict[str, float], name: str) -> Made:
     return power - expected, u, f"difference of the power {power:.4f} of mu from {expected:.4f}, {where}"
 
 
-@measure("")
-def critical_difference(reference: str, case: dict[str, float], printed: str) -> Made:
+def _critical(at: Place) -> Plan[Any]:
     # The Tabor number of the case is not used.
-    critical = yield from result_of(quantity, reference, "critical_tabor_number", case["n"], case["k"], 1.0)
-    what = f"difference of the critical Tabor number {critical['value']:.6f} from {float(printed):g}"
-    return abs(critical["value"] - float(printed)), critical["u_num"], what
+    return result_of(quantity, at.reference, "critical_tabor_number", at.n, at.k, 1.0)
+
+
+@measure("", _critical)
+def critical_difference(at: Place, critical: dict[str, Any]) -> Measured:
+    printed = float(at.arguments[0])
+    what = f"difference of the critical Tabor number {critical['value']:.6f} from {printed:g}"
+    return abs(critical["value"] - printed), critical["u_num"], what

@@ -1,4 +1,8 @@
-"""Maps of the errors of the closed forms: pull-off force over (n, mu) and (k, mu), and the two jumps over both."""
+"""Maps of the errors of the closed forms: pull-off force over (n, mu) and (k, mu), and the two jumps over both.
+
+The error is relative, kappa = (model - FSCM) / |FSCM|, also for the jumps: wherever a jump exists its displacement is
+beyond -z0, so no divisor is small, and an experiment measures this displacement.
+"""
 
 from __future__ import annotations
 
@@ -14,12 +18,14 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
 
+from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, held, panels
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure
-from comparisons.paper.studies.errors import TABOR_RANGE, compared, line_errors, with_kappa
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure, rows_of, together
+from comparisons.paper.tasks import quantity
+from fscm.interpolation.atlas import atlas
 
-__all__ = ["errors_along"]
+__all__ = ["errors_along", "line_errors", "with_kappa"]
 
 #: Lines of constant n and k: shape indices at two gradient exponents and gradient exponents at two shape indices, over
 #: the range of the atlas.
@@ -35,8 +41,57 @@ _SIGNED_GREYS = (*_GREYS[:0:-1], *_GREYS)
 #: Lines of kappa in per cent: overestimates full, underestimates dashed.
 _LINES = (-20.0, -10.0, -5.0, -2.0, -1.0, 1.0, 2.0, 5.0, 10.0, 20.0)
 
+#: Closed forms of the pull-off force and of the jumps, and their names.  DMT has Bradley's pull-off force by the choice
+#: of its cohesive stress (Eq. 74).
 _PULL_OFF = {"md-improved": "improved M-D", "md-original": "original M-D", "jkr": "JKR", "bradley": "Bradley = DMT"}
 _JUMPS = {"semi-rigid": "semi-rigid jump-in", "jkr": "JKR jump-out"}
+_CLOSED_FORMS = {
+    "pull_off_force": tuple(_PULL_OFF),
+    "jump_in_displacement": ("semi-rigid",),
+    "jump_out_displacement": ("jkr",),
+}
+
+#: Tabor numbers of a line, from nearly rigid to nearly JKR; jumps begin at the critical one, where they merge.
+_TABOR_RANGE, _ONSET_EXCESS = (0.01, 5.0), 1e-3
+#: So many points that straight lines between them look like curves in a panel of 3 inches.
+_TABOR_NUMBERS, _AT_JUMPS = 28, 18
+
+
+def line_errors(n: float, k: float) -> dict[str, Any]:
+    """Return reference values of the atlas and those of the closed forms over the Tabor number.
+
+    Returns
+    -------
+    dict
+        ``critical`` and ``u_critical``, the critical Tabor number; lists with an entry for each point, quantity and
+        closed form: ``point`` (its number on the line), ``mu``, ``quantity``, ``model``, ``fscm``, ``u_fscm``,
+        ``value`` and ``u_num`` (None where the closed form has no value).
+
+    Examples
+    --------
+    >>> line = line_errors(2.0, 0.4)
+    >>> round(line["critical"], 4), line["model"][3], round(line["value"][3], 9)
+    (0.7825, 'bradley', 2.0)
+    """
+    critical = atlas(n, k, _TABOR_RANGE[1], "critical_tabor_number")
+    above = np.geomspace(critical.value * (1.0 + _ONSET_EXCESS), _TABOR_RANGE[1], _AT_JUMPS)
+    rows = []
+    for name, models in _CLOSED_FORMS.items():
+        numbers = np.geomspace(*_TABOR_RANGE, _TABOR_NUMBERS) if name == "pull_off_force" else above
+        points = np.column_stack([numbers, *atlas(n, k, numbers, name)]).tolist()
+        for (point, (mu, fscm, u_fscm)), model in product(enumerate(points), models):
+            closed = quantity(model, name, n, k, mu)
+            rows.append((point, mu, name, model, fscm, u_fscm, closed["value"], closed["u_num"]))
+    names = ("point", "mu", "quantity", "model", "fscm", "u_fscm", "value", "u_num")
+    columns = dict(zip(names, map(list, zip(*rows, strict=True)), strict=True))
+    return columns | {"critical": critical.value, "u_critical": critical.bound}
+
+
+def with_kappa(table: pd.DataFrame) -> pd.DataFrame:
+    """Return a table with kappa and its uncertainty, NaN where a value is missing."""
+    value, u_num, fscm, u_fscm = (table[name].astype(float) for name in ("value", "u_num", "fscm", "u_fscm"))
+    kappa, u_kappa = relative_difference(value, fscm), relative_uncertainty(value, u_num, fscm, u_fscm)
+    return table.assign(kappa=kappa, u_kappa=u_kappa)
 
 
 def errors_along(lines: Iterable[tuple[float, float]], names: Sequence[str]) -> Plan[pd.DataFrame]:
@@ -48,19 +103,10 @@ def errors_along(lines: Iterable[tuple[float, float]], names: Sequence[str]) -> 
         ``n``, ``k``, ``point`` (its number on the line), ``mu``, ``quantity``, ``model``, ``fscm``, ``u_fscm`` (from
         the atlas), ``kappa`` and ``u_kappa``; for jumps also ``critical`` and ``u_critical``.
     """
-    results = yield {line: CachedCall.of(line_errors, *line) for line in lines}
-    critical = ["critical", "u_critical"] if "pull_off_force" not in names else []
-    table = with_kappa(
-        {"n": n, "k": k, "point": number, "mu": point["mu"], "quantity": name}
-        | row
-        | {of: of_line[of] for of in critical}
-        for (n, k), of_line in results.items()
-        for name in names
-        for number, point in enumerate(of_line["points"][name])
-        for row in compared(point)
-    )
+    table = yield from rows_of(({"n": n, "k": k}, CachedCall.of(line_errors, n, k)) for n, k in lines)
     columns = ["n", "k", "point", "mu", "quantity", "model", "fscm", "u_fscm", "kappa", "u_kappa"]
-    return table[[*columns, *critical]]
+    critical = ["critical", "u_critical"] if "pull_off_force" not in names else []
+    return with_kappa(table[table["quantity"].isin(names)])[[*columns, *critical]].reset_index(drop=True)
 
 
 def _map(axes: Axes, table: pd.DataFrame, across: str) -> None:
@@ -71,7 +117,7 @@ def _map(axes: Axes, table: pd.DataFrame, across: str) -> None:
     percent = 100.0 * kappa.to_numpy(float)
     if "critical" in table:
         critical = table.drop_duplicates(across).set_index(across)["critical"].loc[x[0]]
-        axes.fill_between(x[0], TABOR_RANGE[0], critical, fc="0.95", hatch="////", ec="0.75", lw=0.0)
+        axes.fill_between(x[0], _TABOR_RANGE[0], critical, fc="0.95", hatch="////", ec="0.75", lw=0.0)
         axes.plot(x[0], critical, color="black", lw=1.4, ls=":")
     axes.contourf(x, mu, percent, levels=_SIGNED_BANDS, colors=_SIGNED_GREYS)
     levels = [level for level in _LINES if np.nanmin(percent) < level < np.nanmax(percent)]
@@ -98,10 +144,10 @@ def _finish(figure: Figure, name: str, more: str = "") -> None:
         rf"$|\kappa|$ of the {name} (%); lines: $\kappa$, full where the model is above the FSCM, dashed below{more}"
     )
     figure.draw_without_rendering()
-    for lines in (
-        part for axes in maps for part in axes.collections if isinstance(part, ContourSet) and not part.filled
-    ):
-        lines.axes.clabel(lines, fmt=lambda level: f"{level:+g} %", fontsize=7)
+    contours = [artist for axes in maps for artist in axes.collections if isinstance(artist, ContourSet)]
+    for lines in contours:
+        if not lines.filled:
+            lines.axes.clabel(lines, fmt=lambda level: f"{level:+g} %", fontsize=7)
 
 
 def _draw_pull_off(figure: Figure, table: pd.DataFrame, across: str, fixed: str, values: Sequence[float]) -> None:
@@ -114,30 +160,27 @@ def _draw_pull_off(figure: Figure, table: pd.DataFrame, across: str, fixed: str,
     _finish(figure, "pull-off force")
 
 
-def _draw_shapes(figure: Figure, tables: Tables) -> None:
-    _draw_pull_off(figure, tables[""], "n", "k", (0.0, 0.4))
+def _draw_shapes(figure: Figure, table: pd.DataFrame) -> None:
+    _draw_pull_off(figure, table, "n", "k", (0.0, 0.4))
 
 
 @paper_figure(_draw_shapes, size=(7.2, 10.4))
 def error_maps_shape() -> Plan[Tables]:
     """Error of the pull-off force of the closed forms over shape index and Tabor number."""
-    table = yield from errors_along(_SHAPES, ["pull_off_force"])
-    return {"": table}
+    return together({"": errors_along(_SHAPES, ["pull_off_force"])})
 
 
-def _draw_gradients(figure: Figure, tables: Tables) -> None:
-    _draw_pull_off(figure, tables[""], "k", "n", (1.5, 2.0))
+def _draw_gradients(figure: Figure, table: pd.DataFrame) -> None:
+    _draw_pull_off(figure, table, "k", "n", (1.5, 2.0))
 
 
 @paper_figure(_draw_gradients, size=(7.2, 10.4))
 def error_maps_gradient() -> Plan[Tables]:
     """Error of the pull-off force of the closed forms over gradient exponent and Tabor number."""
-    table = yield from errors_along(_GRADIENTS, ["pull_off_force"])
-    return {"": table}
+    return together({"": errors_along(_GRADIENTS, ["pull_off_force"])})
 
 
-def _draw_jumps(figure: Figure, tables: Tables) -> None:
-    table = tables[""]
+def _draw_jumps(figure: Figure, table: pd.DataFrame) -> None:
     rows = [
         ("n", "k", 0.0, _SHAPES),
         ("n", "k", 0.4, _SHAPES),
@@ -158,5 +201,4 @@ def _draw_jumps(figure: Figure, tables: Tables) -> None:
 @paper_figure(_draw_jumps, size=(7.2, 10.4))
 def error_maps_jumps() -> Plan[Tables]:
     """Errors of the semi-rigid jump-in and of JKR's jump-out; none where there is no jump."""
-    table = yield from errors_along(_SHAPES + _GRADIENTS, ["jump_in_displacement", "jump_out_displacement"])
-    return {"": table}
+    return together({"": errors_along(_SHAPES + _GRADIENTS, ["jump_in_displacement", "jump_out_displacement"])})

@@ -6,35 +6,38 @@ A sphere (n = 2, Poisson's ratio 0.3) on three kinds of solids, each over the de
 * exponential, four times as stiff at depth as at the surface (Tabor number 2 with the modulus of the surface),
 * sharp coating on a substrate of a quarter of its modulus (Tabor number 0.8 with the modulus of the coating).
 
-Beside each value stand those of three simpler solids (see `graded_routes`) and their errors against the FSCM.
+Loads, displacements and energies are in the units of Eqs. 25 and 31, which do not contain the solid.  Depths are in the
+transverse length L = (Q z0)^(1/n).  Beside each value stand those of three simpler solids and their errors against the
+FSCM: the homogeneous solid of the surface, the solid at great depth, and the equivalent power law at the pull-off.
 """
 
 from __future__ import annotations
 
+import math
 from itertools import product
-from typing import Any
+from typing import Any, NamedTuple
 
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+import fem_reference
+import fscm
+from comparisons.models.solver import translated
 from comparisons.numerics.kappa import relative_difference
 from comparisons.output.style import COLOURS
-from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import panels
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure
-from comparisons.paper.studies.graded_routes import (
-    EVENTS,
-    QUANTITIES,
-    by_elements,
-    by_fscm,
-    case_of,
-    number_of,
-    of_equivalent,
-    of_power_law,
-)
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, together
+from comparisons.problem import Problem as AnyProblem
+from comparisons.problem import Section
+from comparisons.problem.elastic_energy import energy_spectrum
+from comparisons.problem.equivalent_solid import least_wrong, power_law_of
+from comparisons.problem.kinds import kind_of
+from fscm import LennardJones, NoSuchEvent, NotConverged, PowerLaw, PowerPunch, Problem, solve_together
 
-__all__ = ["SERIES", "graded_solids"]
+__all__ = ["SERIES", "by_elements", "by_fscm", "case_of", "equivalent_of", "number_of", "of_power_law"]
+
+Json = dict[str, Any]
 
 #: Depths of each kind in L, the finite elements have the pull-off of all; and those at which they have the jumps, too.
 SERIES: dict[str, tuple[tuple[float, ...], tuple[float, ...]]] = {
@@ -55,14 +58,241 @@ _STYLES = {
     "power_law": ("equivalent power law", "-.", COLOURS[3]),
 }
 
+_N, _NU = 2.0, 0.3
 
-def _picture(figure: Figure, tables: Tables) -> None:
+#: The offset power law: exponent, and Tabor number (Eq. 29) of the limit z_s = 0.
+OFFSET = (0.4, 2.0)
+#: Tabor numbers with the modulus of the surface, and moduli at depth over that of the surface.
+EXPONENTIAL = (2.0, 4.0)
+COATING = (0.8, 0.25)
+
+#: Of every problem; no scale is 1, so that a wrong power of one shows.
+SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
+
+_PUNCH, _LAW = PowerPunch(_N, SCALES["Q"]), LennardJones(SCALES["work_of_adhesion"], SCALES["z0"])
+
+#: Quantities of the table.
+QUANTITIES = (
+    "pull_off_force",
+    "pull_off_displacement",
+    "jump_in_displacement",
+    "jump_out_displacement",
+    "hysteresis_energy",
+)
+#: Quantities that share a family of meshes; the hysteresis energy is the sum of the losses of both jumps.
+EVENTS = {
+    "pull-off": ("pull_off_force", "pull_off_displacement"),
+    "jump-out": ("jump_out_displacement", "jump_in_displacement", "jump_out_energy"),
+    "landing": ("jump_in_energy",),
+}
+_UNITS = {"pull_off_force": "load", "jump_in_energy": "energy", "jump_out_energy": "energy"}
+# Digits of k and mu of an equivalent power law, as a reader can repeat them.
+_DIGITS = 6
+
+
+class GradedCase(NamedTuple):
+    """A solid for both references, and the simpler solids beside it.
+
+    Attributes
+    ----------
+    mu : float
+        Tabor number with the modulus of the surface.
+    depth : tuple of float
+        k and mu of the solid at great depth.
+    section : Section
+        The solid as in a problem file.
+    """
+
+    mu: float
+    depth: tuple[float, float]
+    section: Section
+
+
+def _scaled(k: float, mu: float) -> tuple[PowerLaw, Any]:
+    """The power law of a Tabor number in the scales of all, and the units."""
+    physical = Problem(_N, k, mu).in_units(nu=_NU, **SCALES)
+    return physical.solid, physical.units  # type: ignore[return-value]
+
+
+def case_of(kind: str, parameter: float) -> GradedCase:
+    """Return a solid of the study.
+
+    Parameters
+    ----------
+    kind : {"offset power law", "exponential", "coating"}
+    parameter : float
+        z_s, length of the decay or thickness of a sharp coating, in L.
+
+    Examples
+    --------
+    >>> round(case_of("exponential", 1.0).depth[1], 6)
+    0.793701
+    """
+    if kind == "offset power law":
+        graded, units = _scaled(*OFFSET)
+        z_s = parameter * units["radius"]
+        E = graded.E0 * (z_s / graded.c0) ** OFFSET[0]
+        mu_surface = Problem(PowerLaw(E, SCALES["c0"], 0.0, _NU), _PUNCH, _LAW).mu
+        offset = {"E0": graded.E0, "c0": graded.c0, "k": OFFSET[0], "z_s": z_s, "nu": _NU}
+        return GradedCase(mu_surface, OFFSET, Section("offset-power-law", offset))
+    mu, ratio = EXPONENTIAL if kind == "exponential" else COATING
+    surface, units = _scaled(0.0, mu)
+    E, length = surface.E0, parameter * units["radius"]
+    if kind == "exponential":
+        solid = {"E_surface": E, "E_depth": ratio * E, "length": length, "nu": _NU}
+    else:
+        solid = {"E_coating": E, "E_substrate": ratio * E, "thickness": length, "transition": 0.0, "nu": _NU}
+    return GradedCase(mu, (0.0, mu / ratio ** (2.0 / 3.0)), Section(kind, solid))
+
+
+def by_fscm(kind: str, parameter: float) -> Json:
+    """Return all quantities of a solid by the FSCM.
+
+    Parameters
+    ----------
+    kind, parameter
+        As for `case_of`.
+
+    Returns
+    -------
+    dict
+        By quantity ``[value, u_num]``, or the reason why there is no such event.
+
+    Raises
+    ------
+    ComputationFailed
+        If an iteration misses its tolerance.
+
+    Examples
+    --------
+    >>> value, u_num = by_fscm("coating", 1.0)["pull_off_force"]
+    >>> round(value, 6), u_num < 1e-7
+    (1.42152, True)
+    """
+    section = case_of(kind, parameter).section
+    problem = Problem(kind_of("solid", section.kind).build(fscm, section), _PUNCH, _LAW)
+    return _solved(problem.dimensionless)
+
+
+def of_power_law(k: float, mu: float) -> Json:
+    """Return all quantities of a power-law solid by the FSCM, as `by_fscm`.
+
+    Examples
+    --------
+    >>> round(of_power_law(0.0, 1.0)["pull_off_force"][0], 8)
+    1.67066478
+    """
+    return _solved(Problem(_N, k, mu))
+
+
+def _solved(problem: Problem) -> Json:
+    with translated(NoSuchEvent, NotConverged):
+        events = solve_together(problem, QUANTITIES)
+    return {
+        name: str(event) if isinstance(event, NoSuchEvent) else [event.value, event.u_num]
+        for name, event in events.items()
+    }
+
+
+def by_elements(event: str, kind: str, parameter: float) -> Json:
+    """Return the quantities of an event by the finite elements, as `by_fscm`.
+
+    Parameters
+    ----------
+    event : {"pull-off", "jump-out", "landing"}
+        Which family of meshes, see `EVENTS`.
+    kind, parameter
+        As for `case_of`.
+
+    Raises
+    ------
+    ComputationFailed
+        If an iteration misses its tolerance.
+
+    Examples
+    --------
+    >>> by_elements("jump-out", "offset power law", 100.0)["jump_out_displacement"]
+    'the displacement rises all along the path: this solid is too stiff for jumps'
+    """
+    case, scales = case_of(kind, parameter), _scaled(0.0, 1.0)[1]
+    problem = fem_reference.Problem(
+        kind_of("solid", case.section.kind).build(fem_reference, case.section),
+        fem_reference.PowerPunch(n=_N, Q=SCALES["Q"]),
+        fem_reference.LennardJones(work_of_adhesion=SCALES["work_of_adhesion"], z0=SCALES["z0"]),
+    )
+    with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
+        events = fem_reference.solve_together(problem, EVENTS[event], "quick")
+    return {
+        name: str(solution)
+        if isinstance(solution, fem_reference.NoSuchEvent)
+        else [number / scales[_UNITS.get(name, "displacement")] for number in (solution.value, solution.u_num)]
+        for name, solution in events.items()
+    }
+
+
+def equivalent_of(kind: str, parameter: float) -> tuple[float, float]:
+    """Return k and mu of the equivalent power law of a solid at its pull-off force, rounded.
+
+    The rule of `fscm-bench describe` weighs the compliance of the solid by the elastic energy at the pull-off force.
+
+    Parameters
+    ----------
+    kind, parameter
+        As for `case_of`.
+
+    Examples
+    --------
+    A thin offset hardly changes the power law.
+
+    >>> k, mu = equivalent_of("offset power law", 1e-4)
+    >>> round(k, 3), round(mu, 3)
+    (0.398, 1.997)
+    """
+    punch = Section("sphere", {"R": SCALES["Q"]})
+    law = Section("lennard-jones-9-3", {name: SCALES[name] for name in ("work_of_adhesion", "z0")})
+    problem = AnyProblem(case_of(kind, parameter).section, punch, law)
+    spectrum = energy_spectrum(problem)
+    k, _, _, surface = least_wrong(spectrum)
+    posed = power_law_of(problem, k, surface, spectrum)
+    return round(posed.k, _DIGITS), round(posed.mu, _DIGITS)
+
+
+def of_equivalent(kind: str, parameter: float) -> Json:
+    """Return all quantities of the equivalent power law of a solid as `by_fscm`, and its ``k`` and ``mu``.
+
+    Raises
+    ------
+    ComputationFailed
+        If an iteration misses its tolerance.
+    """
+    k, mu = equivalent_of(kind, parameter)
+    return {"k": k, "mu": mu, **of_power_law(k, mu)}
+
+
+def number_of(results: Json, name: str) -> tuple[float, float]:
+    """Return value and bound of a quantity, NaN without the event; the elements have the energy in two parts.
+
+    Examples
+    --------
+    >>> number_of({"jump_in_energy": [1.0, 0.1], "jump_out_energy": [2.0, 0.1]}, "hysteresis_energy")
+    (3.0, 0.2)
+    >>> number_of({"jump_in_displacement": "no jump"}, "jump_in_displacement")
+    (nan, nan)
+    """
+    is_sum = name == "hysteresis_energy" and name not in results
+    pieces = [results.get(piece, "") for piece in (("jump_in_energy", "jump_out_energy") if is_sum else (name,))]
+    if any(isinstance(piece, str) for piece in pieces):
+        return math.nan, math.nan
+    return sum(float(value) for value, _ in pieces), sum(float(u) for _, u in pieces)
+
+
+def _picture(figure: Figure, table: pd.DataFrame) -> None:
     lattice = panels(figure, 3, 3, (*SERIES, *[""] * 6), sharex="col", sharey="row")
     fscm: Any = {"color": COLOURS[0], "ms": 4, "lw": 1.1}
     fem: Any = {"color": COLOURS[5], "ms": 8, "mfc": "none", "ls": "none"}
     for axes, ((_, names), kind) in zip(lattice, product(_ROWS, SERIES), strict=True):
         for name, marker in zip(names, "o^", strict=False):
-            rows = tables[""][(tables[""]["solid"] == kind) & (tables[""]["quantity"] == name)]
+            rows = table[(table["solid"] == kind) & (table["quantity"] == name)]
             for column, (_, line, colour) in _STYLES.items():
                 axes.plot(rows["parameter"], rows[column], color=colour, ls=line, lw=1.1)
             axes.plot(rows["parameter"], rows["fscm"], marker=marker, **fscm)
@@ -87,37 +317,35 @@ def _picture(figure: Figure, tables: Tables) -> None:
 @paper_figure(_picture, size=(7.2, 7.0))
 def graded_solids() -> Plan[Tables]:
     """Solids that are no power law: pull-off, jumps and hysteresis, and what simpler solids get wrong."""
-    calls: dict[Any, CachedCall] = {}
-    places = [(kind, parameter) for kind, (parameters, _) in SERIES.items() for parameter in parameters]
-    for solid in places:
-        with_jumps = solid[1] in SERIES[solid[0]][1]
-        calls |= {
-            (solid, of): CachedCall.of(by_elements, of, *solid) for of in EVENTS if with_jumps or of == "pull-off"
-        }
-        calls[solid, "fscm"] = CachedCall.of(by_fscm, *solid)
-        case = case_of(*solid)
-        calls[solid, "surface"] = CachedCall.of(of_power_law, 0.0, case.mu)
-        calls[solid, "depth"] = CachedCall.of(of_power_law, *case.depth)
-        calls[solid, "power_law"] = CachedCall.of(of_equivalent, *solid)
-    results = yield calls
-    rows = []
-    for solid, name in product(places, QUANTITIES):
-        reference = results[solid, "fscm"]
-        elements = {k: v for event in EVENTS for k, v in results.get((solid, event), {}).items()}
-        row: dict[str, Any] = {"solid": solid[0], "parameter": solid[1], "quantity": name}
-        row["fscm"], row["u_fscm"] = number_of(reference, name)
-        row["fem"], row["u_fem"] = number_of(elements, name)
-        for column in _STYLES:
-            solved = results[solid, column]
-            k, mu = (solved["k"], solved["mu"]) if column == "power_law" else calls[solid, column].arguments
-            value, u_num = number_of(solved, name)
-            error = relative_difference(value, row["fscm"])
-            row |= {
-                f"{column}_k": k,
-                f"{column}_mu": mu,
-                column: value,
-                f"u_{column}": u_num,
-                f"{column}_error": error,
-            }
-        rows.append(row | {"reason": reference[name] if isinstance(reference[name], str) else ""})
+    solids = [(kind, parameter) for kind, (parameters, _) in SERIES.items() for parameter in parameters]
+    results = yield from together({solid: _of_solid(*solid) for solid in solids})
+    rows = [_row(solid, results[solid], name) for solid, name in product(solids, QUANTITIES)]
     return {"": pd.DataFrame(rows)}
+
+
+def _of_solid(kind: str, parameter: float) -> Plan[dict[str, Json]]:
+    """Plan the results of both references and for the simpler solids."""
+    case = case_of(kind, parameter)
+    events = EVENTS if parameter in SERIES[kind][1] else ("pull-off",)
+    plans = {event: result_of(by_elements, event, kind, parameter) for event in events}
+    plans |= {"fscm": result_of(by_fscm, kind, parameter), "power_law": result_of(of_equivalent, kind, parameter)}
+    simpler = {"surface": (0.0, case.mu), "depth": case.depth}
+    plans |= {column: result_of(of_power_law, *power_law) for column, power_law in simpler.items()}
+    results = yield from together(plans)
+    for column, (k, mu) in simpler.items():
+        results[column] |= {"k": k, "mu": mu}
+    elements = {name: value for event in events for name, value in results[event].items()}
+    return results | {"fem": elements}
+
+
+def _row(solid: tuple[str, float], results: dict[str, Json], name: str) -> dict[str, Any]:
+    row: dict[str, Any] = {"solid": solid[0], "parameter": solid[1], "quantity": name}
+    for reference in ("fscm", "fem"):
+        row[reference], row[f"u_{reference}"] = number_of(results[reference], name)
+    for column in _STYLES:
+        solved = results[column]
+        row |= {f"{column}_k": solved["k"], f"{column}_mu": solved["mu"]}
+        row[column], row[f"u_{column}"] = number_of(solved, name)
+        row[f"{column}_error"] = relative_difference(row[column], row["fscm"])
+    reason = results["fscm"][name]
+    return row | {"reason": reason if isinstance(reason, str) else ""}

@@ -30,8 +30,7 @@ from numpy.typing import NDArray
 
 from comparisons.models.solver import translated
 from comparisons.numerics.bounds import combined
-from comparisons.paper.cache import CachedCall
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, together
 from comparisons.paper.studies.coated_jkr import coated_compliance, coated_pull_off
 from fscm import Coating, NoSuchEvent, NotConverged, Problem, solve
 from fscm.graded.compliance import compliance
@@ -142,30 +141,33 @@ def _thin_limit(thicknesses: Sequence[float], pull_offs: Sequence[dict[str, floa
 @paper_figure()
 def layered_adhesion() -> Plan[Tables]:
     """Coated solids against results of the literature, in the limit of large Tabor numbers."""
-    thin = [(_RIGID, thickness) for thickness in _THIN]
-    calls: dict[Any, CachedCall] = {case: CachedCall.of(coated_pull_off, *case, NU, NU) for case in (*thin, *_COATED)}
-    for case in (*_COATED, _HOMOGENEOUS):
-        calls |= {(case, mu): CachedCall.of(coated_force, *case, mu) for mu in TABOR_NUMBERS}
-    results = yield calls | {layer: CachedCall.of(layer_compliance, *layer) for layer in _LAYERS}
-    # Check, origin, by whom, modulus ratio and thickness, expected and found.
-    rows: list[tuple[str, str, str, tuple[float, float], Number, Number]] = []
-    for q, ratio, *nu in _LAYERS:
-        expected = float(coated_compliance(np.array([q]), ratio, *nu)[0]), _U_COMPLIANCE
-        row = "compliance", "published", "fscm", (ratio, q), expected, (results[q, ratio, *nu], _U_COMPLIANCE)
-        rows.append(row)
+    results = yield from together(_plans())
     soft = {
         case: extrapolated(TABOR_NUMBERS, [results[case, mu] for mu in TABOR_NUMBERS])
         for case in (*_COATED, _HOMOGENEOUS)
     }
-    rows.append(("JKR", "published", "fscm", (1.0, np.nan), (1.5, 0.0), soft[_HOMOGENEOUS]))
+    # Check, origin, by whom, modulus ratio and thickness, expected and found.
+    rows: list[tuple[Any, ...]] = []
+    for q, ratio, *nu in _LAYERS:
+        closed = float(coated_compliance(np.array([q]), ratio, *nu)[0])
+        numbers = closed, _U_COMPLIANCE, results[q, ratio, *nu], _U_COMPLIANCE
+        rows.append(("compliance", "published", "fscm", ratio, q, *numbers))
+    rows.append(("JKR", "published", "fscm", 1.0, np.nan, 1.5, 0.0, *soft[_HOMOGENEOUS]))
     for case in _COATED:
         derived = results[case]["force"], results[case]["u_num"]
-        rows.append(("coated JKR", "derived", "fscm", case, derived, soft[case]))
-    limit = _thin_limit(_THIN, [results[case] for case in thin])
-    rows.append(("thin coating", "published", "coated JKR", (_RIGID, 0.0), (2.0, 0.0), limit))
+        rows.append(("coated JKR", "derived", "fscm", *case, *derived, *soft[case]))
+    limit = _thin_limit(_THIN, [results[_RIGID, thickness] for thickness in _THIN])
+    rows.append(("thin coating", "published", "coated JKR", _RIGID, 0.0, 2.0, 0.0, *limit))
     columns = ("check", "origin", "by", "modulus_ratio", "thickness", "expected", "u_expected", "found", "u_found")
-    table = pd.DataFrame(
-        [(*words, *case, *expected, *force) for *words, case, expected, force in rows], columns=columns
-    )
+    table = pd.DataFrame(rows, columns=columns)
     apart, bound = table["found"] - table["expected"], combined(table["u_expected"], table["u_found"])
     return {"": table.assign(agreement=np.where(apart.abs() <= bound, "agrees", "disagrees"))}
+
+
+def _plans() -> dict[Any, Plan[Any]]:
+    """Plans of all forces and compliances, by their cases."""
+    coated = (*_COATED, *((_RIGID, thickness) for thickness in _THIN))
+    plans: dict[Any, Plan[Any]] = {case: result_of(coated_pull_off, *case, NU, NU) for case in coated}
+    for case in (*_COATED, _HOMOGENEOUS):
+        plans |= {(case, mu): result_of(coated_force, *case, mu) for mu in TABOR_NUMBERS}
+    return plans | {layer: result_of(layer_compliance, *layer) for layer in _LAYERS}

@@ -20,18 +20,16 @@ from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
 from comparisons.numerics.number_text import LEAST_SHOWN, value_text
 from comparisons.output.terminal import records
-from comparisons.paper.figures.fig11_gradient_effect import insensitive_regions, largest_chi
+from comparisons.paper.figures.gradient_effect import LAST_K, insensitive_regions, largest_chi
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, texts_of, together
-from comparisons.paper.solver_tasks import TRACTION
-from comparisons.paper.tasks import quantity
+from comparisons.paper.tasks import SHAPES, TRACTION, quantity
 from comparisons.paper.values.scheme_forces import HEIGHT, exact_force
 from comparisons.paper.values.tabor_curve import TaborCurve, largest_error, tabor_numbers
 from comparisons.problem import Problem
 from fscm.laws import LennardJones
 
-__all__ = ["COMPUTED", "LAST_K", "Computed", "cohesive_forces", "first_or_last_step", "judged", "paper_values"]
+__all__ = ["COMPUTED", "Computed", "cohesive_forces", "first_or_last_step", "judged", "paper_values"]
 
-_SHAPES = (1.0, 1.5, 2.0, 5.0)
 _K = 0.4
 #: Relative rounding of a closed form: a few Gamma functions at 2e-15 each.
 _ROUNDING = 64.0 * EPS
@@ -39,10 +37,10 @@ _ROUNDING = 64.0 * EPS
 _CHI_ROUNDING, _REGION_ROUNDING = 1e-11, 1e-9
 #: Degrees of the series in log(mu); the closed forms cost little.
 _EXACT_DEGREE, _COHESIVE_DEGREE = 40, 96
-#: Last gradient exponent and step of the shape index with which all eight numbers of Fig. 11 have the printed digits;
-#: the paper states neither.  A largest value depends on the points at which it was searched: here the ends of the
+#: Step of the shape index with which, and with `LAST_K`, all eight numbers of Fig. 11 have the printed digits; the
+#: paper does not state it.  A largest value depends on the points at which it was searched: here the ends of the
 #: regions of Fig. 11(b) are the first and the last multiple of 0.001.
-LAST_K, N_STEP = 0.999, 0.001
+N_STEP = 0.001
 _GRID = f"k up to {LAST_K:g}, n in steps of {N_STEP:g}"
 
 
@@ -168,8 +166,8 @@ COMPUTED: dict[str, Callable[[PaperValue], Plan[Computed]]] = {
     "bradley_pull_off": _of_model("bradley", "pull_off_force"),
     "critical_tabor_number": _of_model("fscm", "critical_tabor_number"),
     "eta": _closed(lambda paper_value: eta(paper_value.n)),
-    "jump_in_limit": _closed(lambda printed: _farthest([jump_in_coefficient(n, 1.0) for n in _SHAPES], printed)),
-    "jump_out_limit": _closed(lambda printed: _farthest([_jump_out(n) for n in _SHAPES], printed)),
+    "jump_in_limit": _closed(lambda printed: _farthest([jump_in_coefficient(n, 1.0) for n in SHAPES], printed)),
+    "jump_out_limit": _closed(lambda printed: _farthest([_jump_out(n) for n in SHAPES], printed)),
     "jump_in_prefactor": _closed(lambda paper_value: jump_in_coefficient(paper_value.n, paper_value.k)),
     "jump_in_exponent": _closed(_exponent),
     "largest_relative_error": _largest_relative_error,

@@ -14,7 +14,7 @@ from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
 from comparisons.output.errors import largest, relative_error
 from comparisons.output.run_summary import every_error
-from comparisons.paper.studies.error_bands import error_table
+from comparisons.paper.studies.error_maps import with_kappa
 from comparisons.problem import Problem
 from comparisons.runs.cases import Grid
 
@@ -121,7 +121,5 @@ def test_one_sign_of_kappa_in_tables_gates_and_error_maps(value, reference):
     grid = Grid("g", "", "quick", "fscm", ("jkr",), ("jump_out_displacement",), (Problem.dimensionless(1.0, 0.4, 1),))
     (gate,) = load_gates(GATE)
     (judged,) = judge([gate], [grid], rows.assign(reason=""))["error"]
-    case = (1.0, 0.4, 1)
-    results = {row["model"]: {"value": row["value"], "u_num": 1e-9, "reason": ""} for row in rows.to_dict("records")}
-    (mapped,) = error_table({case: {"jump_out_displacement": results}}, [case], ["jump_out_displacement"])["kappa"]
+    (mapped,) = with_kappa(rows.head(1).assign(fscm=reference, u_fscm=1e-9))["kappa"]
     assert kappa == judged == mapped == expected

@@ -1,9 +1,15 @@
-"""Tables of a figure, from calls that are made here."""
+"""Tables of a figure, from calls that are made here, and the committed ones."""
 
+from pathlib import Path
+
+import pandas as pd
 import pytest
 
+from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.cache import make_calls
 from comparisons.paper.paper_figure import calls_of, given
+
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture(scope="module")
@@ -11,6 +17,12 @@ def made_of(tmp_path_factory):
     """Make the calls of a plan and return what it makes of their results."""
 
     def made(plan):
-        return given(plan(), make_calls(calls_of(plan()), tmp_path_factory.mktemp("paper")).results)
+        return given(plan(), make_calls(calls_of(plan()), tmp_path_factory.mktemp("paper")).outcomes)
 
     return made
+
+
+@pytest.fixture(scope="session")
+def committed():
+    """Read a committed table of the paper."""
+    return lambda name, **options: pd.read_csv(ROOT / PAPER_BASELINE / f"{name}.csv", **options)

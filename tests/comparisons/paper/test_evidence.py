@@ -23,7 +23,7 @@ from comparisons.paper.statements.evidence import (
     verdict_at,
 )
 from comparisons.paper.statements.kinds import extrapolated, vanishes
-from comparisons.paper.statements.path_measures import count_jumps, turning_points
+from comparisons.paper.statements.paths import count_jumps, turning_points
 
 
 def comparison(value, limit=0.0, u=0.0, u_limit=0.0, relation="<", model="fscm", clause="n = 2", what="other"):

@@ -10,14 +10,12 @@ from scipy.special import hyp2f1
 from comparisons.model import NotApplicable
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.paper.figures import force_curves, pull_off_forces
-from comparisons.paper.figures.fig02_kernel_functions import RATIOS, values
-from comparisons.paper.figures.fig03_s_curve import fig03_s_curve, loop
-from comparisons.paper.figures.fig11_gradient_effect import chi, insensitive_regions, largest_chi, over_gradients
-from comparisons.paper.figures.fig12_surface_laws import fig12_surface_laws
+from comparisons.paper.figures.force_curves import fig03_s_curve, loop
+from comparisons.paper.figures.functions import RATIOS, fig12_surface_laws, kernel_functions
+from comparisons.paper.figures.gradient_effect import chi, insensitive_regions, largest_chi, over_gradients
 from comparisons.paper.figures.jumps import asymptotes, coefficients
 from comparisons.paper.figures.surfaces import fig17_surface_models
-from comparisons.paper.solver_tasks import jumps, near_critical, surface
-from comparisons.paper.tasks import curve, profile, quantity
+from comparisons.paper.tasks import curve, jumps, near_critical, profile, quantity, surface
 from comparisons.problem import Problem
 from comparisons.registry import create
 
@@ -46,7 +44,7 @@ def test_a_refusal_is_a_result(function, arguments, status, reason):
 
 
 def functions(k):
-    return {name: np.array(column, float) for name, column in values(k).items()}
+    return {name: np.array(column, float) for name, column in kernel_functions(k).items()}
 
 
 @pytest.mark.parametrize("k", [0.0, 0.4, 1.0])
@@ -80,7 +78,7 @@ def test_the_named_points_are_events_and_their_loop_has_the_area_of_the_energy_l
 
 def test_curves_fold_above_the_critical_tabor_number_and_a_refused_one_is_named(made_of):
     cases = [(2.0, 0.4, 0.3), (2.0, 0.4, 1.0), (2.0, 1.0, 0.5), (0.6, 0.4, 1.0)]
-    table = made_of(lambda: force_curves.curves(cases))[""]
+    table = made_of(lambda: force_curves.curves(cases))
     assert list(table.loc[table["n"] == 0.6, "status"]) == ["failed"]
     assert table.loc[table["n"] == 0.6, "load"].isna().all()
     traced = table[table["status"] == "ok"]
@@ -137,18 +135,19 @@ def test_jumps_are_the_quantities_of_the_model_and_there_is_none_below_the_criti
 def test_coefficients_of_the_asymptotes_and_the_asymptotes_beside_the_model():
     for n in (1.0, 2.0, 5.0):
         # Sec. 3.3: 8/3 and 2 as k -> 1, whatever n.
-        gibson = coefficients(n)[-1]
-        assert (gibson["k"], gibson["C_in"], gibson["C_out"]) == (1.0, pytest.approx(8 / 3), pytest.approx(2))
+        gibson = [column[-1] for column in coefficients(n).values()]
+        assert gibson == [1.0, pytest.approx(8 / 3), pytest.approx(2)]
     # Eq. 49, and JKR's (3/4) (pi^2)^(1/3) of a sphere in our units.
-    homogeneous = coefficients(2.0)[0]
+    homogeneous = {name: column[0] for name, column in coefficients(2.0).items()}
     assert homogeneous["C_in"] == pytest.approx(1.4 * (5 * math.pi / math.sqrt(2)) ** (2 / 7), rel=1e-13)
     assert homogeneous["C_out"] == pytest.approx(0.75 * math.pi ** (2 / 3), rel=1e-13)
-    closed, exact = {round(row["mu"], 9): row for row in asymptotes(2.0, 0.4)}, jumps(2.0, 0.4, 5.0)
+    closed, exact = asymptotes(2.0, 0.4), jumps(2.0, 0.4, 5.0)
+    assert (closed["mu"][0], closed["mu"][-1]) == (0.05, 5.0)
     # Measured at mu = 5: Eq. 54 is off by 0.25 %, Eq. 47 by 6 %.
-    assert closed[5.0]["jump_out_displacement"] == pytest.approx(exact["jump_out_displacement"], rel=3e-3)
-    assert 1.04 < closed[5.0]["jump_in_displacement"] / exact["jump_in_displacement"] < 1.08
+    assert closed["jump_out_displacement"][-1] == pytest.approx(exact["jump_out_displacement"], rel=3e-3)
+    assert 1.04 < closed["jump_in_displacement"][-1] / exact["jump_in_displacement"] < 1.08
     # Eq. 46 gives no jump-in at a small Tabor number.
-    assert closed[0.05]["jump_in_displacement"] is None
+    assert closed["jump_in_displacement"][0] is None
 
 
 def test_pull_off_forces_tend_to_both_limits_and_kappa_is_that_of_every_scale(made_of, monkeypatch):
@@ -171,7 +170,8 @@ def test_pull_off_forces_tend_to_both_limits_and_kappa_is_that_of_every_scale(ma
 
 def test_chi_of_the_paraboloid_is_a_third_of_the_gradient_and_its_largest_is_found():
     # Eq. 57 at n = 2: (k + 3) / 2, so that chi = k / 3.
-    np.testing.assert_allclose(over_gradients(2.0), np.linspace(0.0, 1.0, 101) / 3, atol=1e-14)
+    line = over_gradients(2.0)
+    np.testing.assert_allclose(line["chi"], np.array(line["k"]) / 3, atol=1e-14)
     for n in (0.95, 1.5, 5.0):
         largest, k = largest_chi(n)
         assert largest == pytest.approx(chi(n, k), rel=1e-12)

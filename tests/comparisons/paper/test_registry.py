@@ -4,7 +4,6 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.model import ComputationFailed
-from comparisons.paper.cache import Results
 from comparisons.paper.paper_figure import FIGURES, PaperFigure, calls_of, given, paper_figure, result_of
 from comparisons.paper.registry import NAMES, paper_figures
 
@@ -27,23 +26,17 @@ def test_every_figure_has_a_name_files_of_its_own_and_the_same_calls_every_time(
         assert calls_of(figure.plan()) == calls_of(figure.plan())
 
 
-def test_a_decorated_plan_is_a_figure_and_its_name_is_taken(monkeypatch):
+def test_a_name_that_is_taken_and_a_plan_that_yields_twice_are_refused(monkeypatch):
     monkeypatch.setattr("comparisons.paper.paper_figure.FIGURES", dict(FIGURES))
 
     def fig02_again():
-        """Again."""
+        yield {}
+        yield {}
 
     with pytest.raises(ValueError, match="two figures have the name '2': fig02_kernel_functions and fig02_again"):
         paper_figure()(fig02_again)
-
-
-def test_a_plan_that_yields_twice_is_refused():
-    def twice():
-        yield {}
-        yield {}
-
     with pytest.raises(RuntimeError, match="once"):
-        given(twice(), Results())
+        given(fig02_again(), {})
 
 
 def test_an_unknown_figure_is_refused(tmp_path, capsys):
@@ -51,18 +44,13 @@ def test_an_unknown_figure_is_refused(tmp_path, capsys):
     assert "'99'" in capsys.readouterr().err
 
 
-def test_two_runs_give_the_same_bytes_also_of_a_sketch_without_data(tmp_path):
-    for folder in ("a", "b"):
-        assert main(["paper", "--figure", "1", "2", "--jobs", "1", "--out", str(tmp_path / folder)]) == 0
-    files = [sorted((tmp_path / folder).glob("fig*")) for folder in ("a", "b")]
-    assert [path.suffix for path in files[0]] == [".pdf", ".png", ".csv", ".pdf", ".png"]
-    assert [path.read_bytes() for path in files[0]] == [path.read_bytes() for path in files[1]]
-
-
-def test_a_failed_call_leaves_out_its_own_figure_only(tmp_path, capsys, monkeypatch):
+def test_a_failed_call_leaves_out_its_own_figure_only_and_two_runs_give_the_same_bytes(tmp_path, capsys, monkeypatch):
+    assert main(["paper", "--figure", "1", "2", "--jobs", "1", "--out", str(tmp_path / "a")]) == 0
     monkeypatch.setattr("comparisons.pipeline.figures.paper_figures", lambda names: [FAILING, *paper_figures(names)])
-    assert main(["paper", "--figure", "2", "--jobs", "1", "--out", str(tmp_path)]) == 4
+    assert main(["paper", "--figure", "1", "2", "--jobs", "1", "--out", str(tmp_path / "b")]) == 4
     printed = capsys.readouterr()
     assert "does not converge" in printed.err
     assert "fig02" in printed.out
-    assert (tmp_path / "fig02_kernel_functions.csv").exists()
+    files = [sorted((tmp_path / folder).glob("fig*")) for folder in ("a", "b")]
+    assert [path.suffix for path in files[0]] == [".pdf", ".png", ".csv", ".pdf", ".png"]
+    assert [path.read_bytes() for path in files[0]] == [path.read_bytes() for path in files[1]]

@@ -11,13 +11,13 @@ from comparisons.cli import main as cli
 from comparisons.data.paper_statements import paper_statements
 from comparisons.numerics.number_text import value_text
 from comparisons.paper.baseline import PAPER_BASELINE
-from comparisons.paper.cache import Results
-from comparisons.paper.paper_figure import FIGURES, given
+from comparisons.paper.cache import Outcome
+from comparisons.paper.paper_figure import FIGURES, calls_of, given
 from comparisons.paper.registry import paper_figures
-from comparisons.paper.solver_tasks import JUMPS
 from comparisons.paper.statements.evidence import FAILS, FALSE, IN_PART, REFERENCES, TRUE, Evidence, Number
 from comparisons.paper.statements.judgement import decisive, judged
 from comparisons.paper.statements.kinds import comparisons_of
+from comparisons.paper.tasks import JUMPS
 
 ROOT = Path(__file__).parents[3]
 FOLDER = ROOT / PAPER_BASELINE
@@ -79,24 +79,20 @@ def test_the_commands_parse():
             assert paper_figures(shlex.split(statement.command)[3:])
 
 
-class MadeUp(Results):
-    """Results of `quantity` by a formula, and of the jumps by that of `fscm`."""
-
-    def __init__(self, formula):
-        super().__init__()
-        self.formula = formula
-
-    def __getitem__(self, call):
-        if call.function.endswith(":jumps"):
-            values = {name: self.formula("fscm", name, *call.arguments) for name in JUMPS}
-            return values | {f"u_{name}": 1e-9 for name in JUMPS}
-        value = self.formula(*call.arguments)
-        return {"value": value, "u_num": 1e-9, "status": "ok" if value is not None else "not-applicable", "reason": ""}
+def outcome(call, formula):
+    """A quantity by a formula, and the jumps by that of `fscm`."""
+    if call.name == "jumps":
+        values = {name: formula("fscm", name, *call.arguments) for name in JUMPS}
+        return Outcome(call, values | {f"u_{name}": 1e-9 for name in JUMPS})
+    value = formula(*call.arguments)
+    status = "not-applicable" if value is None else "ok"
+    return Outcome(call, {"value": value, "u_num": 1e-9, "status": status, "reason": ""})
 
 
 def made_up(id, formula=None):
     statement = STATEMENTS[id]
-    return judged(statement, decisive(statement, given(comparisons_of(statement), MadeUp(formula))))
+    outcomes = {call: outcome(call, formula) for call in calls_of(comparisons_of(statement))}
+    return judged(statement, decisive(statement, given(comparisons_of(statement), outcomes)))
 
 
 @pytest.mark.parametrize(

@@ -10,11 +10,10 @@ from comparisons.data.paper_values import paper_values
 from comparisons.models.cohesive_stress import eta
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved
 from comparisons.paper.baseline import PAPER_BASELINE
-from comparisons.paper.figures.fig11_gradient_effect import insensitive_regions, largest_chi
+from comparisons.paper.figures.gradient_effect import LAST_K, insensitive_regions, largest_chi
 from comparisons.paper.paper_figure import FIGURES
 from comparisons.paper.values.printed_values import (
     COMPUTED,
-    LAST_K,
     Computed,
     cohesive_forces,
     first_or_last_step,

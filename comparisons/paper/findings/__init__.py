@@ -1,1 +1,0 @@
-"""Figures of the statements that do not hold, with both references."""
