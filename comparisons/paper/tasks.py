@@ -48,8 +48,9 @@ __all__ = [
 
 Json = dict[str, Any]
 
-#: Shape indices and gradient exponents of the paper.
+#: Shape indices of the paper.
 SHAPES = (1.0, 1.5, 2.0, 5.0)
+#: Gradient exponents of the paper.
 GRADIENTS = (0.0, 0.2, 0.4, 0.6)
 #: The Maugis-Dugdale models, by name.
 COHESIVE = {model.name: model for model in (MaugisDugdaleOriginal(), MaugisDugdaleImproved())}
