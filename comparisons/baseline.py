@@ -34,12 +34,13 @@ from comparisons.data.file_names import (
     RESULTS,
 )
 from comparisons.paper import baseline as paper_baseline
-from comparisons.problem import PARAMETERS
 from comparisons.runs.atomic_files import atomic
+from comparisons.runs.case_columns import with_problem
 from comparisons.runs.committed import committed
 from comparisons.runs.csv_format import csv_text, read_csv
 from comparisons.runs.frames import read_table
 from comparisons.runs.record import check_files, read_record
+from comparisons.runs.rows import CASE
 
 __all__ = [
     "BASELINE",
@@ -52,7 +53,7 @@ __all__ = [
 #: Folder of the committed results, in a clone of the repository.
 BASELINE = BASELINE_FOLDER
 
-_KEY = ["model", "quantity", *PARAMETERS]
+_KEY = ["model", "quantity", *CASE]
 # Without the columns that depend on the machine or on the work done (seconds, iterations, residual).
 _TABLES = {
     "quick.csv": (f"{RESULTS}.parquet", [*_KEY, "value", "u_num", "status", "reason"]),
@@ -66,7 +67,7 @@ _COPIES = {
     },
     "full": {f"references_agreement.{suffix}": f"{AGREEMENT}.{suffix}" for suffix in ("csv", "png")},
 }
-_TEXTS = ("model", "quantity", "status", "reason")
+_TEXTS = ("model", "quantity", "problem", "status", "reason")
 
 #: A bound that is so many times the stored one, or so small a part of it, has drifted.  On one machine bounds repeat
 #: to the last digits.
@@ -93,7 +94,8 @@ def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
             )
     contents = {}
     for name, (source, columns) in _TABLES.items() if arguments["tier"] == "quick" else ():
-        contents[name] = csv_text(read_table(folder / source)[columns]).encode()
+        table = read_table(folder / source)
+        contents[name] = csv_text(table[[column for column in columns if column in table]]).encode()
     for name, source in _COPIES[arguments["tier"]].items():
         if not (folder / source).exists():
             raise ValueError(f"{folder} lacks {source}: renew the baseline from the folder of a finished run")
@@ -145,6 +147,7 @@ def drift(stored: pd.DataFrame, computed: pd.DataFrame) -> pd.DataFrame:
     DataFrame
         The key, both values and both statuses of every row that has drifted or is not stored.
     """
+    stored, computed = with_problem(stored), with_problem(computed)
     both = computed.merge(stored, on=_KEY, how="left", suffixes=("", "_stored"), validate="one_to_one")
     apart = (both["value"] - both["value_stored"]).abs() > both["u_num"] + both["u_num_stored"]
     least = _ROUNDING * both["value"].abs().clip(lower=1.0)
@@ -180,7 +183,7 @@ def _by_model(agreement: pd.DataFrame) -> pd.DataFrame:
 
     Cases of problem files are judged by gates alone.
     """
-    agreement = agreement.dropna(subset="mu")
+    agreement = with_problem(agreement.dropna(subset="mu"))
     of_reference = agreement.drop(columns=["model", "value", "u_num", "nu"]).rename(
         columns={"reference": "model", "reference_value": "value", "u_reference": "u_num"}
     )

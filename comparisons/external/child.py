@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.external import cleaner
-from comparisons.external.limits import MEMORY_LIMIT, TIME_LIMIT, limit_of_environment
+from comparisons.external.start import MEMORY_LIMIT, TIME_LIMIT, limit_of_environment
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed
 
@@ -133,9 +133,8 @@ class Child:
             raise
 
     def _launched(self, order: dict[str, Any]) -> subprocess.Popen[bytes]:
-        environment = {
-            name: value for name, value in os.environ.items() if name in _ENVIRONMENT or name.startswith(_KERNELS)
-        }
+        names = [name for name in os.environ if name in _ENVIRONMENT or name.startswith(_KERNELS)]
+        environment = {name: os.environ[name] for name in names}
         self._errors = self._resources.enter_context(tempfile.TemporaryFile())  # noqa: SIM115  # the stack closes it
         cleaning = self._popen([sys.executable, "-I", "-S", cleaner.__file__, tempfile.gettempdir()], "/", environment)
         assert cleaning.stdin is not None
@@ -150,16 +149,8 @@ class Child:
         return process
 
     def _popen(self, command: list[str], folder: str, environment: dict[str, str]) -> subprocess.Popen[bytes]:
-        process = subprocess.Popen(
-            command,
-            bufsize=0,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=self._errors,
-            cwd=folder,
-            env=environment,
-            start_new_session=True,
-        )
+        pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": self._errors}
+        process = subprocess.Popen(command, bufsize=0, **pipes, cwd=folder, env=environment, start_new_session=True)
         # Its end closes the pipes and waits.
         return self._resources.enter_context(process)
 

@@ -17,23 +17,20 @@ from comparisons.external.evaluations import (
     Evaluations,
     Finding,
     Key,
+    label,
 )
 from comparisons.external.limit_checks import check_calibration, check_limits
 from comparisons.external.physical_model import SCALES
 from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 
 __all__ = ["examine"]
 
 #: Shape, gradient and Tabor number of the cases that are evaluated; the first two for every quantity.
 _CASES = (
-    (2.0, 0.0, 1.0),
-    (2.0, 0.4, 2.0),
-    (2.0, 0.0, 0.1),
-    (2.0, 0.0, 5.0),
-    (1.0, 0.2, 0.5),
-    (1.5, 0.4, 0.01),
-    (5.0, 0.6, 2.0),
+    *((2.0, 0.0, 1.0), (2.0, 0.4, 2.0), (2.0, 0.0, 0.1), (2.0, 0.0, 5.0)),
+    *((1.0, 0.2, 0.5), (1.5, 0.4, 0.01), (5.0, 0.6, 2.0)),
 )
 _ALL_QUANTITIES = 2
 
@@ -70,11 +67,11 @@ def examine(model: AnyExternalModel) -> list[Finding]:
 
 def _keys(model: AnyExternalModel) -> Iterator[Key]:
     if isinstance(model, DataModel):
-        yield from (Key(*row) for row in list(model.rows)[:_MOST_ROWS])
+        yield from ((quantity, Problem.dimensionless(*case)) for quantity, *case in list(model.rows)[:_MOST_ROWS])
         return
     for number, case in enumerate(_CASES):
         for quantity in QUANTITIES if number < _ALL_QUANTITIES else ("pull_off_force",):
-            yield Key(quantity, *case)
+            yield quantity, Problem.dimensionless(*case)
 
 
 def _texts(done: Evaluations) -> tuple[str, str]:
@@ -85,19 +82,20 @@ def _texts(done: Evaluations) -> tuple[str, str]:
 
 
 def _finite(done: Evaluations) -> tuple[str, str]:
-    values, refused, failed = len(done.results), len(done.refusals), len(done.failures)
-    for key, reason in done.failures.items():
-        return FAILED, f"{failed} of {values + refused + failed} evaluations failed, the first is {key}: {reason}"
+    values, evaluated = len(done.results), len(done.outcomes)
+    failures = {key: error for key, error in done.outcomes.items() if isinstance(error, ComputationFailed)}
+    for key, reason in failures.items():
+        return FAILED, f"{len(failures)} of {evaluated} evaluations failed, the first is {label(key)}: {reason}"
     if not values:
-        return FAILED, f"none of {refused} evaluations gave a value"
-    return OK, f"{values} values, {refused} evaluations not applicable"
+        return FAILED, f"none of {evaluated} evaluations gave a value"
+    return OK, f"{values} values, {evaluated - values} evaluations not applicable"
 
 
 def _signs(done: Evaluations) -> tuple[str, str]:
     for key, result in done.results.items():
-        row = QUANTITIES[key.quantity]
+        row = QUANTITIES[key[0]]
         if not row.admits(result.value):
-            return WRONG, f"{key} is {result.value:g}, but it is: {row.meaning}, {row.sign}"
+            return WRONG, f"{label(key)} is {result.value:g}, but it is: {row.meaning}, {row.sign}"
     return _kept(done, "values")
 
 
@@ -110,9 +108,9 @@ def _repeated(done: Evaluations) -> tuple[str, str]:
     for key, before in reversed(done.results.items()):
         result = again.get(key)
         if result is None or result.value != before.value:
-            later = repr(result.value) if result else again.failures.get(key, "not applicable")
+            later = result.value if result else again.outcomes[key]
             return WRONG, (
-                f"{key} is {before.value!r} the first time and {later} in a new process with the "
+                f"{label(key)} is {before.value!r} the first time and {later} in a new process with the "
                 "evaluations in the opposite order: a random number, a clock, or something kept between evaluations"
             )
     return _kept(done, "values are the same to the last bit in a new process")
@@ -125,12 +123,12 @@ def _units(done: Evaluations) -> tuple[str, str]:
     for key, in_si in done.results.items():
         for scales in range(1, len(SCALES)):
             try:
-                scaled = model.evaluate(key.problem(), key.quantity, scales=scales)
+                scaled = model.evaluate(key[1], key[0], scales=scales)
             except (NotApplicable, ComputationFailed) as error:
-                return WRONG, f"{key} is {in_si.value:g} in SI units, but in others: {error}"
+                return WRONG, f"{label(key)} is {in_si.value:g} in SI units, but in others: {error}"
             if abs(scaled.value - in_si.value) > _SCALING * abs(in_si.value) + in_si.u_num + scaled.u_num:
                 return WRONG, (
-                    f"{key}, made dimensionless, is {in_si.value:g} in SI units and {scaled.value:g} "
+                    f"{label(key)}, made dimensionless, is {in_si.value:g} in SI units and {scaled.value:g} "
                     "for the same problem in other units: a wrong power of a modulus, a length or a work of "
                     "adhesion, or a constant that has a unit"
                 )

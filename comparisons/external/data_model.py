@@ -10,7 +10,6 @@ from __future__ import annotations
 import csv
 import hashlib
 import math
-from collections.abc import Iterator
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -106,10 +105,9 @@ def _manifest(folder: Path) -> dict[str, Any]:
     if manifest["units"].keys() != quantities:
         raise ValueError(f"{MANIFEST}: [units] must have exactly {', '.join(sorted(quantities))}")
     for name, unit in manifest["units"].items():
-        if unit != QUANTITIES[name].unit:
+        if unit != (compared := QUANTITIES[name].unit):
             raise ValueError(
-                f'{MANIFEST}: {name} has the unit "{unit}" but is compared in "{QUANTITIES[name].unit}": '
-                "divide the values by that"
+                f'{MANIFEST}: {name} has the unit "{unit}" but is compared in "{compared}": divide the values by that'
             )
     return manifest
 
@@ -148,23 +146,8 @@ def _covered_cases(manifest: dict[str, Any], lines: int) -> set[Key]:
 
 
 def _rows(path: Path, covered: set[Key]) -> dict[Key, tuple[float, float]]:
+    """Return the predictions of a CSV, one for each covered case."""
     rows: dict[Key, tuple[float, float]] = {}
-    file = path.name
-    for line, (key, prediction) in _predictions(path):
-        if key not in covered or key in rows:
-            why = "has a second row" if key in rows else "is not among the cases that [[covers]] promises"
-            raise ValueError(f"{file}, line {line}: {_label(key)} {why}")
-        rows[key] = prediction
-    if missing := sorted(covered - rows.keys()):
-        raise ValueError(
-            f"{file}: {len(missing)} of {len(covered)} rows that [[covers]] promises are missing, the first is "
-            f"{_label(missing[0])}"
-        )
-    return rows
-
-
-def _predictions(path: Path) -> Iterator[tuple[int, tuple[Key, tuple[float, float]]]]:
-    """Yield the rows of a CSV, each with its line."""
     text = read_text(path, "the predictions", LARGEST_TABLE)
     # strict: a quotation mark that is not closed is an error, not the rest of the file.
     reader = csv.reader(text.splitlines(keepends=True), strict=True)
@@ -172,12 +155,22 @@ def _predictions(path: Path) -> Iterator[tuple[int, tuple[Key, tuple[float, floa
         if next(reader, []) != _COLUMNS:
             raise ValueError(f"the first line must be {','.join(_COLUMNS)}")
         for cells in filter(None, reader):
-            yield reader.line_num, _row(cells)
+            key, prediction = _prediction(cells)
+            if key not in covered or key in rows:
+                why = "has a second row" if key in rows else "is not among the cases that [[covers]] promises"
+                raise ValueError(f"{_label(key)} {why}")
+            rows[key] = prediction
     except (ValueError, csv.Error) as error:
         raise ValueError(f"{path.name}, line {reader.line_num}: {error}") from None
+    if missing := sorted(covered - rows.keys()):
+        raise ValueError(
+            f"{path.name}: {len(missing)} of {len(covered)} rows that [[covers]] promises are missing, the first is "
+            f"{_label(missing[0])}"
+        )
+    return rows
 
 
-def _row(cells: list[str]) -> tuple[Key, tuple[float, float]]:
+def _prediction(cells: list[str]) -> tuple[Key, tuple[float, float]]:
     if len(cells) != len(_COLUMNS):
         raise ValueError(f"{len(cells)} cells, not {len(_COLUMNS)}")
     n, k, mu, value, u_num = map(_number, _COLUMNS[1:], cells[1:])

@@ -3,42 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 from comparisons.external.data_model import DataModel
 from comparisons.external.process_model import ExternalModel
 from comparisons.model import ComputationFailed, NotApplicable, Result
 from comparisons.problem import Problem
 
-__all__ = ["FAILED", "OK", "SKIPPED", "WRONG", "AnyExternalModel", "Evaluations", "Finding", "Key"]
+__all__ = ["FAILED", "OK", "SKIPPED", "WRONG", "AnyExternalModel", "Evaluations", "Finding", "Key", "label"]
 
 #: A model of the user: a class or program, or a table of data.
 AnyExternalModel = ExternalModel | DataModel
 
+#: A quantity in a case.
+Key = tuple[str, Problem]
+
 #: Statuses of findings: the rule is kept or broken, could not be computed, or was not checked.
 OK, WRONG, FAILED, SKIPPED = "ok", "wrong", "failed", "not checked"
-
-
-class Key(NamedTuple):
-    """A quantity in a case.
-
-    Examples
-    --------
-    >>> str(Key("pull_off_force", 2.0, 0.4, 1.0))
-    'pull_off_force at n = 2, k = 0.4, mu = 1'
-    """
-
-    quantity: str
-    n: float
-    k: float
-    mu: float
-
-    def __str__(self) -> str:
-        return f"{self.quantity} at n = {self.n:g}, k = {self.k:g}, mu = {self.mu:g}"
-
-    def problem(self) -> Problem:
-        """Return the case as a problem."""
-        return Problem.dimensionless(self.n, self.k, self.mu)
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,30 +31,36 @@ class Finding:
 
 
 class Evaluations:
-    """Results of a model; each case is evaluated once.
-
-    Attributes
-    ----------
-    model : ExternalModel or DataModel
-    results : dict of Key to Result
-        The cases that have a value.
-    refusals, failures : dict of Key to str
-        Reasons where the model is not applicable, and of the computations that failed.
-    """
+    """Outcomes of a model in cases, each of which is evaluated once: results, or why there is none."""
 
     def __init__(self, model: AnyExternalModel) -> None:
         self.model = model
-        self.results: dict[Key, Result] = {}
-        self.refusals: dict[Key, str] = {}
-        self.failures: dict[Key, str] = {}
+        self.outcomes: dict[Key, Result | NotApplicable | ComputationFailed] = {}
 
     def get(self, key: Key) -> Result | None:
         """Return the result, or None where the model is not applicable or fails."""
-        if key not in self.results | self.refusals | self.failures:
+        quantity, problem = key
+        if key not in self.outcomes:
             try:
-                self.results[key] = self.model.evaluate(key.problem(), key.quantity)
-            except NotApplicable as refusal:
-                self.refusals[key] = str(refusal)
-            except ComputationFailed as failure:
-                self.failures[key] = str(failure)
-        return self.results.get(key)
+                self.outcomes[key] = self.model.evaluate(problem, quantity)
+            except (NotApplicable, ComputationFailed) as refusal:
+                self.outcomes[key] = refusal
+        outcome = self.outcomes[key]
+        return outcome if isinstance(outcome, Result) else None
+
+    @property
+    def results(self) -> dict[Key, Result]:
+        """The cases that have a value."""
+        return {key: outcome for key, outcome in self.outcomes.items() if isinstance(outcome, Result)}
+
+
+def label(key: Key) -> str:
+    """Return a quantity and its case for a sentence.
+
+    Examples
+    --------
+    >>> label(("pull_off_force", Problem.dimensionless(2, 0.4, 1)))
+    'pull_off_force at n = 2, k = 0.4, mu = 1'
+    """
+    quantity, problem = key
+    return f"{quantity} at {problem.label}"

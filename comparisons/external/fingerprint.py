@@ -90,9 +90,8 @@ def _of_root(root: Path, loaded: Collection[Path]) -> tuple[Collection[Path], st
 
 def _is_shared(root: Path) -> bool:
     """Whether a folder has other uses than the model: home, root, temporary files, results."""
-    return (
-        root in (Path.home().resolve(), root.parent) or bool(root.stat().st_mode & stat.S_ISVTX) or _is_of_others(root)
-    )
+    is_temporary = bool(root.stat().st_mode & stat.S_ISVTX)
+    return root in (Path.home().resolve(), root.parent) or is_temporary or _is_of_others(root)
 
 
 def _is_of_others(folder: Path) -> bool:
@@ -101,36 +100,30 @@ def _is_of_others(folder: Path) -> bool:
 
 def _every_file(root: Path) -> list[Path] | None:
     """Return the files of a folder; None if they are too many or too large."""
-    output = _output_files()
     files: list[Path] = []
     size = 0
-    for path in _walk(root):
-        with contextlib.suppress(OSError):
-            status = path.stat()
-            # A pipe or a device would never end.
-            if stat.S_ISREG(status.st_mode) and (status.st_dev, status.st_ino) not in output:
-                files.append(path)
-                size += status.st_size
-        if len(files) > MOST_FILES or size > MOST_BYTES:
-            return None
-    return files
-
-
-def _output_files() -> set[tuple[int, int]]:
-    """Return device and inode of the files that take our output, which grow: ``fscm-bench run > output.txt``."""
-    files = set()
-    for descriptor in (1, 2):
-        with contextlib.suppress(OSError):
-            status = os.fstat(descriptor)
-            files.add((status.st_dev, status.st_ino))
-    return files
-
-
-def _walk(root: Path) -> Iterator[Path]:
     for folder, inner, names in os.walk(root):
         parent = Path(folder)
         inner[:] = [name for name in inner if _is_entered(name) and not _is_of_others(parent / name)]
-        yield from (parent / name for name in names if _is_read(name))
+        for path in (parent / name for name in names if _is_read(name)):
+            with contextlib.suppress(OSError):
+                status = path.stat()
+                # A pipe or a device would never end.
+                if stat.S_ISREG(status.st_mode) and not _takes_output(status):
+                    files.append(path)
+                    size += status.st_size
+            if len(files) > MOST_FILES or size > MOST_BYTES:
+                return None
+    return files
+
+
+def _takes_output(status: os.stat_result) -> bool:
+    """Whether a file takes our output and so grows: ``fscm-bench run > output.txt``."""
+    for descriptor in (1, 2):
+        with contextlib.suppress(OSError):
+            if os.path.samestat(os.fstat(descriptor), status):
+                return True
+    return False
 
 
 def _counts(path: Path, root: Path) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from comparisons.external.evaluations import OK, SKIPPED, WRONG, Evaluations, Finding, Key
+from comparisons.external.evaluations import OK, SKIPPED, WRONG, Evaluations, Finding, Key, label
 from comparisons.models.bradley import rigid_pull_off
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
@@ -32,11 +32,7 @@ _LIMIT_TOLERANCE = 0.05
 _STANDSTILL = 1e-6
 
 #: Accurate pull-off forces of the full self-consistent model, all digits shown believed correct.
-_CALIBRATION = {
-    Key(_QUANTITY, 2.0, 0.0, 0.1): 1.96895638,
-    Key(_QUANTITY, 2.0, 0.0, 2.0): 1.58359530,
-    Key(_QUANTITY, 2.0, 0.4, 1.0): 1.78848171,
-}
+_CALIBRATION = {(2.0, 0.0, 0.1): 1.96895638, (2.0, 0.0, 2.0): 1.58359530, (2.0, 0.4, 1.0): 1.78848171}
 #: JKR is wrong by a factor of 1.313 in the first of them, Bradley by 1.263 in the second; pi, 2 and 3/2
 #: are beyond.
 _CALIBRATION_FACTOR = 1.4
@@ -51,46 +47,46 @@ def check_limits(evaluations: Evaluations) -> Iterator[Finding]:
     if not stated:
         yield Finding("is right in the limits it states", SKIPPED, f"it states none (limits = {', '.join(_LIMITS)})")
     for name in stated:
-        finding = (
-            _in_limit(evaluations, name)
-            if name in _LIMITS
-            else (WRONG, f"no such limit is known; known are {', '.join(_LIMITS)}")
-        )
-        yield Finding(f"is right in the limit {name}", *finding)
+        unknown = WRONG, f"no such limit is known; known are {', '.join(_LIMITS)}"
+        yield Finding(f"is right in the limit {name}", *(_in_limit(evaluations, name) if name in _LIMITS else unknown))
 
 
 def _in_limit(evaluations: Evaluations, name: str) -> tuple[str, str]:
-    label, tabor_numbers = _LIMITS[name]
+    limit, tabor_numbers = _LIMITS[name]
     parts = []
     for n, k in _LIMIT_CASES:
-        results = {mu: evaluations.get(Key(_QUANTITY, n, k, mu)) for mu in tabor_numbers}
+        results = {mu: evaluations.get(_key(n, k, mu)) for mu in tabor_numbers}
         errors = [(mu, result.value / _limit(name, n, k) - 1.0) for mu, result in results.items() if result]
         if not errors:
             continue
         (first_mu, farthest), (last_mu, nearest) = errors[0], errors[-1]
         if abs(nearest) > _LIMIT_TOLERANCE or abs(nearest) > abs(farthest) + _STANDSTILL:
             return WRONG, (
-                f"the pull-off force at n = {n:g}, k = {k:g} is {_percent(farthest)} off {label} at mu = {first_mu:g} "
+                f"the pull-off force at n = {n:g}, k = {k:g} is {_percent(farthest)} off {limit} at mu = {first_mu:g} "
                 f"and {_percent(nearest)} at mu = {last_mu:g}: it must come nearer, to "
                 f"{_percent(_LIMIT_TOLERANCE)} at least"
             )
         parts.append(f"{_percent(nearest)} at n = {n:g}, k = {k:g}, mu = {last_mu:g}")
-    return (OK, f"off {label} by {'; '.join(parts)}") if parts else (SKIPPED, f"it has no value towards {label}")
+    return (OK, f"off {limit} by {'; '.join(parts)}") if parts else (SKIPPED, f"it has no value towards {limit}")
 
 
 def _limit(name: str, n: float, k: float) -> float:
     return (rigid_pull_off(n) if name == "rigid" else JKR().evaluate(Problem.dimensionless(n, k, 1.0), _QUANTITY)).value
 
 
+def _key(n: float, k: float, mu: float) -> Key:
+    return _QUANTITY, Problem.dimensionless(n, k, mu)
+
+
 def check_calibration(evaluations: Evaluations) -> Finding:
     """Compare the model with three accurate values, to a factor of 1.4."""
     check = "is of the right size"
-    results = {key: evaluations.get(key) for key in _CALIBRATION}
-    ratios = {key: result.value / _CALIBRATION[key] for key, result in results.items() if result}
+    results = {case: evaluations.get(_key(*case)) for case in _CALIBRATION}
+    ratios = {case: result.value / _CALIBRATION[case] for case, result in results.items() if result}
     if not ratios:
         return Finding(check, SKIPPED, "it has none of the three calibration values")
-    key, worst = max(ratios.items(), key=lambda item: _distance(item[1]))
-    text = f"{key} is {worst:.3g} times the accurate one"
+    case, worst = max(ratios.items(), key=lambda item: _distance(item[1]))
+    text = f"{label(_key(*case))} is {worst:.3g} times the accurate one"
     if _distance(worst) <= math.log(_CALIBRATION_FACTOR):
         return Finding(check, OK, f"the model has {len(ratios)} of 3 calibration values; at worst {text}")
     return Finding(check, WRONG, f"{text}{_suspicion(list(ratios.values()))}")

@@ -122,14 +122,13 @@ def load_model(spec: str, poisson_ratio: float | None = None) -> ExternalModel |
     ValueError
         If there is none, or it does not load; the sentence has the reason.
     """
-    source = source_of(spec)
-    key = (repr(source), poisson_ratio)
+    key = (repr(source_of(spec)), poisson_ratio)
     if key not in _loaded:
-        _loaded[key] = _load(source, spec, poisson_ratio)
+        _loaded[key] = load_again(spec, poisson_ratio)
     return _loaded[key]
 
 
-def load_again(spec: str) -> ExternalModel | DataModel:
+def load_again(spec: str, poisson_ratio: float | None = None) -> ExternalModel | DataModel:
     """Return the model that a SPEC names in a process of its own, which the caller closes.
 
     Raises
@@ -137,13 +136,8 @@ def load_again(spec: str) -> ExternalModel | DataModel:
     ValueError
         As `load_model`.
     """
-    return _load(source_of(spec), spec, None)
-
-
-def _load(source: dict[str, Any], spec: str, poisson_ratio: float | None) -> ExternalModel | DataModel:
-    if source["kind"] == "data":
-        return DataModel(Path(source["folder"]))
-    return connect(source, spec, poisson_ratio)
+    source = source_of(spec)
+    return DataModel(Path(source["folder"])) if source["kind"] == "data" else connect(source, spec, poisson_ratio)
 
 
 @atexit.register

@@ -15,7 +15,7 @@ from comparisons.model import Result
 from comparisons.quantities import QUANTITIES
 from fscm.problem import Problem
 
-__all__ = ["SCALES", "InUnits", "PhysicalCase", "PhysicalModel"]
+__all__ = ["SCALES", "PhysicalCase", "PhysicalModel", "evaluate_in_units"]
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -68,42 +68,29 @@ SCALES: tuple[dict[str, float], ...] = (
 )
 
 
-class InUnits:
-    """A physical model as a model of dimensionless problems.
+def evaluate_in_units(
+    model: PhysicalModel, problem: Problem, quantity: str, poisson_ratio: float | None = None, scales: int = 0
+) -> Result:
+    """Return the dimensionless quantity of a physical model, or raise as the model does.
 
     Parameters
     ----------
     model : PhysicalModel
+    problem : fscm.Problem
+    quantity : str
     poisson_ratio : float, optional
         By default 0.3; the Gibson solid k = 1 has 0.5 in any case.
     scales : int
         Which of `SCALES`.
     """
-
-    def __init__(self, model: PhysicalModel, poisson_ratio: float | None = None, scales: int = 0) -> None:
-        self._model = model
-        self._poisson_ratio = 0.3 if poisson_ratio is None else poisson_ratio
-        self._scales = SCALES[scales]
-
-    def evaluate(self, problem: Problem, quantity: str) -> Result:
-        """Return the dimensionless quantity, or raise as the model does."""
-        physical = self._physical(problem)
-        result = self._model.evaluate_physical(physical, quantity)
-        if not isinstance(result, Result):
-            return result
-        kind = QUANTITIES[quantity].scale
-        if kind == "number":
-            return result
-        return dataclasses.replace(
-            result,
-            value=result.value / physical.scales[kind],
-            u_num=result.u_num / physical.scales[kind],
-        )
-
-    def _physical(self, problem: Problem) -> PhysicalCase:
-        # Q is a length^(n-1): the same length for every shape index.
-        scales = self._scales | {"Q": self._scales["Q"] ** (problem.n - 1.0)}
-        nu = 0.5 if problem.k == 1.0 else self._poisson_ratio
-        physical = problem.in_units(nu=nu, **scales)
-        E0 = physical.solid.E0  # type: ignore[union-attr]
-        return PhysicalCase(E0=E0, k=problem.k, nu=nu, n=problem.n, scales=physical.units, **scales)
+    # Q is a length^(n-1): the same length for every shape index.
+    lengths = SCALES[scales] | {"Q": SCALES[scales]["Q"] ** (problem.n - 1.0)}
+    nu = 0.5 if problem.k == 1.0 else 0.3 if poisson_ratio is None else poisson_ratio
+    physical = problem.in_units(nu=nu, **lengths)
+    E0 = physical.solid.E0  # type: ignore[union-attr]
+    case = PhysicalCase(E0=E0, k=problem.k, nu=nu, n=problem.n, scales=physical.units, **lengths)
+    result, kind = model.evaluate_physical(case, quantity), QUANTITIES[quantity].scale
+    if not isinstance(result, Result) or kind == "number":
+        return result
+    unit = physical.units[kind]
+    return dataclasses.replace(result, value=result.value / unit, u_num=result.u_num / unit)

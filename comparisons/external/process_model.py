@@ -8,8 +8,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, TypeVar
 
+from comparisons.domain import Domain
 from comparisons.external.child import Child, Overdue
-from comparisons.external.replies import Description, Malformed, curve_of, described, result_of
+from comparisons.external.replies import Malformed, curve_of, described, result_of
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.problem import Problem
@@ -42,13 +43,19 @@ class ExternalModel:
         Whether it is a program, and no class of Python.
     """
 
-    def __init__(self, source: dict[str, Any], child: Child, stated: Description) -> None:
+    name: str
+    version: str
+    citation: str
+    domain: str
+    hashed: str
+    limits: tuple[str, ...]
+    physical: bool
+    applies_to: Domain | None
+
+    def __init__(self, source: dict[str, Any], child: Child, stated: dict[str, Any]) -> None:
+        vars(self).update(stated)
         self._source, self._child = source, child
         self._refusal, self._overdue = "", 0
-        self.name, self.version = stated.name, stated.version
-        self.citation, self.domain = stated.citation, stated.domain
-        self.hashed, self.limits = stated.hashed, stated.limits
-        self.physical, self.applies_to = stated.physical, stated.applies_to
         self.is_program = source["kind"] == "program"
 
     def evaluate(self, problem: Problem, quantity: str, *, scales: int = 0) -> Result:
@@ -87,7 +94,7 @@ class ExternalModel:
     def _start_again(self) -> None:
         self.close()
         self._child, again = _started(self._source)
-        before, now = (self.name, self.version), (again.name, again.version)
+        before, now = (self.name, self.version), (again["name"], again["version"])
         if now != before:
             self.close()
             self._refusal = contradiction(before, now)
@@ -117,7 +124,7 @@ def connect(source: dict[str, Any], spec: str, poisson_ratio: float | None = Non
         child, stated = _started(source)
     except (ComputationFailed, NotApplicable) as failure:
         raise ValueError(f"the model {one_line(spec, 200)} cannot be loaded: {one_line(str(failure))}") from None
-    return (ExternalModelWithCurve if stated.has_curve else ExternalModel)(source, child, stated)
+    return (ExternalModelWithCurve if stated["has_curve"] else ExternalModel)(source, child, stated)
 
 
 def contradiction(before: tuple[str, str], now: tuple[str, str]) -> str:
@@ -139,7 +146,7 @@ def contradiction(before: tuple[str, str], now: tuple[str, str]) -> str:
     return one_line(f"the model's {changed} changed after it was loaded: {later}")
 
 
-def _started(source: dict[str, Any]) -> tuple[Child, Description]:
+def _started(source: dict[str, Any]) -> tuple[Child, dict[str, Any]]:
     child = Child(source)
     try:
         return child, described(child.exchange({"request": "describe"}), source)

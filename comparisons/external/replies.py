@@ -6,7 +6,6 @@ The parent checks all of them, since a model in Python can write to the pipe in 
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -19,7 +18,7 @@ from comparisons.external.fingerprint import fingerprint
 from comparisons.external.text_rules import model_name, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 
-__all__ = ["Description", "Malformed", "curve_of", "described", "result_of"]
+__all__ = ["Malformed", "curve_of", "described", "result_of"]
 
 #: Status of a reply without a result -> the exception that it means.
 _REFUSALS = {"not-applicable": NotApplicable, "failed": ComputationFailed}
@@ -32,23 +31,10 @@ class Malformed(ComputationFailed):
     """A line that is no reply: what the process writes next may belong to another request."""
 
 
-@dataclass(frozen=True, slots=True)
-class Description:
-    """A model; its texts are single printable lines, and its version ends in a digest of its files."""
+def described(line: bytes, source: dict[str, Any]) -> dict[str, Any]:
+    """Return what the reply to the request ``describe`` states, as attributes of `comparisons.external.process_model`.
 
-    name: str
-    version: str
-    citation: str
-    domain: str
-    limits: tuple[str, ...]
-    applies_to: Domain | None
-    hashed: str
-    physical: bool
-    has_curve: bool
-
-
-def described(line: bytes, source: dict[str, Any]) -> Description:
-    """Return what the reply to the request ``describe`` states.
+    Texts are single printable lines, and the version ends in a digest of the files of the model.
 
     Parameters
     ----------
@@ -73,17 +59,17 @@ def described(line: bytes, source: dict[str, Any]) -> Description:
             [Path(path) for path in of_worker.get("loaded", [])],
         )
         domain = reply.get("applies_to")
-        return Description(
-            model_name(reply["name"]),
-            f"{one_line(reply['version'], 60)} ({digest[:_DIGEST]})",
-            one_line(reply["citation"]),
-            one_line(reply["domain"]),
-            tuple(one_line(limit, 60) for limit in reply.get("limits", [])),
-            None if domain is None else Domain.of(domain),
-            hashed,
-            bool(of_worker.get("physical")),
-            reply.get("curve", False),
-        )
+        return {
+            "name": model_name(reply["name"]),
+            "version": f"{one_line(reply['version'], 60)} ({digest[:_DIGEST]})",
+            "citation": one_line(reply["citation"]),
+            "domain": one_line(reply["domain"]),
+            "hashed": hashed,
+            "limits": tuple(one_line(limit, 60) for limit in reply.get("limits", [])),
+            "physical": bool(of_worker.get("physical")),
+            "applies_to": None if domain is None else Domain.of(domain),
+            "has_curve": reply.get("curve", False),
+        }
     except (ValueError, TypeError, AttributeError) as error:
         raise ComputationFailed(one_line(str(error))) from None
 

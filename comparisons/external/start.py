@@ -1,6 +1,10 @@
 """Start of the process of an external model: no writing elsewhere, the limits, and then the worker or the program.
 
-Nothing but the standard library is imported before the restriction of writing.
+Nothing but the standard library is imported before the restriction of writing.  The limits are environment variables,
+so that they reach every process of a run:
+
+    FSCM_BENCH_TIME_LIMIT     seconds for one evaluation, and for loading (60)
+    FSCM_BENCH_MEMORY_LIMIT   MB of address space (4096)
 """
 
 from __future__ import annotations
@@ -11,12 +15,41 @@ import sys
 from typing import Any
 
 from comparisons.external.landlock import write_only_in
-from comparisons.external.limits import limit_memory_and_files
 
-__all__ = ["start"]
+__all__ = ["MEMORY_LIMIT", "TIME_LIMIT", "limit_of_environment", "start"]
+
+#: Names of the environment variables.
+TIME_LIMIT, MEMORY_LIMIT = "FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"
+_DEFAULTS = {TIME_LIMIT: 60.0, MEMORY_LIMIT: 4096.0}
+
+#: Bytes of one file in the scratch folder.
+_LARGEST_FILE = 256_000_000
 
 #: What the process writes before it reads its first request.
 _READY = b"ready\n"
+
+
+def limit_of_environment(name: str) -> float:
+    """Return the limit that an environment variable sets.
+
+    Raises
+    ------
+    ValueError
+        If it is not a positive number.
+
+    Examples
+    --------
+    >>> limit_of_environment("FSCM_BENCH_MEMORY_LIMIT")
+    4096.0
+    """
+    text = os.environ.get(name) or _DEFAULTS[name]
+    try:
+        value = float(text)
+    except ValueError:
+        raise ValueError(f"{name} = {text!r} is not a number") from None
+    if not 0 < value < 1e9:
+        raise ValueError(f"{name} = {value:g} is outside (0, 1e9): a limit is positive and finite")
+    return value
 
 
 def start(order: dict[str, Any]) -> None:
@@ -30,15 +63,25 @@ def start(order: dict[str, Any]) -> None:
     source, megabytes = order["source"], order["megabytes"]
     # Landlock binds the calling thread and those this thread starts later: it comes before NumPy's libraries.
     write_only_in(order["scratch"])
-    if source["kind"] == "program":
-        limit_memory_and_files(megabytes)
-        os.write(1, _READY)
-        _become(source["file"])
-    from comparisons.external.worker import serve
-
-    limit_memory_and_files(megabytes)
+    if source["kind"] != "program":
+        from comparisons.external.worker import serve
+    _limit(megabytes)
     os.write(1, _READY)
+    if source["kind"] == "program":
+        _become(source["file"])
     serve(source, megabytes)
+
+
+def _limit(megabytes: float) -> None:
+    """Limit memory and files of this process and its children, for good (a superuser could raise the limits again)."""
+    import resource  # Not on Windows, where models that are code are refused before this.
+
+    limits = {"RLIMIT_AS": int(1e6 * megabytes), "RLIMIT_FSIZE": _LARGEST_FILE, "RLIMIT_CORE": 0}
+    for name, limit in limits.items():
+        kind = getattr(resource, name)
+        hard = resource.getrlimit(kind)[1]
+        value = limit if hard < 0 else min(limit, hard)
+        resource.setrlimit(kind, (value, value))
 
 
 def _become(program: str) -> None:

@@ -66,8 +66,9 @@ def write_template(folder: Path, reserved: Collection[str] = ()) -> tuple[list[P
         )
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise ValueError(f"{folder} exists and is not an empty folder")
+    words = {"MODEL": name, "MODULE": module, "CLASS": cls}
     try:
-        written = [_written(folder, *path, {"MODEL": name, "MODULE": module, "CLASS": cls}) for path in _PLACES.items()]
+        written = [_written(folder, source, target, words) for source, target in _PLACES.items()]
     except OSError as error:
         if full_disk(error):
             raise OSError(f"{folder} cannot be written ({error.strerror})") from error

@@ -22,7 +22,7 @@ import numpy as np
 
 from comparisons.domain import declared_domain
 from comparisons.external.fingerprint import SITES
-from comparisons.external.physical_model import InUnits, PhysicalModel
+from comparisons.external.physical_model import PhysicalModel, evaluate_in_units
 from comparisons.external.text_rules import TEXTS, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from fscm.problem import Problem
@@ -85,6 +85,13 @@ def _plain(value: object) -> object:
 
 def _kind(value: object) -> str:
     return one_line(f"an object of type {type(value).__name__}", 80)
+
+
+def _attributes(value: object, cls: type, names: Iterable[str]) -> dict[str, Any]:
+    """Return what is sent of a result; refuse one of another class."""
+    if not isinstance(value, cls):
+        raise ComputationFailed(f"the model returned {_kind(value)}, which is not a comparisons.model.{cls.__name__}")
+    return {name: getattr(value, name) for name in names}
 
 
 def _loaded(source: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
@@ -158,38 +165,32 @@ def _check_methods(model: Any, physical: bool) -> None:
     called = {"evaluate_physical" if physical else "evaluate": ("problem", "quantity"), "curve": ("problem",)}
     for name, arguments in called.items():
         method, call = getattr(model, name, None), f"{name}({', '.join(arguments)})"
-        if callable(method):
-            _check_arguments(method, arguments, call)
-        elif name != "curve":
-            raise ComputationFailed(f"the model has no method {call}")
-
-
-def _check_arguments(method: Callable[..., Any], arguments: tuple[str, ...], call: str) -> None:
-    with suppress(ValueError):  # of a compiled method nothing is known
-        signature = inspect.signature(method)
-        try:
-            signature.bind(*arguments)
-        except TypeError:
-            code = getattr(inspect.unwrap(method), "__code__", None)
-            line = f" in line {code.co_firstlineno} of {Path(code.co_filename).name}" if code else ""
-            title = one_line(f"{getattr(method, '__qualname__', method)}{signature}", 120)
-            raise ComputationFailed(f"{title}{line} is called as {call}: let it take these arguments") from None
+        if not callable(method):
+            if name != "curve":
+                raise ComputationFailed(f"the model has no method {call}")
+            continue
+        with suppress(ValueError):  # of a compiled method nothing is known
+            signature = inspect.signature(method)
+            try:
+                signature.bind(*arguments)
+            except TypeError:
+                code = getattr(inspect.unwrap(method), "__code__", None)
+                line = f" in line {code.co_firstlineno} of {Path(code.co_filename).name}" if code else ""
+                title = one_line(f"{getattr(method, '__qualname__', method)}{signature}", 120)
+                raise ComputationFailed(f"{title}{line} is called as {call}: let it take these arguments") from None
 
 
 def _evaluated(model: Any, request: dict[str, Any], source: dict[str, Any]) -> dict[str, Any]:
+    problem, quantity = _problem(request), request["quantity"]
     if isinstance(model, PhysicalModel):
-        model = InUnits(model, source["poisson_ratio"], request.get("scales", 0))
-    result = model.evaluate(_problem(request), request["quantity"])
-    if not isinstance(result, Result):
-        raise ComputationFailed(f"the model returned {_kind(result)}, which is not a comparisons.model.Result")
-    return {name: getattr(result, name) for name in ("value", "u_num", "residual", "size", "iterations")}
+        result = evaluate_in_units(model, problem, quantity, source["poisson_ratio"], request.get("scales", 0))
+    else:
+        result = model.evaluate(problem, quantity)
+    return _attributes(result, Result, ("value", "u_num", "residual", "size", "iterations"))
 
 
 def _curve(model: Any, request: dict[str, Any], _: dict[str, Any]) -> dict[str, Any]:
-    curve = model.curve(_problem(request))
-    if not isinstance(curve, Curve):
-        raise ComputationFailed(f"the model returned {_kind(curve)}, which is not a comparisons.model.Curve")
-    return {name: getattr(curve, name) for name in ("displacement", "load", "columns")}
+    return _attributes(model.curve(_problem(request)), Curve, ("displacement", "load", "columns"))
 
 
 def _problem(request: dict[str, Any]) -> Problem:

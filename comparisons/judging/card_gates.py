@@ -46,6 +46,7 @@ _NUMBERS = (
     *("error", "uncertainty", "lower", "upper"),
 )
 
+#: Id of a gate -> its requirement, and its grounds.
 _REQUIREMENTS = {
     SAME_AGAIN: (
         "The model gives the same number again in a new process with the evaluations in another order.",
@@ -107,28 +108,21 @@ def judge_cards(cards: Mapping[str, Any]) -> pd.DataFrame:
     cards : mapping
         Name of a model -> what the record of the run has of it.
     """
-    judged = [row for name, card in cards.items() if "repeated" in card for row in _repeated(name, card["repeated"])]
-    return verdict_table(judged)
+    return verdict_table(
+        row for name, card in cards.items() if "repeated" in card for row in _repeated(name, card["repeated"])
+    )
 
 
 def _repeated(name: str, repeated: Mapping[str, Any]) -> Iterator[Judged]:
     for case in repeated["cases"]:
         value, again, allowed = case["first"], case["again"], case["allowed"]
-        same = again is not None and abs(again - value) <= allowed
-        facts = {key: case[key] for key in ("quantity", *PARAMETERS)} | {
-            "problem": case.get("problem", ""),
-            "value": again,
-            "u_num": 0.0,
-            "reference_value": value,
-            "u_reference": 0.0,
-            "error": None if again is None else again - value,
-            "uncertainty": 0.0,
-            "lower": 0.0 - allowed,
-            "upper": allowed,
-            "status": "ok",
-        }
-        verdict = Verdict.PASS if same else Verdict.FAIL
-        yield verdict_on_model(SAME_AGAIN, name, verdict, "" if same else repeated["cause"], **facts)
+        error = None if again is None else again - value
+        same = error is not None and abs(error) <= allowed
+        facts = {key: case[key] for key in ("quantity", *PARAMETERS)} | {"problem": case.get("problem", "")}
+        facts |= {"value": again, "reference_value": value, "error": error, "lower": 0.0 - allowed, "upper": allowed}
+        facts |= dict.fromkeys(("u_num", "u_reference", "uncertainty"), 0.0) | {"status": "ok"}
+        verdict, reason = (Verdict.PASS, "") if same else (Verdict.FAIL, repeated["cause"])
+        yield verdict_on_model(SAME_AGAIN, name, verdict, reason, **facts)
 
 
 def judge_digits(verdicts: pd.DataFrame, models: Iterable[str]) -> pd.DataFrame:
@@ -172,16 +166,13 @@ def _same_digits(id: object, rows: pd.DataFrame) -> str:
 
 def verdict_on_model(id: str, name: str, verdict: Verdict, reason: str, **facts: Any) -> Judged:
     """Return a verdict on a model as a whole, or with the facts of a case."""
-    return Judged(
-        **{"gate": id, "quantity": "", "candidate": name, "reference": name} | facts, verdict=verdict, reason=reason
-    )
+    names = {"gate": id, "quantity": "", "candidate": name, "reference": name}
+    return Judged(**names | facts, verdict=verdict, reason=reason)
 
 
 def every_verdict(tables: Iterable[pd.DataFrame]) -> pd.DataFrame:
     """Return tables of verdicts as one; its columns of numbers have the type of numbers whatever is missing in them."""
-    given_tables = list(tables)
-    filled = [table.astype(object) for table in given_tables if len(table)] or given_tables[:1]
-    joined = pd.concat(filled, ignore_index=True)
+    joined = pd.concat([table.astype(object) for table in tables], ignore_index=True)
     if "problem" in joined:
         joined["problem"] = joined["problem"].fillna("")
     return joined.assign(**{name: pd.to_numeric(joined[name]).astype(float) for name in _NUMBERS})

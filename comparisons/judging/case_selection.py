@@ -13,7 +13,8 @@ from comparisons.problem.units import NotAValue, in_si
 
 __all__ = ["has_parameters", "in_si_units"]
 
-_FORM = "[low, high], two values with low <= high, with their unit if they have one"
+#: The number of an entry of a list: "solid.thickness.2" is the second thickness.
+_ENTRY = re.compile(r"\.[1-9]\d{0,2}$")
 
 
 def in_si_units(cases: Mapping[str, Any], where: str) -> dict[str, Any]:
@@ -29,14 +30,18 @@ def in_si_units(cases: Mapping[str, Any], where: str) -> dict[str, Any]:
     >>> in_si_units({"solid.kind": "coating", "solid.thickness": ["10 nm", "50 nm"], "n": [2, 2]}, "gate A")
     {'solid.kind': 'coating', 'solid.thickness': [1e-08, 5e-08], 'n': [2, 2]}
     """
-    units = _units()
-    for name in cases:
-        # "solid.thickness.2" is the second entry of a list.
-        known_name("key of cases", re.sub(r"\.[1-9]\d{0,2}$", "", name), units, where)
-    return {
-        name: value if name == "tags" else _in_si(name, value, units[re.sub(r"\.\d+$", "", name)], where)
-        for name, value in cases.items()
-    }
+    words = {f"{section}.kind": list(kinds(section)) for section in SECTIONS}
+    of_kinds = ((section, key) for section in SECTIONS for kind in kinds(section).values() for key in kind.keys)
+    units = {f"{section}.{key.name}": key.dimension.unit or "" for section, key in of_kinds}
+    values: dict[str, Any] = {}
+    for name, value in cases.items():
+        key = _ENTRY.sub("", name)
+        known_name("key of cases", key, [*PARAMETERS, "tags", *words, *units], where)
+        if key in words:
+            known_name(f"cases.{name}", str(value), words[key], where)
+        is_range = name != "tags" and not isinstance(value, str)
+        values[name] = _range_in_si(name, value, units.get(key), where) if is_range else value
+    return values
 
 
 def has_parameters(problem: Problem, cases: Mapping[str, Any]) -> bool:
@@ -57,26 +62,12 @@ def _matches(wanted: Any, value: Any) -> bool:
     return bool(low <= value <= high)
 
 
-def _units() -> dict[str, str | list[str]]:
-    """Unit of each parameter; of a kind its words."""
-    units: dict[str, str | list[str]] = dict.fromkeys((*PARAMETERS, "tags"), "")
-    for section in SECTIONS:
-        units[f"{section}.kind"] = list(kinds(section))
-        for kind in kinds(section).values():
-            units |= {f"{section}.{key.name}": key.dimension.unit or "" for key in kind.keys}
-    return units
-
-
-def _in_si(name: str, value: Any, unit: str | list[str], where: str) -> Any:
-    if not isinstance(unit, str):
-        known_name(f"cases.{name}", str(value), unit, where)
-        return value
-    if isinstance(value, str):
-        return value
+def _range_in_si(name: str, ends: Any, unit: str | None, where: str) -> list[float]:
+    form = "[low, high], two values with low <= high, with their unit if they have one"
     try:
-        low, high = value if name in PARAMETERS else [in_si(end, unit) for end in value]
+        low, high = ends if unit is None else [in_si(end, unit) for end in ends]
     except NotAValue as error:
-        raise ValueError(f"{where}: cases.{name} has a value that {error}; it must be {_FORM}") from None
+        raise ValueError(f"{where}: cases.{name} has a value that {error}; it must be {form}") from None
     if not low <= high:
-        raise ValueError(f"{where}: cases.{name} = [{low:g}, {high:g}] must be {_FORM}")
+        raise ValueError(f"{where}: cases.{name} = [{low:g}, {high:g}] must be {form}")
     return [low, high]

@@ -11,15 +11,18 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 from zlib import crc32
 
 from comparisons.console.progress import log
+from comparisons.data.contained_paths import path_inside
 from comparisons.domain import Domain, declared_domain
-from comparisons.judging.fresh_points import REACH, Sample, problem_of_name, sample
+from comparisons.judging.fresh_points import REACH, sample
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.selection import cases_of, relevant
 from comparisons.problem import Problem
+from comparisons.problem.problem import split_name
+from comparisons.problem.variation import parse_variation, problems_of
 from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.cases import TIERS, Grid
 from comparisons.runs.tasks import Task, plan
@@ -38,17 +41,8 @@ _ATLAS, _FSCM = "atlas", "fscm"
 _ATLAS_BOUND, _WIDER = 1e-4, 100.0
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
-    """The fresh cases of one model for one gate, with one reference.
-
-    Attributes
-    ----------
-    gate : Gate
-        With the limits of the standing gate; its id ends in `RANDOM`.
-    grid : Grid
-        The cases.
-    """
+class Part(NamedTuple):
+    """Fresh cases of one model for one gate, whose id ends in `RANDOM`, with one reference."""
 
     gate: Gate
     grid: Grid
@@ -56,14 +50,7 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Undrawn:
-    """A gate with standing cases in a part of the domain of a model that has no room for fresh ones.
-
-    Attributes
-    ----------
-    gate, candidate, quantity : str
-        Id of the standing gate, name of the model, and quantity of the gate.
-    reason : str
-    """
+    """A gate with standing cases in a part of the domain of a model (`candidate`) that has no room for fresh ones."""
 
     gate: str
     candidate: str
@@ -98,12 +85,12 @@ class FreshCases:
         """Return the form in the record of a run: the cases themselves, since other versions may draw others."""
         parts = [
             {
-                "gate": part.gate.id.removesuffix(RANDOM),
-                "candidate": part.gate.candidate,
-                "reference": part.gate.reference,
-                "cases": [_as_json(case) for case in part.grid.cases],
+                "gate": gate.id.removesuffix(RANDOM),
+                "candidate": gate.candidate,
+                "reference": gate.reference,
+                "cases": [case.name or list(case.parameters.values()) for case in grid.cases],
             }
-            for part in self.parts
+            for gate, grid in self.parts
         ]
         undrawn = [asdict(gate) for gate in self.undrawn]
         return {"count": self.count, "seed": self.seed, "parts": parts, "undrawn": undrawn}
@@ -112,13 +99,21 @@ class FreshCases:
     def of_json(cls, stored: Mapping[str, Any], gates: Iterable[Gate], folder: Path) -> FreshCases:
         """Return the fresh cases of a record, as far as they are about some gates; the folder has the problem files."""
         gates_by_id = {gate.id: gate for gate in gates}
-        parts = tuple(
-            _part(gates_by_id[entry["gate"]], entry["candidate"], entry["reference"], _of_json(entry["cases"], folder))
-            for entry in stored["parts"]
-            if entry["gate"] in gates_by_id
-        )
+        parts = []
+        for entry in stored["parts"]:
+            if gate := gates_by_id.get(entry["gate"]):
+                cases = tuple(_stored_problem(case, folder) for case in entry["cases"])
+                parts.append(_part(gate, entry["candidate"], entry["reference"], cases))
         undrawn = tuple(Undrawn(**gate) for gate in stored["undrawn"] if gate["gate"] in gates_by_id)
-        return cls(stored["count"], stored["seed"], parts, undrawn)
+        return cls(stored["count"], stored["seed"], tuple(parts), undrawn)
+
+
+def _stored_problem(case: list[float] | str, folder: Path) -> Problem:
+    if not isinstance(case, str):
+        return Problem.dimensionless(*case[:3])
+    file, *texts = split_name(case)
+    (problem,) = problems_of(path_inside(folder, file), [parse_variation(text) for text in texts], file)
+    return problem
 
 
 def draw(
@@ -156,21 +151,20 @@ def draw(
     undrawn: list[Undrawn] = []
     passed_over = 0
     # Tags select cases that were chosen for a gate of one model, as those near a limit: no others are like them.
-    judged = [gate for gate in gates if gate.candidate == GIVEN or "tags" not in gate.cases]
-    for gate in relevant(judged, grids, models):
+    drawn_for = [gate for gate in gates if gate.candidate == GIVEN or "tags" not in gate.cases]
+    for gate in relevant(drawn_for, grids, models):
         if gate.candidate not in models:
             continue
-        drawn = None
-        if gate.metric in _METRICS and not gate.rival and not gate.reference_at:
-            standing = cases_of(gate, grids, models)
-            avoided = [case for grid in grids if gate.quantity in grid.quantities for case in grid.cases]
-            own_seed = [seed, crc32(f"{gate.id} {gate.candidate}".encode())]
-            drawn = sample(gate, domains.get(gate.candidate), standing, avoided, count, own_seed)
+        standing = cases_of(gate, grids, models)
+        avoided = [case for grid in grids if gate.quantity in grid.quantities for case in grid.cases]
+        seeds = [seed, crc32(f"{gate.id} {gate.candidate}".encode())]
+        is_of_values = gate.metric in _METRICS and not gate.rival and not gate.reference_at
+        drawn = sample(gate, domains.get(gate.candidate), standing, avoided, count, seeds) if is_of_values else None
         if drawn is None:
             passed_over += 1
             continue
         if drawn.untested:
-            reason = _no_room(gate.candidate, drawn, len(standing))
+            reason = _no_room(gate.candidate, len(drawn.untested), len(standing))
             undrawn.append(Undrawn(gate.id, gate.candidate, gate.quantity, reason))
         elif not drawn.cases:
             log(f"{gate.id} has no fresh cases: the domain of {gate.candidate} has none that it can be judged in")
@@ -183,21 +177,11 @@ def draw(
     return FreshCases(count, seed, tuple(parts), tuple(undrawn))
 
 
-def _as_json(case: Problem) -> list[float] | str:
-    return [case.n, case.k, case.mu] if case.is_dimensionless else case.name
-
-
-def _of_json(cases: Iterable[list[float] | str], folder: Path) -> tuple[Problem, ...]:
-    return tuple(
-        problem_of_name(case, folder) if isinstance(case, str) else Problem.dimensionless(*case[:3]) for case in cases
-    )
-
-
-def _no_room(name: str, drawn: Sample, standing: int) -> str:
+def _no_room(name: str, untested: int, standing: int) -> str:
     reach = ", ".join(f"{low:g} <= {parameter} <= {high:g}" for parameter, (low, high) in REACH.items())
     return (
-        f"{len(drawn.untested)} of {standing} standing cases are in parts of the domain of {name} that have no room "
-        f"for fresh cases beside them: points, ranges hardly wider than a point, no varied key, or outside {reach}"
+        f"{untested} of {standing} standing cases are in parts of the domain of {name} that have no room for fresh "
+        f"cases beside them: points, ranges hardly wider than a point, no varied key, or outside {reach}"
     )
 
 
@@ -217,8 +201,7 @@ def _part(gate: Gate, candidate: str, reference: str, cases: tuple[Problem, ...]
         not_applicable="leave-out",
     )
     title = f"Fresh cases of {candidate} for {gate.id}"
-    grid = Grid(fresh.id, title, TIERS[0], reference, (candidate,), (gate.quantity,), cases, (_TAG,))
-    return Part(fresh, grid)
+    return Part(fresh, Grid(fresh.id, title, TIERS[0], reference, (candidate,), (gate.quantity,), cases, (_TAG,)))
 
 
 def _reference(gate: Gate, case: Problem) -> str:

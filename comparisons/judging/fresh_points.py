@@ -2,38 +2,36 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import islice
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.data.contained_paths import path_inside
 from comparisons.domain import Domain
 from comparisons.judging.gates import Gate
+from comparisons.judging.selection import promised
 from comparisons.problem import Problem
 from comparisons.problem.problem import split_name
 from comparisons.problem.variation import parse_variation, problems_of
 from comparisons.runs.case_columns import unit_in
 
-__all__ = ["REACH", "Sample", "problem_of_name", "sample"]
+__all__ = ["REACH", "Sample", "sample"]
 
-#: The smallest and the largest value of parameters or of varied keys.
+#: The smallest and the largest value of parameters.
 _Box = Mapping[str, tuple[float, float]]
 
-#: Dimensionless fresh cases are drawn inside these ranges at most. The full self-consistent model converges in all of
-#: them: its edge becomes too narrow beyond k = 0.8 at mu = 10, and the rest is wider than the box of the atlas.
+#: Fresh cases are drawn inside these ranges at most. The full self-consistent model converges in all of them: its edge
+#: becomes too narrow beyond k = 0.8 at mu = 10, and the rest is wider than the box of the atlas. Other parameters, the
+#: varied keys of problem files, reach as far as their standing values.
 REACH: _Box = {"n": (0.8, 10.0), "k": (0.0, 0.8), "mu": (0.005, 10.0)}
 #: Points are even in these parameters, and in the logarithm of the others where they are positive.
 _LINEAR = ("n", "k")
 
-#: A fresh case differs from every standing one by this part of `REACH`, or of the range of a varied key, in one of
-#: them: by 0.09 in n, 0.008 in k or 8 % in mu. Most neighbouring standing values differ by more than twice that.
+#: A fresh case differs from every standing one by this part of the reach in one of the parameters: by 0.09 in n, 0.008
+#: in k or 8 % in mu. Most neighbouring standing values differ by more than twice that.
 _APART = 0.01
 
 #: A box has room if this share of it is apart from the standing cases: in a narrower one a model could be wrong
@@ -52,49 +50,6 @@ class Sample:
     untested: frozenset[Problem]
 
 
-@dataclass(frozen=True, slots=True)
-class _Space:
-    """A box in which fresh cases are drawn, with the standing cases that they test and those that they avoid."""
-
-    box: _Box
-    scale: _Box
-    standing: tuple[Problem, ...]
-    avoided: tuple[Problem, ...]
-    problem_at: Callable[[Mapping[str, float]], Problem]
-
-    def points(self, count: int, seed: list[int]) -> list[dict[str, float]]:
-        """Return points of the box, even if some are left out; none if it has hardly any that are apart."""
-        if not self.box or any(low > high for low, high in self.box.values()):
-            return []
-        # It takes a second to import.
-        from scipy.stats import qmc
-
-        names = list(self.box)
-        low, high = self._coordinates([{name: self.box[name][end] for name in names} for end in (0, 1)])
-        unit = qmc.Halton(len(names), seed=np.random.default_rng(seed)).random(max(_DRAWN, 3 * count))
-        points = low + unit * (high - low)
-        ends = self._coordinates([{name: self.scale[name][end] for name in names} for end in (0, 1)])
-        distance = np.abs(points[:, None] - self._coordinates([case.parameters for case in self.avoided]))
-        apart = ((distance / np.diff(ends, axis=0)).max(axis=2) >= _APART).all(axis=1)
-        return [self._point(point) for point in points[apart]] if apart.mean() >= _ROOM else []
-
-    def _is_linear(self, name: str) -> bool:
-        return name in _LINEAR or self.box[name][0] <= 0.0
-
-    def _coordinates(self, points: Iterable[Mapping[str, Any]]) -> NDArray[np.float64]:
-        rows = [
-            [point[name] if self._is_linear(name) else math.log(point[name]) for name in self.box] for point in points
-        ]
-        return np.array(rows, dtype=float)
-
-    def _point(self, coordinates: NDArray[np.float64]) -> dict[str, float]:
-        point = {}
-        for (name, (low, high)), at in zip(self.box.items(), coordinates, strict=True):
-            value = at if self._is_linear(name) else math.exp(at)
-            point[name] = min(max(float(f"{value:.{_DIGITS}g}"), low), high)
-        return point
-
-
 def sample(
     gate: Gate,
     domain: Domain | None,
@@ -103,9 +58,7 @@ def sample(
     count: int,
     seed: list[int],
 ) -> Sample | None:
-    """Draw cases for a gate from the domain of a model, or from between the standing cases if it declares none.
-
-    Those of problem files are drawn between the values of their varied keys.
+    """Draw cases for a gate from the domain of a model, or from between the standing cases where it states none.
 
     Parameters
     ----------
@@ -123,100 +76,132 @@ def sample(
     Sample or None
         None if the gate itself leaves no room, whatever the domain is.
     """
-    numbers = tuple(case for case in standing if case.is_dimensionless)
-    taken = tuple(case for case in avoided if case.is_dimensionless)
-    if numbers:
-        frame = _limited(_hull(numbers, REACH) if domain is None else {}, gate)
-        if not _of_numbers(frame, numbers, taken).points(1, seed):
-            return None
-    elif not standing:
+    families = [_Family.of(gate, cases, avoided) for cases in _grouped(standing)]
+    if all(family.reach and not family.points(family.frame(domain), 1, seed) for family in families):
         return None
-    spaces = [*_spaces_of_numbers(gate, domain, numbers, taken), *_spaces_of_files(standing)]
+    spaces = [(family, box, tested) for family in families for box, tested in family.boxes(domain)]
     cases: list[Problem] = []
-    untested = {
-        case
-        for case in standing
-        if domain is None or not case.is_dimensionless or domain.contains(gate.quantity, case.numbers)
-    }
-    for number, (space, share) in enumerate(zip(spaces, _shares(spaces, count, seed), strict=True)):
-        points = space.points(share, [*seed, number])
-        cases += islice(_admissible(space, points), share)
-        untested -= {*space.standing} if points else set()
+    untested = {case for case in standing if promised(domain, gate.quantity, case) is not False}
+    shares = _shares([len(tested) for _, _, tested in spaces], count, seed)
+    for number, ((family, box, tested), share) in enumerate(zip(spaces, shares, strict=True)):
+        points = family.points(box, share, [*seed, number])
+        cases += islice(family.problems_at(points), share)
+        untested -= {*tested} if points else set()
     return Sample(tuple(sorted(dict.fromkeys(cases))), frozenset(untested))
 
 
-def problem_of_name(name: str, folder: Path) -> Problem:
-    """Return the problem of a name, as that of `comparisons.Problem`, from a problem file in a folder.
+def _numbers(case: Problem) -> dict[str, float]:
+    """Return the parameters that fresh cases vary; Poisson's ratio is left to the models."""
+    return {
+        name: float(value) for name, value in case.parameters.items() if name != "nu" and not isinstance(value, str)
+    }
 
-    Raises
-    ------
-    ValueError
-        One sentence, if the file or the problem is not admissible.
+
+def _family_of(case: Problem) -> tuple[str, ...]:
+    """Return what the cases of a family have in common: their file, and their varied keys that are no numbers."""
+    words = (f"{name}={value}" for name, value in case.parameters.items() if isinstance(value, str))
+    return split_name(case.name)[0], *_numbers(case), *words
+
+
+def _grouped(cases: Iterable[Problem]) -> list[list[Problem]]:
+    groups: dict[tuple[str, ...], list[Problem]] = {}
+    for case in cases:
+        groups.setdefault(_family_of(case), []).append(case)
+    return [groups[family] for family in sorted(groups)]
+
+
+@dataclass(frozen=True, slots=True)
+class _Family:
+    """Standing cases of a gate that differ in numbers alone, and the cases that fresh ones are apart from.
+
+    `reach` has the parameters in which fresh cases can differ, with the ends of the ranges in which they are drawn.
     """
-    file, *texts = split_name(name)
-    (problem,) = problems_of(path_inside(folder, file), [parse_variation(text) for text in texts], file)
-    return problem
+
+    gate: Gate
+    standing: list[Problem]
+    avoided: list[Problem]
+    hull: _Box
+    reach: _Box
+
+    @classmethod
+    def of(cls, gate: Gate, standing: list[Problem], avoided: Iterable[Problem]) -> _Family:
+        values = {name: [_numbers(case)[name] for case in standing] for name in _numbers(standing[0])}
+        hull = {name: (min(numbers), max(numbers)) for name, numbers in values.items()}
+        reach = {name: REACH.get(name, ends) for name, ends in hull.items()}
+        alike = [case for case in avoided if _family_of(case) == _family_of(standing[0])]
+        return cls(gate, standing, alike, hull, {name: ends for name, ends in reach.items() if ends[0] < ends[1]})
+
+    def frame(self, domain: Domain | None) -> _Box:
+        """Return the largest box that the gate leaves to any domain, or to models that declare none."""
+        return self._limited(self.hull if domain is None else {})
+
+    def boxes(self, domain: Domain | None) -> Iterator[tuple[_Box, list[Problem]]]:
+        """Yield the boxes in which fresh cases are drawn, each with the standing cases that they test."""
+        # A domain restricts n, k and mu alone.
+        if domain is None or not self.reach.keys() & REACH.keys():
+            yield self.frame(None), self.standing
+            return
+        for table in domain.of_quantity(self.gate.quantity):
+            tested = [case for case in self.standing if table.within(case.parameters)]
+            yield self._limited({name: table.ends(name) for name in self.reach}), tested
+
+    def points(self, box: _Box, count: int, seed: list[int]) -> list[dict[str, float]]:
+        """Return points of a box, even if some are left out; none if it has hardly any that are apart."""
+        if not box or any(low > high for low, high in box.values()):
+            return []
+        # It takes a second to import.
+        from scipy.stats import qmc
+
+        is_linear = [name in _LINEAR or low <= 0.0 for name, (low, _) in box.items()]
+
+        def coordinates(points: Iterable[Mapping[str, Any]]) -> NDArray[np.float64]:
+            values = np.array([[point[name] for name in box] for point in points], dtype=float)
+            return np.where(is_linear, values, np.log(np.where(is_linear, 1.0, values)))
+
+        low, high = coordinates([{name: ends[end] for name, ends in box.items()} for end in (0, 1)])
+        unit = qmc.Halton(len(box), seed=np.random.default_rng(seed)).random(max(_DRAWN, 3 * count))
+        points = low + unit * (high - low)
+        ends = coordinates([{name: self.reach[name][end] for name in box} for end in (0, 1)])
+        distance = np.abs(points[:, None] - coordinates(map(_numbers, self.avoided)))
+        apart = ((distance / np.diff(ends, axis=0)).max(axis=2) >= _APART).all(axis=1)
+        values = np.where(is_linear, points, np.exp(np.where(is_linear, 0.0, points)))[apart]
+        drawn = [dict(zip(box, map(_rounded, point, box.values()), strict=True)) for point in values]
+        return drawn if apart.mean() >= _ROOM else []
+
+    def problems_at(self, points: Iterable[Mapping[str, float]]) -> Iterator[Problem]:
+        """Yield the problem at each point that has one."""
+        for point in points:
+            try:
+                yield _problem_at(self.standing[0], point)
+            except ValueError:
+                # Two keys may exclude each other, as the thickness of a coating and that of its transition.
+                continue
+
+    def _limited(self, box: _Box) -> _Box:
+        """Return the part of a box that the gate is about and in which fresh cases are drawn."""
+        limits = {
+            name: [ends, box.get(name, ends), self.gate.cases.get(name, ends)] for name, ends in self.reach.items()
+        }
+        return {name: (max(low for low, _ in ends), min(high for _, high in ends)) for name, ends in limits.items()}
 
 
-def _spaces_of_numbers(
-    gate: Gate, domain: Domain | None, standing: tuple[Problem, ...], avoided: tuple[Problem, ...]
-) -> Iterator[_Space]:
-    if domain is None and standing:
-        yield _of_numbers(_limited(_hull(standing, REACH), gate), standing, avoided)
-    for table in domain.of_quantity(gate.quantity) if domain and standing else ():
-        box = _limited({name: table.ends(name) for name in REACH}, gate)
-        yield _of_numbers(box, tuple(case for case in standing if table.within(case.numbers)), avoided)
+def _rounded(value: float, ends: tuple[float, float]) -> float:
+    return min(max(float(f"{value:.{_DIGITS}g}"), ends[0]), ends[1])
 
 
-def _of_numbers(box: _Box, standing: tuple[Problem, ...], avoided: tuple[Problem, ...]) -> _Space:
-    return _Space(box, REACH, standing, avoided, lambda point: Problem.dimensionless(**point))
-
-
-def _spaces_of_files(standing: Sequence[Problem]) -> Iterator[_Space]:
-    """Yield the space of each file, and of each combination of its varied keys that are no numbers."""
-    groups: dict[tuple[object, ...], list[Problem]] = {}
-    for case in standing:
-        if not case.is_dimensionless:
-            words = [value for value in case.parameters.values() if isinstance(value, str)]
-            groups.setdefault((split_name(case.name)[0], *case.parameters, *words), []).append(case)
-    for _, group in sorted(groups.items(), key=lambda item: str(item[0])):
-        hull = _hull(group, [name for name, value in group[0].parameters.items() if not isinstance(value, str)])
-        box = {name: ends for name, ends in hull.items() if ends[0] < ends[1]}
-        yield _Space(box, box, tuple(group), tuple(group), partial(_varied, group[0]))
-
-
-def _varied(like: Problem, point: Mapping[str, float]) -> Problem:
+def _problem_at(like: Problem, point: Mapping[str, float]) -> Problem:
+    if like.path is None:
+        return Problem.dimensionless(**point)
     texts = []
     for column, value in {**like.parameters, **point}.items():
         key, unit = unit_in(column)
         texts.append(f"{key}={value}" if isinstance(value, str) or unit == "1" else f"{key}={value!r} {unit}")
-    path, name = like.path or Path(), split_name(like.name)[0]
-    (problem,) = problems_of(path, [parse_variation(text) for text in texts], name)
+    (problem,) = problems_of(like.path, [parse_variation(text) for text in texts], split_name(like.name)[0])
     return problem
 
 
-def _admissible(space: _Space, points: list[dict[str, float]]) -> Iterator[Problem]:
-    for point in points:
-        try:
-            yield space.problem_at(point)
-        except ValueError:
-            # Two keys may exclude each other, as the thickness of a coating and that of its transition.
-            continue
-
-
-def _shares(spaces: Sequence[_Space], count: int, seed: list[int]) -> list[int]:
-    """Return how many cases each space gets: the more, the more standing cases it has; by systematic sampling."""
-    weights = np.cumsum([0, *(1 + len(space.standing) for space in spaces)])
+def _shares(sizes: Sequence[int], count: int, seed: list[int]) -> list[int]:
+    """Return how many cases each box gets: the more, the more standing cases it has; by systematic sampling."""
+    weights = np.cumsum([0, *(1 + size for size in sizes)])
     shifted = np.floor(np.random.default_rng(seed).random() + count * weights / max(weights[-1], 1))
     return [int(share) for share in np.diff(shifted)]
-
-
-def _hull(cases: Sequence[Problem], names: Iterable[str]) -> dict[str, tuple[float, float]]:
-    values = {name: [float(case.parameters[name]) for case in cases] for name in names}
-    return {name: (min(numbers), max(numbers)) for name, numbers in values.items()}
-
-
-def _limited(box: _Box, gate: Gate) -> _Box:
-    """Return the part of a box that the gate is about and in which fresh cases are drawn."""
-    limits = {name: [reach, box.get(name, reach), gate.cases.get(name, reach)] for name, reach in REACH.items()}
-    return {name: (max(low for low, _ in ends), min(high for _, high in ends)) for name, ends in limits.items()}

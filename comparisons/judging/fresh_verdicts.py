@@ -12,7 +12,6 @@ from comparisons.judging.card_gates import verdict_on_model
 from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import RANDOM, Undrawn
 from comparisons.judging.judge import verdict_table
-from comparisons.runs.case_columns import with_problem
 
 __all__ = ["WORSE", "compare_with_standing", "judge_undrawn"]
 
@@ -30,13 +29,11 @@ def judge_undrawn(undrawn: Iterable[Undrawn]) -> pd.DataFrame:
     >>> table[["gate", "verdict"]].astype(str).values.tolist()
     [['A-RANDOM', 'INCONCLUSIVE']]
     """
-    judged = [
-        verdict_on_model(
-            f"{gate.gate}{RANDOM}", gate.candidate, Verdict.INCONCLUSIVE, gate.reason, quantity=gate.quantity
-        )
-        for gate in undrawn
-    ]
-    return verdict_table(judged)
+    of_gates = ((f"{gate.gate}{RANDOM}", gate.candidate, gate.reason, gate.quantity) for gate in undrawn)
+    return verdict_table(
+        verdict_on_model(id, candidate, Verdict.INCONCLUSIVE, reason, quantity=quantity)
+        for id, candidate, reason, quantity in of_gates
+    )
 
 
 def compare_with_standing(verdicts: pd.DataFrame, fresh: pd.DataFrame) -> pd.DataFrame:
@@ -47,19 +44,16 @@ def compare_with_standing(verdicts: pd.DataFrame, fresh: pd.DataFrame) -> pd.Dat
     verdicts, fresh : DataFrame
         Of the standing and of the fresh cases, as of `comparisons.judging.judge.judge`.
     """
-    failures = [
-        verdict_on_model(str(id), str(candidate), Verdict.FAIL, reason, quantity=str(new["quantity"].iloc[0]))
-        for (id, candidate), new in fresh.groupby(["gate", "candidate"], sort=False)
-        if (reason := _between(_of(verdicts, str(id).removesuffix(RANDOM), candidate), new))
-    ]
+    failures = []
+    for (id, candidate), rows in fresh.groupby(["gate", "candidate"], sort=False):
+        is_standing = (verdicts["gate"] == id.removesuffix(RANDOM)) & (verdicts["candidate"] == candidate)
+        if reason := _difference(verdicts[is_standing], rows):
+            quantity = str(rows["quantity"].iloc[0])
+            failures.append(verdict_on_model(id, candidate, Verdict.FAIL, reason, quantity=quantity))
     return verdict_table(failures)
 
 
-def _of(verdicts: pd.DataFrame, id: str, candidate: object) -> pd.DataFrame:
-    return verdicts[(verdicts["gate"] == id) & (verdicts["candidate"] == candidate)]
-
-
-def _between(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
+def _difference(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
     """Return how a model that is right in the standing cases is wrong in fresh ones; nothing if it is not."""
     right, new = (table[table["error"].notna()] for table in (standing, fresh))
     if right.empty or set(right["verdict"]) != {Verdict.PASS}:
@@ -71,24 +65,21 @@ def _between(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
             f"it has a value in {len(right)} standing cases, and in {len(new)} of the {len(evaluated)} fresh ones: it "
             "knows the standing cases only"
         )
-    if new.empty:
-        return ""
-    wrong = new[new["verdict"] == Verdict.FAIL]
-    between = pd.Series(True, index=new.index)
-    for name in ("n", "k", "mu"):
-        between &= new[name].between(right[name].min(), right[name].max())
-    # Those of problem files are drawn between the standing ones.
-    between |= with_problem(new)["problem"].fillna("") != ""
-    largest, certain = _errors(right), _errors(new[between])
+    # Fresh cases of problem files are drawn between the standing ones, and have no n, k and mu.
+    ranges = {name: (right[name].min(), right[name].max()) for name in ("n", "k", "mu")}
+    between = pd.concat([new[name].between(*ends) | new[name].isna() for name, ends in ranges.items()], axis=1).all(
+        axis=1
+    )
+    beyond, largest, certain = new["verdict"] == Verdict.FAIL, _errors(right), _errors(new[between])
     # What is certain of the error of a fresh case, against the most that the error of a standing one can be.
     much_worse = len(certain) > 0 and _is_much_worse(largest, certain)
-    if wrong.empty and not much_worse:
+    if not beyond.any() and not much_worse:
         return ""
-    where = "between them" if much_worse or between[wrong.index].any() else "elsewhere in its domain"
-    beyond = f", beyond the limits in {len(wrong)}" if len(wrong) else ""
+    where = "between them" if much_worse or between[beyond].any() else "elsewhere in its domain"
     return (
         f"right at the standing cases and wrong {where}: the error is at most {largest[:, 0].max():.2g} in "
-        f"{len(right)} standing cases and {_errors(new)[:, 0].max():.2g} in {len(new)} fresh ones{beyond}"
+        f"{len(right)} standing cases and {_errors(new)[:, 0].max():.2g} in {len(new)} fresh ones"
+        + (f", beyond the limits in {beyond.sum()}" if beyond.any() else "")
     )
 
 

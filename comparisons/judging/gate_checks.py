@@ -49,27 +49,23 @@ def defects(gate: Gate) -> Iterator[str]:
     yield from _of_models(gate)
     yield from _of_limits(gate)
     yield from _of_uncertainties(gate)
-    yield from _of_worst_measured(gate)
-    yield from _of_measured_range(gate)
-    try:
-        Problem.dimensionless(2.0, 0.0, 1.0).at(gate.reference_at)
-    except ValueError as refusal:
-        yield f"reference_at: {refusal}"
+    yield from _of_measurement(gate)
 
 
 def _of_models(gate: Gate) -> Iterator[str]:
     if gate.rival and gate.metric in ("en", "curve"):
         yield f"the metric {gate.metric} compares with no rival; state rel, abs or range-relative"
     elsewhere = any(gate.cases.get(name) != [value, value] for name, value in gate.reference_at.items())
-    if gate.candidate == gate.reference and not elsewhere:
+    same = {role for role, model in gate.models.items() if model == gate.candidate} - {"candidate"}
+    for role in sorted(same - {"reference"} if elsewhere else same):
         yield (
-            f"candidate and reference are both {gate.candidate!r} in the same cases, so that the error is always 0 and "
-            "the gate cannot fail; name another reference, or other parameters in reference_at"
+            f"candidate and {role} are both {gate.candidate!r} in the same cases, so that the gate cannot fail; name "
+            f"another {role}" + (", or other parameters in reference_at" if role == "reference" else "")
         )
-    if gate.candidate == gate.rival:
-        yield (
-            f"candidate and rival are both {gate.candidate!r}, so that the gate compares nothing; name another rival"
-        )
+    try:
+        Problem.dimensionless(2.0, 0.0, 1.0).at(gate.reference_at)
+    except ValueError as refusal:
+        yield f"reference_at: {refusal}"
 
 
 def _of_limits(gate: Gate) -> Iterator[str]:
@@ -79,11 +75,10 @@ def _of_limits(gate: Gate) -> Iterator[str]:
         yield f"{_limits(gate)} must be -inf and a positive number: a distance has no lower limit"
     largest = _LARGEST_LIMIT.get(gate.metric, _LARGEST_OTHER_LIMIT)
     for name, limit in (("lower", gate.lower), ("upper", gate.upper)):
-        if math.isfinite(limit) and abs(limit) > largest:
+        if largest < abs(limit) < math.inf:
             yield (
                 f"{name} = {exact(limit)} is beyond {largest:g} in size, the largest limit of the metric "
-                f"{gate.metric}: no model would fail; state a smaller limit, or {name} = {'-' * (name == 'lower')}inf "
-                "for none"
+                f"{gate.metric}: no model would fail; state a smaller one, or {math.copysign(math.inf, limit)} for none"
             )
 
 
@@ -103,27 +98,23 @@ def _of_uncertainties(gate: Gate) -> Iterator[str]:
             )
 
 
-def _of_worst_measured(gate: Gate) -> Iterator[str]:
-    worst = gate.worst_measured
-    if (gate.basis == "measured" or gate.measured_range is not None) != (worst is not None):
+def _of_measurement(gate: Gate) -> Iterator[str]:
+    worst, measured = gate.worst_measured, gate.measured_range
+    if (gate.basis == "measured" or measured is not None) != (worst is not None):
         yield "a measured basis or a measured_range, and nothing else, states its worst_measured"
     elif worst is not None and (gate.lower <= worst <= gate.upper) is not (gate.expected_failure is None):
         yield (
             f"worst_measured = {exact(worst)} must be within {_limits(gate)}, or beyond them with expected_failure: "
             "correct one of them"
         )
-
-
-def _of_measured_range(gate: Gate) -> Iterator[str]:
-    if gate.measured_range is None:
-        if gate.expected_failure is not None:
-            yield (
-                "expected_failure needs measured_range = [low, high], the errors that were measured: without it every "
-                "wrong value would be accepted as the known failure"
-            )
+    if measured is None and gate.expected_failure is not None:
+        yield (
+            "expected_failure needs measured_range = [low, high], the errors that were measured: without it every "
+            "wrong value would be accepted as the known failure"
+        )
+    if measured is None or worst is None:
         return
-    low, high = gate.measured_range
-    worst = gate.worst_measured or 0.0
+    low, high = measured
     if not low <= worst <= high or max(abs(low), abs(high)) > LARGEST_MARGIN * abs(worst):
         yield (
             f"measured_range = [{exact(low)}, {exact(high)}] must contain worst_measured = {exact(worst)} and reach at "

@@ -6,7 +6,6 @@ checked by the schema ``comparisons/data/gates.schema.json``, the rest by `compa
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from importlib.resources import files
@@ -114,6 +113,18 @@ class Gate:
     min_coverage: float | None = None
     expected_failure: str | None = None
 
+    @property
+    def models(self) -> dict[str, str]:
+        """Names of the candidate, the reference and, if there is one, the rival, by their roles.
+
+        Examples
+        --------
+        >>> load_gates(gates_text())[0].models
+        {'candidate': 'fem', 'reference': 'fscm'}
+        """
+        models = {"candidate": self.candidate, "reference": self.reference}
+        return models if self.rival is None else {**models, "rival": self.rival}
+
     def selects(self, grid: Grid, case: Problem) -> bool:
         """Whether a case of a grid is one of the gate's; tags name grids, or properties of them.
 
@@ -123,9 +134,9 @@ class Gate:
         >>> gate.selects(Grid("a", "A", "quick", "b", (), (), ()), Problem.dimensionless(2, 0, 1))
         False
         """
-        if not {grid.id, *grid.tags} & set(self.cases.get("tags", [grid.id])):
-            return False
-        return (case.is_dimensionless or not self.reference_at) and has_parameters(case, self.cases)
+        is_tagged = bool({grid.id, *grid.tags} & set(self.cases.get("tags", [grid.id])))
+        has_reference = not self.reference_at or case["mu"] is not None
+        return is_tagged and has_reference and has_parameters(case, self.cases)
 
     def reference_case(self, case: Problem) -> Problem:
         """Return the case in which the reference is taken."""
@@ -161,15 +172,14 @@ def load_gates(text: str, models: Iterable[str] = (), source: str = "the gates f
     """
     tables = parse(text, source)
     validated(tables, "gates", source)
-    shared = {
-        name: plain_text(name, grounds, f"{source}: grounds") for name, grounds in tables.get("grounds", {}).items()
-    }
+    grounds = tables.get("grounds", {})
+    shared = {name: plain_text(name, text, f"{source}: grounds") for name, text in grounds.items()}
     gates = [
         _gate(table, f"{source}: {label('gate', table, number)}", {*MODELS, *models}, shared)
         for number, table in enumerate(tables["gate"], start=1)
     ]
-    counts = Counter(gate.id for gate in gates)
-    if repeated := sorted(id for id, count in counts.items() if count > 1):
+    ids = [gate.id for gate in gates]
+    if repeated := sorted({id for id in ids if ids.count(id) > 1}):
         raise ValueError(f"{source}: the id of a gate must be unique; {', '.join(repeated)} is there twice")
     if unused := sorted(shared.keys() - {table.get("shared_grounds") for table in tables["gate"]}):
         raise ValueError(
@@ -179,21 +189,18 @@ def load_gates(text: str, models: Iterable[str] = (), source: str = "the gates f
 
 
 def _gate(table: dict[str, Any], where: str, models: set[str], shared: Mapping[str, str]) -> Gate:
-    table = dict(table)
-    name = table.pop("shared_grounds", None)
-    if (name is None) == ("grounds" not in table):
+    if ("shared_grounds" in table) == ("grounds" in table):
         raise ValueError(f"{where}: a gate needs either grounds, one sentence, or shared_grounds, a name in [grounds]")
-    if name is not None:
+    table = table | {"cases": in_si_units(table["cases"], where)}
+    if name := table.pop("shared_grounds", None):
         known_name("shared grounds", name, shared, where)
         table["grounds"] = shared[name]
     if "measured_range" in table:
         table["measured_range"] = tuple(map(float, table["measured_range"]))
-    table["cases"] = in_si_units(table["cases"], where)
     gate = Gate(**table | {key: plain_text(key, table[key], where) for key in _TEXTS if key in table})
-    for key in ("candidate", "reference", "rival"):
-        model = getattr(gate, key)
-        if model is not None and not (key == "candidate" and model == GIVEN):
-            known_name(key, model, sorted(models), where)
+    for role, model in gate.models.items():
+        if (role, model) != ("candidate", GIVEN):
+            known_name(role, model, sorted(models), where)
     quantities = CURVES if gate.metric == "curve" else QUANTITIES
     known_name(f"quantity of the metric {gate.metric}", gate.quantity, quantities, where)
     for defect in defects(gate):

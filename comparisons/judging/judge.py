@@ -16,19 +16,25 @@ from comparisons.domain import Domain
 from comparisons.judging.decision import Verdict, crossing, decide, expecting_failure
 from comparisons.judging.gates import Gate
 from comparisons.judging.metrics import CaseError, case_error, reference_range
-from comparisons.judging.selection import cases_of, key_of, names_in, relevant
-from comparisons.judging.stored_results import StoredResults, UnusableResult, stored_curves, stored_numbers
+from comparisons.judging.selection import cases_of, promised, relevant
+from comparisons.judging.stored_results import CURVE, NUMBER, GateResults, StoredResults, UnusableResult
 from comparisons.numerics.number_text import exact
 from comparisons.problem import Problem
 from comparisons.runs.case_columns import without_empty_problem
 from comparisons.runs.cases import Grid
 from comparisons.runs.rows import Key
-from comparisons.runs.tasks import Task, problem_for
+from comparisons.runs.tasks import plan, problem_for
 
 __all__ = ["NO_EVENT", "OUTSIDE", "Judged", "judge", "verdict_table"]
 
 #: What to change in a gate with a case to which a model does not apply.
 _REMEDY = 'name the cases it applies to in the gate, e.g. cases = { k = [0, 0] }, or state not_applicable = "leave-out"'
+
+#: The status of a case that is not in the domain of the candidate.
+OUTSIDE = "outside"
+
+#: The status of a case in which neither the candidate nor the reference has a value: there is no such event.
+NO_EVENT = "no-event"
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,13 +66,6 @@ class Judged:
     reason: str = ""
     status: str = ""
     problem: str = ""
-
-
-#: The status of a case that is not in the domain of the candidate.
-OUTSIDE = "outside"
-
-#: The status of a case in which neither the candidate nor the reference has a value: there is no such event.
-NO_EVENT = "no-event"
 
 
 def judge(
@@ -102,13 +101,14 @@ def judge(
         The fields of `Judged`, one row a gate and case, in the order of the gates, then of the cases.
     """
     judged_gates = relevant(gates, grids, models)
-    expected = _planned(judged_gates, grids, models) | {*others}
-    numbers = stored_numbers(rows, names_in(gate for gate in judged_gates if gate.metric != "curve"))
-    points = stored_curves(curves, names_in(gate for gate in judged_gates if gate.metric == "curve"))
+    declared = {task.key for task in plan(grids, None if models is None else list(models))} | {*others}
+    of_curves = [gate for gate in judged_gates if gate.metric == "curve"]
+    numbers = StoredResults(rows, NUMBER, [gate for gate in judged_gates if gate not in of_curves])
+    points = StoredResults(curves, CURVE, of_curves)
     judged: list[Judged] = []
     for gate in judged_gates:
-        results, domain = points if gate.metric == "curve" else numbers, (domains or {}).get(gate.candidate)
-        judged += _judge_gate(gate, cases_of(gate, grids, models), results, expected, domain)
+        results, cases = points if gate in of_curves else numbers, cases_of(gate, grids, models)
+        judged += _judge_gate(gate, cases, results, declared, (domains or {}).get(gate.candidate))
     return verdict_table(judged)
 
 
@@ -117,34 +117,22 @@ def verdict_table(judged: Iterable[Judged]) -> pd.DataFrame:
     return without_empty_problem(pd.DataFrame([asdict(row) for row in judged], columns=list(Judged.__slots__)))
 
 
-def _planned(gates: Collection[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> set[Key]:
-    """Return the keys of the declared cases, of the candidates and quantities of some gates."""
-    candidates = {gate.candidate for gate in gates}
-    quantities = {gate.quantity for gate in gates}
-    return {
-        Task(model, quantity, case).key
-        for grid in grids
-        for model in candidates.intersection((grid.reference, *(models or grid.models)))
-        for quantity in quantities.intersection(grid.quantities)
-        for case in (problem_for(model, declared) for declared in grid.cases)
-    }
-
-
 def _judge_gate(
-    gate: Gate, cases: Sequence[Problem], results: StoredResults, expected: set[Key], domain: Domain | None
+    gate: Gate, cases: Sequence[Problem], stored: StoredResults, declared: set[Key], domain: Domain | None
 ) -> Iterator[Judged]:
-    if results.missing_columns:
-        yield _whole(gate, f"the results have no column {', '.join(results.missing_columns)}")
+    if stored.missing_columns:
+        yield _whole(gate, f"the results have no column {', '.join(stored.missing_columns)}")
         return
-    scale = reference_range(gate, cases, results)
-    judged = [_judge_case(gate, case, results, scale, domain) for case in cases]
+    results = GateResults(gate, stored.rows)
+    scale = reference_range(results, cases)
+    judged = [_judge_case(results, case, scale, domain) for case in cases]
     yield from judged
     if refusal := _refusal(gate, judged):
         yield replace(_whole(gate, refusal), verdict=Verdict.FAIL)
     evaluated = sum(case.verdict is not Verdict.NOT_APPLICABLE for case in judged)
     if evaluated < gate.min_cases:
         yield _whole(gate, f"{evaluated} cases were evaluated, {gate.min_cases} are declared")
-    stray = [key for key in results.rows if key[:2] == (gate.candidate, gate.quantity) and key not in expected]
+    stray = [key for key in stored.rows if key[:2] == (gate.candidate, gate.quantity) and key not in declared]
     if stray:
         yield _whole(gate, f"{len(stray)} rows belong to cases that are not declared, e.g. {stray[0][2:]}")
 
@@ -161,38 +149,36 @@ def _refusal(gate: Gate, judged: Sequence[Judged]) -> str:
     )
 
 
-def _judge_case(gate: Gate, case: Problem, results: StoredResults, scale: float, domain: Domain | None) -> Judged:
-    evaluated, status = problem_for(gate.candidate, case), results.status(key_of(gate.candidate, gate, case))
-    numbers = evaluated.numbers if evaluated.is_dimensionless else {}
-    outside = domain is not None and numbers != {} and not domain.contains(gate.quantity, numbers)
-    # A list of cases has no others, and the domain has no problem of a file.
-    unlisted = domain is not None and (domain.is_list or not evaluated.is_dimensionless) and status == "not-applicable"
-    n, k, mu, nu, name = evaluated.key
-    judged = replace(_whole(gate, ""), n=n, k=k, mu=mu, nu=nu, problem=name)
-    judged = replace(judged, status=OUTSIDE if outside or unlisted else status)
+def _judge_case(results: GateResults, case: Problem, scale: float, domain: Domain | None) -> Judged:
+    gate = results.gate
+    evaluated, status = problem_for(gate.candidate, case), results.status("candidate", case)
+    is_inside = promised(domain, gate.quantity, evaluated)
+    if is_inside is False or (domain is not None and is_inside is None and status == "not-applicable"):
+        status = OUTSIDE
+    n, k, mu, nu, problem = evaluated.key
+    judged = replace(_whole(gate, ""), n=n, k=k, mu=mu, nu=nu, problem=problem, status=status)
+    if domain is not None and is_inside is False:
+        return replace(judged, verdict=Verdict.NOT_APPLICABLE, reason=domain.refusal(gate.quantity))
     try:
-        if domain is not None and outside:
-            raise UnusableResult(Verdict.NOT_APPLICABLE, domain.refusal(gate.quantity))
-        error = case_error(gate, case, results, scale)
+        error = case_error(results, case, scale)
     except UnusableResult as unusable:
-        reference = results.status(key_of(gate.reference, gate, gate.reference_case(case)))
-        return _without_error(gate, judged, unusable, domain is not None, reference)
+        return _without_error(judged, unusable, results, case, is_failure=is_inside and status == "not-applicable")
     verdict, reason = _decided(gate, error)
-    facts = error.facts | {"error": error.error, "uncertainty": error.uncertainty}
-    return replace(judged, **facts, verdict=verdict, reason=reason)
+    return replace(
+        judged, **error.facts, error=error.error, uncertainty=error.uncertainty, verdict=verdict, reason=reason
+    )
 
 
 def _without_error(
-    gate: Gate, judged: Judged, unusable: UnusableResult, has_domain: bool, status_of_reference: str
+    judged: Judged, unusable: UnusableResult, results: GateResults, case: Problem, *, is_failure: bool | None
 ) -> Judged:
     """Return the verdict on a case in which the candidate or a model that it is compared with has no usable result."""
     verdict, reason, status = unusable.verdict, unusable.reason, judged.status
-    if has_domain and status == "not-applicable":
-        if status_of_reference == "not-applicable":
-            verdict, status, reason = Verdict.NOT_APPLICABLE, NO_EVENT, f"{reason}; as the reference"
-        else:
-            verdict, reason = Verdict.FAIL, f"{reason} (inside the domain that the model declares)"
-    elif verdict is Verdict.NOT_APPLICABLE and gate.not_applicable == "error":
+    if is_failure and results.status("reference", case) == "not-applicable":
+        verdict, status, reason = Verdict.NOT_APPLICABLE, NO_EVENT, f"{reason}; as the reference"
+    elif is_failure:
+        verdict, reason = Verdict.FAIL, f"{reason} (inside the domain that the model declares)"
+    elif verdict is Verdict.NOT_APPLICABLE and results.gate.not_applicable == "error":
         verdict, reason = Verdict.ERROR, f"{reason} ({_REMEDY})"
     return replace(judged, verdict=verdict, status=status, reason=reason)
 
@@ -204,7 +190,7 @@ def _decided(gate: Gate, case: CaseError) -> tuple[Verdict, str]:
     if verdict is Verdict.ERROR:
         return verdict, f"the error {error:g} +- {case.uncertainty:g} is not a finite number"
     if verdict is Verdict.INCONCLUSIVE:
-        shares = {f"the {role} {getattr(gate, role)}": u for role, u in case.shares.items()}
+        shares = {f"the {role} {gate.models[role]}": u for role, u in case.shares.items()}
         reason = crossing(error, case.uncertainty, gate.lower, gate.upper, shares)
     elif verdict is Verdict.PASS and (reason := _too_uncertain(gate, case)):
         verdict = Verdict.INCONCLUSIVE
@@ -222,14 +208,11 @@ def _decided(gate: Gate, case: CaseError) -> tuple[Verdict, str]:
 def _too_uncertain(gate: Gate, case: CaseError) -> str:
     """Return whose uncertainty is larger than the gate tolerates, with the numbers; empty if none is."""
     unit = " of the reference's value" if gate.metric in ("rel", "en") else ""
-    uncertainties = {
-        "candidate": (case.u_candidate, gate.max_candidate_uncertainty),
-        "reference": (case.u_reference, gate.max_reference_uncertainty),
-    }
+    limits = {"candidate": gate.max_candidate_uncertainty, "reference": gate.max_reference_uncertainty}
     return "; ".join(
-        f"u of the {role} {getattr(gate, role)} is {u:.6g}{unit}; the gate tolerates {exact(limit)}"
-        for role, (u, limit) in uncertainties.items()
-        if limit is not None and u > limit
+        f"u of the {role} {gate.models[role]} is {case.bounds[role]:.6g}{unit}; the gate tolerates {exact(limit)}"
+        for role, limit in limits.items()
+        if limit is not None and case.bounds[role] > limit
     )
 
 

@@ -33,9 +33,8 @@ def card_lines(
         The domain that it declares.
     """
     rows_of_model = verdicts[verdicts["candidate"] == name]
-    lines = [
-        ("domain", "it declares none (applies_to), and is evaluated in every case" if domain is None else str(domain))
-    ]
+    stated = "it declares none (applies_to), and is evaluated in every case" if domain is None else str(domain)
+    lines = [("domain", stated)]
     for gate, rows in without_card_gates(rows_of_model).groupby("gate", sort=False):
         covered = coverage_text(coverage(rows["status"]))
         lines.append((str(gate), f"{roll_up(rows['verdict'])}" + (f", a value in {covered}" if covered else "")))
@@ -45,22 +44,21 @@ def card_lines(
 def _checks(card: Mapping[str, Any], rows_of_model: pd.DataFrame) -> list[tuple[str, str]]:
     again = "nothing: data do not change" if card["kind"] == "data" else "it has no value"
     if repeated := card.get("repeated"):
-        count = len(repeated["cases"])
-        again = repeated["cause"] or f"{count} results are the same in a new process and in another order"
-    findings = card["check_model"]
+        same = f"{len(repeated['cases'])} results are the same in a new process and in another order"
+        again = repeated["cause"] or same
+    reasons = [*rows_of_model.loc[rows_of_model["gate"] == DIFFERS, "reason"], "compared with no reference"]
+    statuses = [finding["status"] for finding in card["check_model"]]
     wrong = [
-        f"{finding['check']}: {finding['text']}" for finding in findings if finding["status"] in ("wrong", "failed")
+        f"{finding['check']}: {finding['text']}"
+        for finding in card["check_model"]
+        if finding["status"] in ("wrong", "failed")
     ]
-    kept = sum(finding["status"] == "ok" for finding in findings)
-    words = f"kept: {kept} of {kept + len(wrong)} checks" + (f"; not kept: {'; '.join(wrong)}" if wrong else "")
-    return [("evaluated again", again), ("digits", _digits(rows_of_model)), ("check-model", words)]
-
-
-def _digits(rows_of_model: pd.DataFrame) -> str:
-    judged = rows_of_model[rows_of_model["gate"] == DIFFERS]
-    if judged.empty:
-        return "compared with no reference"
-    return str(judged["reason"].iloc[0]) or "not those of the reference"
+    kept = f"kept: {statuses.count('ok')} of {statuses.count('ok') + len(wrong)} checks"
+    return [
+        ("evaluated again", again),
+        ("digits", reasons[0] or "not those of the reference"),
+        ("check-model", "; not kept: ".join([kept, *(["; ".join(wrong)] if wrong else [])])),
+    ]
 
 
 def verdict_sentence(name: str, verdicts: pd.DataFrame) -> str:
@@ -75,33 +73,34 @@ def verdict_sentence(name: str, verdicts: pd.DataFrame) -> str:
     if set(without_card_gates(rows_of_model)["verdict"]) <= {Verdict.NOT_APPLICABLE}:
         return "no gate was evaluated"
     verdict = overall(rows_of_model)
-    copied = list(
-        rows_of_model.loc[(rows_of_model["gate"] == DIFFERS) & (rows_of_model["verdict"] != Verdict.PASS), "reason"]
-    )
+    is_copied = (rows_of_model["gate"] == DIFFERS) & (rows_of_model["verdict"] != Verdict.PASS)
+    copied = list(rows_of_model.loc[is_copied, "reason"])
     if copied and verdict is Verdict.INCONCLUSIVE:
         return f"INCONCLUSIVE: {copied[0]}"
     return "; and ".join([f"{verdict}: {_reason(rows_of_model, verdict)}", *copied])
 
 
 def _reason(rows_of_model: pd.DataFrame, verdict: Verdict) -> str:
+    judged = without_card_gates(rows_of_model[rows_of_model["error"].notna()])
     if verdict is Verdict.PASS:
-        judged = without_card_gates(rows_of_model[rows_of_model["error"].notna()])
         return f"it is within the limits in all {len(judged)} judged cases"
     worst = rows_of_model[rows_of_model["verdict"] == verdict]
-    changed = worst[worst["gate"] == SAME_AGAIN]
-    if len(changed) and verdict is Verdict.FAIL:
-        return f"it gives another number when it is evaluated again: {changed['reason'].iloc[0]}"
     if verdict is not Verdict.FAIL:
         return str(worst["reason"].iloc[0]) or f"{len(worst)} of {len(rows_of_model)} cases"
+    changed = worst.loc[worst["gate"] == SAME_AGAIN, "reason"]
+    if len(changed):
+        return f"it gives another number when it is evaluated again: {changed.iloc[0]}"
     of_gates = worst[worst["n"].isna() & (with_problem(worst)["problem"] == "")]
-    standing = ~of_gates["gate"].str.endswith(RANDOM)
     if len(of_gates):
-        return str((of_gates[standing] if standing.any() else of_gates)["reason"].iloc[0 if standing.any() else -1])
-    refused = worst[worst["status"] == "not-applicable"]
+        # On the standing cases before that on the fresh ones.
+        return str(
+            of_gates.sort_values("gate", key=lambda ids: ids.str.endswith(RANDOM), kind="stable")["reason"].iloc[0]
+        )
+    refused = worst.loc[worst["status"] == "not-applicable", "gate"]
     if len(refused):
-        count = coverage(rows_of_model.loc[rows_of_model["gate"].isin(refused["gate"]), "status"])["asked"]
+        count = coverage(rows_of_model.loc[rows_of_model["gate"].isin(refused), "status"])["asked"]
         return f"it is not applicable in {len(refused)} of the {count} cases of the domain that it declares"
-    worst, judged = without_card_gates(worst), without_card_gates(rows_of_model[rows_of_model["error"].notna()])
+    worst = without_card_gates(worst)
     largest = worst.loc[worst["error"].astype(float).abs().idxmax()]
     return (
         f"its error is beyond the limits in {len(worst)} of {len(judged)} cases, "

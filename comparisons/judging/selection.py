@@ -11,9 +11,9 @@ from comparisons.judging.gates import GIVEN, Gate, load_gates, of_tier
 from comparisons.problem import Problem
 from comparisons.runs.cases import Grid
 from comparisons.runs.rows import Key
-from comparisons.runs.tasks import Task, plan, problem_for
+from comparisons.runs.tasks import plan, problem_for
 
-__all__ = ["cases_of", "key_of", "load_user_gates", "names_in", "needed_keys", "relevant", "skipped_gates"]
+__all__ = ["cases_of", "key_of", "load_user_gates", "needed_keys", "promised", "relevant", "skipped_gates"]
 
 
 def relevant(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> list[Gate]:
@@ -40,39 +40,36 @@ def relevant(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str]
 
 def cases_of(gate: Gate, grids: Sequence[Grid], models: Collection[str] | None) -> list[Problem]:
     """Return the cases that the candidate of a gate computes and the gate selects, sorted."""
-    cases = {
-        case
+    computed = (
+        grid
         for grid in grids
         if gate.quantity in grid.quantities
-        and gate.candidate in {*(models if models is not None else grid.models), grid.reference}
-        for case in grid.cases
-        if gate.selects(grid, case)
-    }
-    return sorted(cases)
+        and gate.candidate in {*(grid.models if models is None else models), grid.reference}
+    )
+    return sorted({case for grid in computed for case in grid.cases if gate.selects(grid, case)})
 
 
-def key_of(model: str, gate: Gate, case: Problem) -> Key:
-    """Return the key of the result of a model that a gate uses in a case."""
-    evaluated = problem_for(model, case)
-    return Task(model, gate.quantity, evaluated).key
+def key_of(gate: Gate, role: str, case: Problem) -> Key:
+    """Return the key of the result that a gate takes from its "candidate", "reference" or "rival" in a case."""
+    model = gate.models[role]
+    problem = problem_for(model, gate.reference_case(case) if role == "reference" else case)
+    return model, gate.quantity, *problem.key
 
 
-def names_in(gates: Iterable[Gate]) -> set[tuple[str, str]]:
-    """Return model and quantity of the results that gates compare.
+def promised(domain: Domain | None, quantity: str, case: Problem) -> bool | None:
+    """Whether a quantity is inside a domain in a case; None where the domain does not state it.
+
+    It does not where it is a list of cases that the model itself has, or where n, k and mu do not state the problem.
 
     Examples
     --------
-    >>> from comparisons.judging.gates import gates_text
-    >>> gate = next(gate for gate in load_gates(gates_text()) if gate.rival)
-    >>> names_in([gate]) == {(model, gate.quantity) for model in (gate.candidate, gate.reference, gate.rival)}
-    True
+    >>> domain = Domain.of({"quantities": ["pull_off_force"], "n": [2, 2]})
+    >>> promised(domain, "pull_off_force", Problem.dimensionless(1, 0, 1))
+    False
     """
-    return {
-        (model, gate.quantity)
-        for gate in gates
-        for model in (gate.candidate, gate.reference, gate.rival)
-        if model is not None
-    }
+    if domain is None or domain.is_list or not case.is_of_the_paper:
+        return None
+    return domain.contains(quantity, case.numbers)
 
 
 def needed_keys(
@@ -101,27 +98,26 @@ def needed_keys(
     --------
     >>> from comparisons.judging.gates import gates_text
     >>> from comparisons.runs.cases import grids
-    >>> first = needed_keys(load_gates(gates_text()), grids("quick"), ["dmt"], {})
-    >>> {key[0] for key in first}, len(first)
+    >>> of_candidate = needed_keys(load_gates(gates_text()), grids("quick"), ["dmt"], {})
+    >>> {key[0] for key in of_candidate}, len(of_candidate)
     ({'dmt'}, 192)
-    >>> second = needed_keys(load_gates(gates_text()), grids("quick"), ["dmt"], {sorted(first)[0]: "ok"})
-    >>> second - first
+    >>> statuses = {sorted(of_candidate)[0]: "ok"}
+    >>> needed_keys(load_gates(gates_text()), grids("quick"), ["dmt"], statuses) - of_candidate
     {('fscm', 'pull_off_force', 1.0, 0.0, 0.01, None, '')}
     """
     needed: set[Key] = set()
-    named: set[str] = set()
+    compared: set[str] = set()
     for gate in relevant(gates, grids, models):
+        domain = (domains or {}).get(gate.candidate)
         for case in cases_of(gate, grids, models):
-            named |= {gate.candidate, gate.reference} | ({gate.rival} if gate.rival else set())
-            candidate = key_of(gate.candidate, gate, case)
-            needed.add(candidate)
-            status, domain = statuses.get(candidate), (domains or {}).get(gate.candidate)
-            promised = domain is not None and not domain.is_list and domain.contains(gate.quantity, case.parameters)
+            compared |= set(gate.models.values())
+            keys = {role: key_of(gate, role, case) for role in gate.models}
+            status = statuses.get(keys["candidate"])
+            is_failure = status == "not-applicable" and promised(domain, gate.quantity, case)
             # The range of the reference is over all cases.
-            if status == "ok" or (status == "not-applicable" and promised) or gate.metric == "range-relative":
-                needed.add(key_of(gate.reference, gate, gate.reference_case(case)))
-                needed |= {key_of(gate.rival, gate, case)} if gate.rival else set()
-    if unjudged := [model for model in models or () if model not in named]:
+            has_error = status == "ok" or is_failure or gate.metric == "range-relative"
+            needed |= set(keys.values()) if has_error else {keys["candidate"]}
+    if unjudged := [model for model in models or () if model not in compared]:
         needed |= {task.key for task in plan(grids, unjudged)}
     return needed
 
@@ -157,12 +153,12 @@ def skipped_gates(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence
 
 def _not_computed(gate: Gate, grids: Sequence[Grid], models: Sequence[str]) -> set[str]:
     """Return which of the models that a gate compares with are neither given nor the reference of a grid."""
-    needed = {gate.reference} if gate.rival is None else {gate.reference, gate.rival}
-    return needed - {grid.reference for grid in grids} - set(models)
+    compared = {model for role, model in gate.models.items() if role != "candidate"}
+    return compared - {grid.reference for grid in grids} - set(models)
 
 
 def load_user_gates(
-    text: str, source: str, tier: str, chosen: Sequence[Grid], models: Sequence[str] | None
+    text: str, source: str, tier: str, grids: Sequence[Grid], models: Sequence[str] | None
 ) -> list[Gate]:
     """Return the gates of a user's file that a run can judge, and log how many it leaves out.
 
@@ -172,21 +168,20 @@ def load_user_gates(
         Of the file.
     tier : str
         Of the run.
-    chosen : sequence of Grid
-        What the run computes.
-    models : sequence of str or None
-        Models given in place of those each grid names.
+    grids, models
+        As of `relevant`.
 
     Raises
     ------
     ValueError
         If a gate is wrong or needs a model that is not computed; one sentence names it.
     """
-    read = load_gates(text, models or (), source)
-    gates = of_tier(read, tier)
-    skipped = skipped_gates(gates, chosen, models)
-    if skipped:
-        log(f"{len(skipped)} of {len(read)} gates of {source} are left out: their candidate is not given to this run")
-    if len(gates) < len(read):
-        log(f"{len(read) - len(gates)} of {len(read)} gates of {source} are left out: they are of the tier full")
+    of_file = load_gates(text, models or (), source)
+    gates = of_tier(of_file, tier)
+    if skipped := skipped_gates(gates, grids, models):
+        log(
+            f"{len(skipped)} of {len(of_file)} gates of {source} are left out: their candidate is not given to this run"
+        )
+    if later := len(of_file) - len(gates):
+        log(f"{later} of {len(of_file)} gates of {source} are left out: they are of the tier full")
     return gates

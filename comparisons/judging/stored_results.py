@@ -1,22 +1,28 @@
-"""Stored results of a run, by model, quantity and case."""
+"""Stored results of a run that gates compare, by model, quantity and case."""
 
 from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Collection
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from comparisons.judging.decision import Verdict
+from comparisons.judging.gates import Gate
+from comparisons.judging.selection import key_of
+from comparisons.problem import Problem
 from comparisons.runs.case_columns import keys_in, with_problem
 from comparisons.runs.rows import CASE, Key
 
-__all__ = ["StoredResults", "UnusableResult", "stored_curves", "stored_numbers"]
+__all__ = ["CURVE", "NUMBER", "GateResults", "StoredResults", "UnusableResult"]
 
-_KEY = {"model", "quantity", *CASE}
+#: Columns of a table of scalars and of one of curves without which nothing can be judged.
+NUMBER = {"model", "quantity", *CASE, "status", "reason", "value", "u_num"}
+CURVE = {"model", "quantity", *CASE, "status", "reason", "x", "y", "u_distance"}
 
 
 class UnusableResult(Exception):
@@ -28,16 +34,15 @@ class UnusableResult(Exception):
 
 
 class StoredResults:
-    """The rows of a table of results, by their keys.
+    """The rows of a table that some gates compare.
 
     Parameters
     ----------
     table : DataFrame or None
         None is a table without rows.
-    needed : set of str
-        Columns without which nothing can be judged.
-    names : set of (str, str)
-        Model and quantity of the rows that are needed; the others are left out.
+    columns : set of str
+        `NUMBER` or `CURVE`.
+    gates : iterable of Gate
 
     Attributes
     ----------
@@ -46,23 +51,32 @@ class StoredResults:
         Key -> rows, more than one only for the points of a curve.
     """
 
-    def __init__(self, table: pd.DataFrame | None, needed: set[str], names: Collection[tuple[str, str]]) -> None:
-        table = with_problem(pd.DataFrame(columns=sorted(needed)) if table is None else table)
-        self.missing_columns = sorted(needed - set(table.columns))
+    def __init__(self, table: pd.DataFrame | None, columns: set[str], gates: Iterable[Gate]) -> None:
+        table = with_problem(pd.DataFrame(columns=sorted(columns)) if table is None else table)
+        self.missing_columns = sorted(columns - set(table.columns))
         self.rows: dict[Key, list[dict[str, Any]]] = defaultdict(list)
+        names = {(model, gate.quantity) for gate in gates for model in gate.models.values()}
         if self.missing_columns or not names:
             return
-        needed_rows = table[pd.MultiIndex.from_frame(table[["model", "quantity"]]).isin(list(names))]
-        records = needed_rows[sorted(needed)].to_dict("records")
-        for key, record in zip(keys_in(needed_rows), records, strict=True):
+        needed = table[pd.MultiIndex.from_frame(table[["model", "quantity"]]).isin(list(names))]
+        records = needed[sorted(columns)].to_dict("records")
+        for key, record in zip(keys_in(needed), records, strict=True):
             self.rows[key].append(record)
 
-    def status(self, key: Key) -> str:
+
+@dataclass(frozen=True, slots=True)
+class GateResults:
+    """The results of the models of a gate; a role is "candidate", "reference" or "rival"."""
+
+    gate: Gate
+    rows: Mapping[Key, list[dict[str, Any]]]
+
+    def status(self, role: str, case: Problem) -> str:
         """Return the status of a result, "missing" without a row."""
-        rows = self.rows.get(key, [])
+        rows = self.rows.get(key_of(self.gate, role, case))
         return str(rows[0]["status"]) if rows else "missing"
 
-    def number(self, key: Key) -> tuple[float, float]:
+    def number(self, role: str, case: Problem) -> tuple[float, float]:
         """Return a value and its u_num.
 
         Raises
@@ -70,15 +84,15 @@ class StoredResults:
         UnusableResult
             If there is no such row or more than one, or the two are not finite numbers.
         """
-        rows = self._usable(key)
+        model, rows = self._usable(role, case)
         if len(rows) > 1:
-            raise UnusableResult(Verdict.ERROR, f"{key[0]} has {len(rows)} rows")
-        value, u_num = (_real(rows[0][name]) for name in ("value", "u_num"))
+            raise UnusableResult(Verdict.ERROR, f"{model} has {len(rows)} rows")
+        value, u_num = (math.nan if rows[0][name] is None else float(rows[0][name]) for name in ("value", "u_num"))
         if not (math.isfinite(value) and math.isfinite(u_num) and u_num >= 0.0):
-            raise UnusableResult(Verdict.ERROR, f"{key[0]} has the value {value:g} +- {u_num:g}")
+            raise UnusableResult(Verdict.ERROR, f"{model} has the value {value:g} +- {u_num:g}")
         return value, u_num
 
-    def points(self, key: Key) -> tuple[np.ndarray, np.ndarray, float]:
+    def points(self, role: str, case: Problem) -> tuple[np.ndarray, np.ndarray, float]:
         """Return the points of a curve and the bound on their distance from it.
 
         Raises
@@ -86,33 +100,20 @@ class StoredResults:
         UnusableResult
             If there is no such curve, or it has no finite bound.
         """
-        table = pd.DataFrame(self._usable(key))
+        model, rows = self._usable(role, case)
+        table = pd.DataFrame(rows)
         u = float(table["u_distance"].max(skipna=False))
         if not (math.isfinite(u) and u >= 0.0):
-            raise UnusableResult(Verdict.ERROR, f"{key[0]} states the uncertainty {u:g} of its curve")
+            raise UnusableResult(Verdict.ERROR, f"{model} states the uncertainty {u:g} of its curve")
         return table["x"].to_numpy(float), table["y"].to_numpy(float), u
 
-    def _usable(self, key: Key) -> list[dict[str, Any]]:
-        rows = self.rows.get(key, [])
-        if not rows:
-            raise UnusableResult(Verdict.ERROR, f"{key[0]} has no row")
-        row = rows[0]
-        if row["status"] == "not-applicable":
-            raise UnusableResult(Verdict.NOT_APPLICABLE, f"{key[0]}: {row['reason']}")
-        if row["status"] != "ok":
-            raise UnusableResult(Verdict.ERROR, f"{key[0]}: {row['status']}: {row['reason']}")
-        return rows
-
-
-def stored_numbers(table: pd.DataFrame, names: Collection[tuple[str, str]]) -> StoredResults:
-    """Return the rows of a table of scalars that are of some models and quantities."""
-    return StoredResults(table, _KEY | {"value", "u_num", "status", "reason"}, names)
-
-
-def stored_curves(table: pd.DataFrame | None, names: Collection[tuple[str, str]]) -> StoredResults:
-    """Return the points of a table of curves that are of some models and quantities."""
-    return StoredResults(table, _KEY | {"x", "y", "u_distance", "status", "reason"}, names)
-
-
-def _real(value: float | None) -> float:
-    return math.nan if value is None else float(value)
+    def _usable(self, role: str, case: Problem) -> tuple[str, list[dict[str, Any]]]:
+        model, rows = self.gate.models[role], self.rows.get(key_of(self.gate, role, case), [])
+        status, reason = (rows[0]["status"], rows[0]["reason"]) if rows else ("missing", "")
+        if status == "missing":
+            raise UnusableResult(Verdict.ERROR, f"{model} has no row")
+        if status == "not-applicable":
+            raise UnusableResult(Verdict.NOT_APPLICABLE, f"{model}: {reason}")
+        if status != "ok":
+            raise UnusableResult(Verdict.ERROR, f"{model}: {status}: {reason}")
+        return model, rows

@@ -28,13 +28,10 @@ def coverage(statuses: Iterable[str]) -> dict[str, int]:
     {'asked': 4, 'answered': 2, 'not_applicable': 1, 'failed': 1, 'outside': 1}
     """
     counts = Counter(statuses)
-    with_value, refused, failed = (
-        counts["ok"] + counts["no-event"],
-        counts["not-applicable"],
-        counts["failed"] + counts["missing"],
-    )
+    with_value, failed = counts["ok"] + counts["no-event"], counts["failed"] + counts["missing"]
+    evaluated = with_value + counts["not-applicable"] + failed
     return dict(
-        zip(COVERAGE, (with_value + refused + failed, with_value, refused, failed, counts["outside"]), strict=True)
+        zip(COVERAGE, (evaluated, with_value, counts["not-applicable"], failed, counts["outside"]), strict=True)
     )
 
 
@@ -59,39 +56,27 @@ def summarise(judged: pd.DataFrame) -> pd.DataFrame:
     Of cases with the same verdict the worst is the one nearest to a limit, or farthest beyond.  `cases`
     counts those evaluated, `skipped` those that did not apply.
     """
-    places: dict[tuple[str, str], list[int]] = {}
-    for index, names in enumerate(zip(judged["gate"], judged["candidate"], strict=True)):
-        places.setdefault(names, []).append(index)
-    verdicts = [Verdict(verdict) for verdict in judged["verdict"]]
-    margins, statuses = _margin(judged).to_numpy(), judged["status"].to_numpy()
-    is_case = (judged["mu"].notna() | (with_problem(judged)["problem"] != "")).to_numpy()
+    names = ["gate", "candidate"]
+    is_case = judged["mu"].notna() | (with_problem(judged)["problem"] != "")
+    worst_cases = worst_first(judged).drop_duplicates(names).set_index(names, drop=False).to_dict("index")
     summary: list[dict[str, Any]] = []
-    worst_places = []
-    for group in places.values():
-        applies = [index for index in group if verdicts[index] is not Verdict.NOT_APPLICABLE]
-        verdict = roll_up([verdicts[index] for index in group])
-        candidates = [index for index in applies if verdicts[index] is verdict] or group
-        worst_places.append(candidates[int(margins[candidates].argmax())])
-        counts = {"cases": int(is_case[applies].sum()), "skipped": len(group) - len(applies)}
-        summary.append({"verdict": verdict, **counts, **coverage(statuses[group])})
-    summary = [
-        counted | {name: value for name, value in worst.items() if name != "verdict"}
-        for counted, worst in zip(summary, judged.iloc[worst_places].to_dict("records"), strict=True)
-    ]
-    table = pd.DataFrame(
-        summary,
-        columns=["verdict", *judged.columns.drop(["verdict", "reason"]), "cases", "skipped", *COVERAGE, "reason"],
-    )
-    order = table["verdict"].map(lambda verdict: Verdict(verdict).rank).astype(int)
-    return table.iloc[order.argsort(kind="stable")].reset_index(drop=True)
+    for gate, rows in judged.groupby(names, sort=False):
+        applies = rows.index[rows["verdict"] != Verdict.NOT_APPLICABLE]
+        counts = {"cases": int(is_case[applies].sum()), "skipped": len(rows) - len(applies)}
+        summary.append({**worst_cases[gate], "verdict": roll_up(rows["verdict"]), **counts, **coverage(rows["status"])})
+    columns = ["verdict", *judged.columns.drop(["verdict", "reason"]), "cases", "skipped", *COVERAGE, "reason"]
+    table = pd.DataFrame(summary, columns=columns)
+    return table.iloc[_ranks(table).argsort(kind="stable")].reset_index(drop=True)
 
 
 def worst_first(judged: pd.DataFrame) -> pd.DataFrame:
     """Return the rows with the worst verdict first; of one verdict, the nearest to a limit or farthest beyond."""
-    order = pd.DataFrame(
-        {"rank": [Verdict(verdict).rank for verdict in judged["verdict"]], "nearness": -_margin(judged).to_numpy()}
-    )
-    return judged.iloc[order.sort_values(["rank", "nearness"], kind="stable").index].reset_index(drop=True)
+    order = pd.DataFrame({"rank": _ranks(judged), "nearness": -_margin(judged)})
+    return judged.loc[order.sort_values(["rank", "nearness"], kind="stable").index].reset_index(drop=True)
+
+
+def _ranks(table: pd.DataFrame) -> pd.Series:
+    return table["verdict"].map(lambda verdict: Verdict(verdict).rank).astype(int)
 
 
 def _margin(rows: pd.DataFrame) -> pd.Series:

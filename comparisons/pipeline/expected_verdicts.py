@@ -1,47 +1,40 @@
-"""Verdicts of a gates file by gate, model and case: those to expect before a run, and those of the run."""
+"""Verdicts of a gates file by the name of gate, model and case: those to expect before a run, and those of the run."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 from filelock import FileLock
 from threadpoolctl import threadpool_limits
 
 from comparisons.judging.card_gates import without_card_gates
+from comparisons.judging.decision import Verdict
 from comparisons.judging.selection import cases_of, key_of, relevant
 from comparisons.numerics.number_text import exact
 from comparisons.output.junit import numbers_text
 from comparisons.output.verdicts import command
 from comparisons.pipeline.inputs import load_cases, read_gates
 from comparisons.pipeline.run import run
+from comparisons.problem import PARAMETERS
 from comparisons.registry import identify
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.case_columns import keys_in, with_problem
-from comparisons.runs.tasks import problem_for
+from comparisons.runs.rows import Key
 
-__all__ = ["ExpectedVerdict", "computed_verdicts", "expected_verdicts"]
+__all__ = ["OTHERS", "expected_verdicts", "verdicts_of_run"]
 
-#: Gate, and the key of the result of its candidate; of a whole gate its candidate and a number.
-VerdictKey = tuple[Any, ...]
+#: The name of the verdicts on a gate or a model as a whole, such as too few cases with a value.
+OTHERS = "other verdicts"
 
 _LOCK = ".pytest.lock"
 
 
-@dataclass(frozen=True, slots=True)
-class ExpectedVerdict:
-    """A gate for one model in one case: its key, its name in a list, and the requirement of the gate."""
+def expected_verdicts(gates: Path, models: Sequence[str], cases: str | Path = "quick") -> dict[str, str]:
+    """Return the names of each gate for each model in each case, and of `OTHERS`, with the requirements.
 
-    key: VerdictKey
-    name: str
-    requirement: str
-
-
-def expected_verdicts(gates: Path, models: Sequence[str], cases: str | Path = "quick") -> Iterator[ExpectedVerdict]:
-    """Yield each gate for each model in each case, in the order of the judge; nothing is computed.
+    They are in the order of the judge; nothing is computed.
 
     Parameters
     ----------
@@ -59,18 +52,18 @@ def expected_verdicts(gates: Path, models: Sequence[str], cases: str | Path = "q
     """
     names, _ = identify(models)
     loaded = load_cases(cases, names)
-    for gate in relevant(read_gates(gates, loaded, names).gates, loaded.grids, names):
-        for case in cases_of(gate, loaded.grids, names):
-            numbers = problem_for(gate.candidate, case).numbers
-            key = (gate.id, *key_of(gate.candidate, gate, case))
-            label = case.name or " ".join(f"{name}={exact(value)}" for name, value in numbers.items())
-            yield ExpectedVerdict(key, f"{gate.id}[{gate.candidate} {label}]", gate.requirement)
+    expected = {
+        _name(gate.id, key_of(gate, "candidate", case)): gate.requirement
+        for gate in relevant(read_gates(gates, loaded, names).gates, loaded.grids, names)
+        for case in cases_of(gate, loaded.grids, names)
+    }
+    return expected | {OTHERS: ""}
 
 
-def computed_verdicts(
+def verdicts_of_run(
     gates: Path, models: Sequence[str], cases: str | Path, folder: Path, jobs: int = 1
-) -> dict[VerdictKey, tuple[str, str]]:
-    """Run and judge; return the verdict of each key with a text: the reason, the numbers and the command.
+) -> dict[str, tuple[str, str]]:
+    """Run and judge; return the verdict of each name with a text: the reason, the numbers and the command.
 
     Several processes may call it with one folder: the first computes, the others take its results.
 
@@ -85,17 +78,23 @@ def computed_verdicts(
     assert judgement is not None
     if without_card_gates(judgement.verdicts).empty:
         raise ValueError(f"{gates}: no gate was evaluated: no candidate of a gate is given")
+    expected = expected_verdicts(gates, models, cases)
+    verdicts: dict[str, tuple[str, str]] = {}
+    others = []
     keys = keys_in(with_problem(judgement.verdicts).rename(columns={"candidate": "model"}))
-    texts = {}
-    for index, (key, (_, row)) in enumerate(zip(keys, judgement.verdicts.iterrows(), strict=True)):
-        # One on a whole gate has its index, since there may be several.
-        of_gate = pd.isna(row["n"]) and not key[-1]
-        name = (row["gate"], row["candidate"], index) if of_gate else (row["gate"], *key)
-        texts[name] = str(row["verdict"]), _text(row, command(row, judgement.inputs.specs), of_gate=of_gate)
-    return texts
+    for key, (_, row) in zip(keys, judgement.verdicts.iterrows(), strict=True):
+        name, verdict = _name(row["gate"], key), Verdict(row["verdict"])
+        numbers = "" if pd.isna(row["error"]) else numbers_text(row)
+        repeat = f"computed again by: {command(row, judgement.inputs.specs)}"
+        if name in expected:
+            verdicts[name] = str(verdict), "\n".join(filter(None, [row["reason"], numbers, repeat]))
+        elif verdict.rank <= Verdict.INCONCLUSIVE.rank:
+            sentence = f"{row['gate']} of {row['candidate']}: {row['reason']}"
+            others.append("\n".join(filter(None, [sentence, numbers, repeat])))
+    return verdicts | {OTHERS: ("FAIL" if others else "PASS", "\n".join(others))}
 
 
-def _text(row: pd.Series, again: str, *, of_gate: bool) -> str:
-    before = f"{row['gate']} of {row['candidate']}: " if of_gate else ""
-    numbers = "" if pd.isna(row["error"]) else numbers_text(row)
-    return "\n".join(filter(None, [f"{before}{row['reason']}", numbers, f"computed again by: {again}"]))
+def _name(gate: str, key: Key) -> str:
+    model, _, *numbers, problem = key
+    values = (f"{name}={exact(value)}" for name, value in zip(PARAMETERS, numbers, strict=True) if value is not None)
+    return f"{gate}[{model} {problem or ' '.join(values)}]"

@@ -14,12 +14,21 @@ from typing import Any
 
 import pytest
 
-__all__ = ["GateFailure", "GateItem", "GatesFile", "OtherVerdicts"]
+__all__ = ["GateFailure", "GateItem", "GatesFile"]
 
 #: Names of the options and of the entries of an ini file.
 _GATES, _MODEL, _TIER, _CASES, _OUT, _JOBS = (
     f"fscm_bench_{name}" for name in ("gates", "model", "tier", "cases", "out", "jobs")
 )
+
+_OPTIONS: dict[str, dict[str, Any]] = {
+    _GATES: {"metavar": "FILE", "help": "collect the gates of this file as tests"},
+    _MODEL: {"metavar": "SPEC", "action": "append", "help": "a model to judge; may be repeated"},
+    _TIER: {"choices": ("quick", "full"), "help": "standing cases (default: quick)"},
+    _CASES: {"metavar": "FILE", "help": "cases in place of the standing ones"},
+    _OUT: {"metavar": "DIR", "help": "keep the run folder here; resumed if it has some"},
+    _JOBS: {"metavar": "N", "type": int, "default": 1, "help": "processes (default: 1)"},
+}
 
 
 class GateFailure(Exception):
@@ -29,16 +38,8 @@ class GateFailure(Exception):
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Declare the options."""
     group = parser.getgroup("fscm-bench", "gates of fscm-bench as tests")
-    group.addoption("--fscm-bench-gates", dest=_GATES, metavar="FILE", help="collect the gates of this file as tests")
-    group.addoption(
-        "--fscm-bench-model", dest=_MODEL, metavar="SPEC", action="append", help="a model to judge; may be repeated"
-    )
-    group.addoption("--fscm-bench-tier", dest=_TIER, choices=("quick", "full"), help="standing cases (default: quick)")
-    group.addoption("--fscm-bench-cases", dest=_CASES, metavar="FILE", help="cases in place of the standing ones")
-    group.addoption(
-        "--fscm-bench-out", dest=_OUT, metavar="DIR", help="keep the run folder here; resumed if it has some"
-    )
-    group.addoption("--fscm-bench-jobs", dest=_JOBS, metavar="N", type=int, default=1, help="processes (default: 1)")
+    for name, option in _OPTIONS.items():
+        group.addoption(f"--{name.replace('_', '-')}", dest=name, **option)
     parser.addini(_GATES, "gates file, relative to the root folder, that is collected as tests", default="")
     parser.addini(_CASES, "file of cases, relative to the root folder, in place of the standing ones", default="")
     parser.addini(_MODEL, "models to judge, one a line; a file is relative to the root folder", type="linelist")
@@ -46,23 +47,29 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Collect the gates file, too, if one is named."""
-    option = config.getoption(_GATES)
-    stated = option or config.getini(_GATES)
+    path = _path_of(config, _GATES)
     models = config.getoption(_MODEL) or [_from_root(spec, config.rootpath) for spec in config.getini(_MODEL)]
-    if not stated:
+    if path is None:
         if models:
             raise pytest.UsageError("--fscm-bench-model needs --fscm-bench-gates FILE, the gates to judge it by")
         return
     if not models:
         raise pytest.UsageError("--fscm-bench-gates needs --fscm-bench-model SPEC, the model to judge")
-    path = ((config.invocation_params.dir if option else config.rootpath) / stated).resolve()
     if not path.is_file():
         raise pytest.UsageError(f"the gates file {path} does not exist")
     config.pluginmanager.register(_Collection(config, path, models), "fscm-bench-gates")
     named = [(config.invocation_params.dir / argument.partition("::")[0]).resolve() for argument in config.args]
     # An entry of an ini file adds no tests to those that are named on the command line.
-    if (option or config.args_source is not pytest.Config.ArgsSource.ARGS) and path not in named:
+    is_alone = config.args_source is pytest.Config.ArgsSource.ARGS and not config.getoption(_GATES)
+    if path not in named and not is_alone:
         config.args.append(str(path))
+
+
+def _path_of(config: pytest.Config, name: str) -> Path | None:
+    """Return the file of an option, or else of an entry of the ini file."""
+    if option := config.getoption(name):
+        return (config.invocation_params.dir / option).resolve()
+    return (config.rootpath / config.getini(name)).resolve() if config.getini(name) else None
 
 
 def _from_root(spec: str, root: Path) -> str:
@@ -73,24 +80,21 @@ class _Collection:
     """The gates file of a session, its models, and the folder of their run, which all workers share."""
 
     def __init__(self, config: pytest.Config, path: Path, models: list[str]) -> None:
-        self.path, self.models = path, models
-        self.cases: str | Path = config.getoption(_TIER) or "quick"
-        if given_cases := config.getoption(_CASES):
-            self.cases = config.invocation_params.dir / given_cases
-        elif stated_cases := config.getini(_CASES):
-            self.cases = config.rootpath / stated_cases
-        self.jobs: int = config.getoption(_JOBS)
-        given = getattr(config, "workerinput", {}).get(_OUT) or config.getoption(_OUT)
-        self._temporary = None if given else tempfile.mkdtemp(prefix="fscm-bench-")
-        self.folder = Path(given or str(self._temporary)).absolute()
+        cases = _path_of(config, _CASES) or config.getoption(_TIER) or "quick"
+        self.inputs, self.jobs = (path, models, cases), config.getoption(_JOBS)
+        folder = getattr(config, "workerinput", {}).get(_OUT) or config.getoption(_OUT)
+        self._temporary = None if folder else tempfile.mkdtemp(prefix="fscm-bench-")
+        self.folder = Path(folder or str(self._temporary)).absolute()
 
     def pytest_collect_file(self, file_path: Path, parent: pytest.Collector) -> GatesFile | None:
         """Collect the gates file and no other."""
-        return GatesFile.from_parent(parent, path=file_path, gates=self) if file_path.resolve() == self.path else None
+        is_of_gates = file_path.resolve() == self.inputs[0]
+        return GatesFile.from_parent(parent, path=file_path, gates=self) if is_of_gates else None
 
     def pytest_report_header(self) -> str:
         """State what is judged."""
-        return f"fscm-bench: {', '.join(self.models)} by {self.path}, cases {self.cases}"
+        path, models, cases = self.inputs
+        return f"fscm-bench: {', '.join(models)} by {path}, cases {cases}"
 
     @pytest.hookimpl(optionalhook=True)
     def pytest_configure_node(self, node: Any) -> None:
@@ -109,8 +113,7 @@ class GatesFile(pytest.File):
     def __init__(self, *, gates: _Collection, **other: Any) -> None:
         super().__init__(**other)
         self._gates = gates
-        self._keys: set[tuple[Any, ...]] = set()
-        self._verdicts: Any = None
+        self._verdicts: dict[str, tuple[str, str]] | None = None
         self._failure = ""
 
     def collect(self) -> Iterator[pytest.Item]:
@@ -118,83 +121,59 @@ class GatesFile(pytest.File):
         from comparisons.pipeline.expected_verdicts import expected_verdicts
 
         try:
-            expected = list(expected_verdicts(self._gates.path, self._gates.models, self._gates.cases))
+            requirements = expected_verdicts(*self._gates.inputs)
         except ValueError as refusal:
             raise self.CollectError(str(refusal)) from None
-        for one in expected:
-            self._keys.add(one.key)
-            yield GateItem.from_parent(self, name=one.name, key=one.key, requirement=one.requirement)
-        yield OtherVerdicts.from_parent(self, name="other verdicts")
+        for name, requirement in requirements.items():
+            yield GateItem.from_parent(self, name=name, requirement=requirement)
 
-    def verdicts(self) -> dict[tuple[Any, ...], tuple[str, str]]:
-        """Return verdict and text by gate, model and case; the first call computes.
+    def verdict(self, name: str) -> tuple[str, str]:
+        """Return the verdict of an item and its text; the first call computes.
 
         Raises
         ------
         GateFailure
             If nothing could be judged.
         """
-        if self._verdicts is None and not self._failure:
-            from comparisons.model import ComputationFailed
-            from comparisons.pipeline.expected_verdicts import computed_verdicts
+        from comparisons.model import ComputationFailed
+        from comparisons.pipeline.expected_verdicts import verdicts_of_run
 
-            run = self._gates
+        if self._verdicts is None and not self._failure:
             try:
-                self._verdicts = computed_verdicts(run.path, run.models, run.cases, run.folder, run.jobs)
+                self._verdicts = verdicts_of_run(*self._gates.inputs, self._gates.folder, self._gates.jobs)
             except (ValueError, OSError, ComputationFailed) as failure:
                 self._failure = str(failure)
         if self._failure:
             raise GateFailure(self._failure)
-        return dict(self._verdicts)
-
-    def others(self) -> list[str]:
-        """Return the texts of the verdicts that belong to no item and are no pass."""
-        return [
-            text
-            for key, (verdict, text) in self.verdicts().items()
-            if key not in self._keys and verdict in ("ERROR", "FAIL", "XPASS", "INCONCLUSIVE")
-        ]
+        return (self._verdicts or {}).get(name, ("ERROR", "the run has no verdict on this case"))
 
 
-class _Item(pytest.Item):
-    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """Return the text of the verdict alone."""
-        if isinstance(excinfo.value, GateFailure):
-            return str(excinfo.value)
-        return super().repr_failure(excinfo, style)
-
-    def reportinfo(self) -> tuple[Path, None, str]:
-        """Return the heading of a failure."""
-        return self.path, None, self.name
-
-
-class GateItem(_Item):
-    """A gate for one model in one case.
+class GateItem(pytest.Item):
+    """A gate for one model in one case, or what else a run finds, such as too few cases with a value.
 
     PASS is a pass, XFAIL an expected failure, NOT-APPLICABLE is skipped; ERROR, FAIL, XPASS and INCONCLUSIVE fail.
     """
 
-    def __init__(self, *, key: tuple[Any, ...], requirement: str, **other: Any) -> None:
+    def __init__(self, *, requirement: str, **other: Any) -> None:
         super().__init__(**other)
-        self._key, self._requirement = key, requirement
+        self._requirement = requirement
 
     def runtest(self) -> None:
         """Raise what pytest takes for the verdict."""
         assert isinstance(self.parent, GatesFile)
-        verdict, text = self.parent.verdicts().get(self._key, ("ERROR", "the run has no verdict on this case"))
+        verdict, text = self.parent.verdict(self.name)
         if verdict == "NOT-APPLICABLE":
             pytest.skip(text)
         if verdict == "XFAIL":
             pytest.xfail(text)
         if verdict != "PASS":
-            raise GateFailure(f"{verdict}: {text}\nrequired: {self._requirement}")
+            raise GateFailure(f"{verdict}: {text}\nrequired: {self._requirement}" if self._requirement else text)
 
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+        """Return the text of the verdict alone."""
+        is_verdict = isinstance(excinfo.value, GateFailure)
+        return str(excinfo.value) if is_verdict else super().repr_failure(excinfo, style)
 
-class OtherVerdicts(_Item):
-    """Verdicts on a gate or a model as a whole, such as too few cases with a value."""
-
-    def runtest(self) -> None:
-        """Fail if there is one."""
-        assert isinstance(self.parent, GatesFile)
-        if others := self.parent.others():
-            raise GateFailure("\n".join(others))
+    def reportinfo(self) -> tuple[Path, None, str]:
+        """Return the heading of a failure."""
+        return self.path, None, self.name

@@ -9,7 +9,7 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.external.contract_checks import examine
 from comparisons.external.data_model import DataModel
-from comparisons.external.physical_model import SCALES, InUnits
+from comparisons.external.physical_model import SCALES, evaluate_in_units
 from comparisons.model import Result
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
@@ -114,12 +114,10 @@ def test_units_are_checked_of_physical_models_alone(write_model, write_data):
 @pytest.mark.parametrize("scales", range(len(SCALES)))
 def test_a_result_and_its_bound_are_in_the_same_unit(scales):
     for quantity, row in QUANTITIES.items():
-        problems = []
-        model = SimpleNamespace(
-            evaluate_physical=lambda problem, _, problems=problems: problems.append(problem) or Result(6, 2)
-        )
-        result = InUnits(model, scales=scales).evaluate(Problem(2.0, 0.4, 1.0), quantity)
-        unit = 1.0 if row.scale == "number" else problems[0].scales[row.scale]
+        cases = []
+        model = SimpleNamespace(evaluate_physical=lambda case, _, cases=cases: cases.append(case) or Result(6, 2))
+        result = evaluate_in_units(model, Problem(2.0, 0.4, 1.0), quantity, scales=scales)
+        unit = 1.0 if row.scale == "number" else cases[0].scales[row.scale]
         assert math.isclose(result.value * unit, 6.0, rel_tol=1e-14)
         assert math.isclose(result.u_num * unit, 2.0, rel_tol=1e-14)
     assert QUANTITIES["critical_tabor_number"].scale == "number"

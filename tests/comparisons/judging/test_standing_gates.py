@@ -25,7 +25,6 @@ from comparisons.judging.gates import GIVEN, gates_text, load_gates
 from comparisons.judging.judge import judge
 from comparisons.judging.selection import cases_of, key_of, relevant
 from comparisons.judging.summary import summarise
-from comparisons.numerics.bounds import combined
 from comparisons.output.verdicts import command
 from comparisons.quantities import CURVES
 from comparisons.runs.case_columns import keys_in
@@ -84,29 +83,20 @@ def results(tier):
     )
 
 
-@cache
-def _table(gate_id):
-    gate = GATES[gate_id]
-    table = results(gate.tier)[not has_numbers(gate)]
-    return table[
-        (table["quantity"] == gate.quantity) & table["model"].isin([gate.candidate, gate.reference, gate.rival])
-    ]
-
-
 def table_of(gate):
     """The rows, or the points of curves, that the gate judges."""
-    return _table(gate.id).copy()
+    table = results(gate.tier)[not has_numbers(gate)]
+    return table[(table["quantity"] == gate.quantity) & table["model"].isin(gate.models.values())].copy()
 
 
-def judged(gate, table=None, grids=None):
-    table = table_of(gate) if table is None else table
+def judged(gate, table):
     rows = table if has_numbers(gate) else results("quick")[0][:0]
-    return judge([gate], GRIDS[gate.tier] if grids is None else grids, rows, None if has_numbers(gate) else table)
+    return judge([gate], GRIDS[gate.tier], rows, None if has_numbers(gate) else table)
 
 
 @cache
 def _right(gate_id):
-    return judged(GATES[gate_id])
+    return judged(GATES[gate_id], table_of(GATES[gate_id]))
 
 
 def right(gate):
@@ -114,29 +104,17 @@ def right(gate):
     return _right(gate.id)
 
 
-def verdict(gate, table, **options):
-    return roll_up(judged(gate, table, **options)["verdict"])
+def verdict(gate, table):
+    return roll_up(judged(gate, table)["verdict"])
 
 
-def mine(gate, table, role="candidate", count=None):
-    """The rows of the candidate or the reference in the cases of the gate, or in some of them."""
-    cases = cases_of(gate, GRIDS[gate.tier], None)[:count]
-    cases = cases if role == "candidate" else [gate.reference_case(case) for case in cases]
-    keys = {key_of(getattr(gate, role), gate, case) for case in cases}
+def mine(gate, table, role="candidate"):
+    """The rows of the candidate or the reference in the cases of the gate."""
+    cases = cases_of(gate, GRIDS[gate.tier], None)
+    keys = {key_of(gate, role, case) for case in cases}
     mask = np.array([key in keys for key in keys_in(table)])
     assert mask.any()
     return mask
-
-
-def shifted(gate, table, by, count=None):
-    """The results with the errors of the candidate larger by so much, in the unit of the metric."""
-    for case in right(gate)[:count].itertuples():
-        unit = {"rel": abs(case.reference_value), "en": combined(case.u_num, case.u_reference)}.get(gate.metric, 1.0)
-        mask = table["model"] == gate.candidate
-        for name in ("n", "k", "mu", "nu"):
-            mask &= table[name].isna() if pd.isna(getattr(case, name)) else table[name] == getattr(case, name)
-        table.loc[mask, "value"] += by * unit
-    return table
 
 
 def test_they_are_enough_and_right_results_pass():
@@ -181,21 +159,6 @@ def test_a_wrong_candidate_fails(gate, mistake):
     assert verdict(gate, table) == Verdict.FAIL
 
 
-@each(lambda gate: has_numbers(gate) and not gate.rival)
-def test_an_error_a_little_outside_the_limits_fails(gate):
-    """The upper limit is overstepped by a tenth of the width and by what U hides."""
-    errors = right(gate)
-    beyond = gate.upper - errors["error"].min() + 0.1 * (gate.upper - gate.lower) + 2.5 * errors["uncertainty"].max()
-    assert verdict(gate, shifted(gate, table_of(gate), beyond)) == Verdict.FAIL
-
-
-@each(lambda gate: not has_numbers(gate) and not is_quick(gate))
-def test_a_distance_a_little_outside_the_limits_fails(gate):
-    table = table_of(gate)
-    table.loc[mine(gate, table), "y"] += (1.1 * gate.upper + 1e-5) * np.ptp(table["y"]) * 2.0
-    assert verdict(gate, table) == Verdict.FAIL
-
-
 #: The candidate equals the reference but for rounding, with limits over the bounds, which are rounding errors.
 EXACT = {"GIBSON-PARABOLOID": 20.0}
 
@@ -203,21 +166,15 @@ EXACT = {"GIBSON-PARABOLOID": 20.0}
 @each(lambda gate: gate.measured_range and has_numbers(gate) and not gate.rival)
 def test_a_change_that_keeps_the_limits_fails(gate):
     """An error a thousandth beyond the end of the measured range."""
-    case = right(gate)[right(gate)["verdict"] != "NOT-APPLICABLE"].iloc[0]
-    end = max(gate.measured_range, key=abs)
-    table = judged(gate, shifted(gate, table_of(gate), 1.001 * end - case["error"], count=1))
+    table = table_of(gate)
+    case = next(row for row in right(gate).to_dict("records") if row["verdict"] != "NOT-APPLICABLE")
+    unit = {"rel": abs(case["reference_value"]), "abs": 1.0}[gate.metric]
+    (key,) = keys_in(pd.DataFrame([case]).rename(columns={"candidate": "model"}))
+    of_case = [row_key == key for row_key in keys_in(table)]
+    table.loc[of_case, "value"] += (1.001 * max(gate.measured_range, key=abs) - case["error"]) * unit
+    table = judged(gate, table)
     assert roll_up(table["verdict"]) == Verdict.FAIL
     assert table["reason"].str.contains("has changed: the errors measured").any()
-
-
-@each(lambda gate: gate.expected_failure)
-def test_an_expected_failure_that_passes_is_reported(gate):
-    middle = 0.0 if math.isinf(gate.lower) else 0.5 * (gate.lower + gate.upper)
-    table = table_of(gate)
-    mask, of_reference = mine(gate, table), mine(gate, table, "reference")
-    values = dict(zip([key[2:] for key in keys_in(table[of_reference])], table.loc[of_reference, "value"], strict=True))
-    table.loc[mask, "value"] = [values[key[2:]] * (1.0 + middle) for key in keys_in(table[mask])]
-    assert verdict(gate, table) == Verdict.XPASS
 
 
 @each()
@@ -236,18 +193,6 @@ def test_a_model_less_certain_than_tolerated_is_not_passed(gate):
         # One that is expected to fail does so by more than this uncertainty.
         expected = {Verdict.INCONCLUSIVE} | ({Verdict.XFAIL} if gate.expected_failure else set())
         assert verdict(gate, table) in expected, role
-
-
-@each()
-@pytest.mark.parametrize("role", ["candidate", "reference"])
-def test_a_row_lost_a_nan_and_a_column_lost_are_errors(gate, role):
-    table, column = table_of(gate), "value" if has_numbers(gate) else "y"
-    mask = mine(gate, table, role, count=1)
-    holed = table.copy()
-    holed.loc[table.index[mask][0], column] = math.nan
-    for wrong in (holed, table[~mask], table.drop(columns=column)):
-        assert verdict(gate, wrong) == Verdict.ERROR
-    assert verdict(gate, table, grids=[]) == Verdict.ERROR
 
 
 #: Below it the worst error is the numerical noise of two references.
@@ -372,19 +317,3 @@ def test_the_finite_elements_compute_what_is_committed():
     rows = frame(evaluate_task(task) for task in tasks if task.quantity not in CURVES)
     difference = drift(results("quick")[0], rows)
     assert difference.empty, difference.to_string()
-
-
-def test_drift_is_seen():
-    rows = results("quick")[0]
-    sample = rows[rows["model"] == "jkr"].head(3)
-    assert drift(rows, sample).empty
-    moved = sample.assign(value=sample["value"] * (1 + 1e-9))
-    assert len(drift(rows, moved)) == 3
-    assert len(drift(rows, sample.assign(mu=sample["mu"] + 77.0))) == 3
-    assert len(drift(rows, sample.assign(status="failed"))) == 3
-    # A third of each bound is still more than rounding, which closed forms have alone.
-    of_numerics = rows["u_num"] > 1e-12 * rows["value"].abs().clip(lower=1.0)
-    for factor, seen in ((0.3, True), (0.5, False), (2.0, False), (3.5, True)):
-        for model in ("fscm", "fem", "fscm-stieltjes-400"):
-            sample = rows[(rows["model"] == model) & of_numerics].head(3)
-            assert len(drift(rows, sample.assign(u_num=factor * sample["u_num"]))) == 3 * seen

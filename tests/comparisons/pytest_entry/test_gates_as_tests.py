@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.pipeline.expected_verdicts import computed_verdicts
+from comparisons.pipeline.expected_verdicts import verdicts_of_run
 
 from ..conftest import GATES
 
@@ -19,8 +19,8 @@ PLUGIN = "fscm_bench_pytest"
 def small_grid(small_grid, tmp_path, pytester):
     """The four cases of toy models, after one run: pytester drops every module that a run inside it imports first."""
     (tmp_path / "first.toml").write_text(GATES)
-    found = computed_verdicts(tmp_path / "first.toml", ["ten-percent"], "quick", tmp_path / "first")
-    assert {verdict for verdict, _ in found.values()} == {"PASS"}
+    verdicts = verdicts_of_run(tmp_path / "first.toml", ["ten-percent"], "quick", tmp_path / "first")
+    assert {verdict for verdict, _ in verdicts.values()} == {"PASS"}
     (tmp_path / "first.toml").unlink()
 
 
