@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli.main import main
+from comparisons.pipeline.leaderboard import leaderboard
 from comparisons.runs.record import _own_sum
 from comparisons.runs.store import rows_in
 
@@ -18,7 +19,7 @@ PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad
 
 @pytest.fixture
 def shard(tmp_path):
-    """The folder of a sweep over a problem file, in a folder with another file."""
+    """The folder of a sweep over a problem file, in a folder with another file; `mine` has a file of the user."""
     folder = tmp_path / "theirs" / "shard"
     (tmp_path / "theirs").mkdir()
     (tmp_path / "theirs" / "evil.sh").write_text("rm -r everything\n")
@@ -40,80 +41,67 @@ def forge(folder, change):
 
 
 def contents(folder):
-    """Content and mode of every file below a folder."""
-    return {path: (path.read_bytes(), path.stat().st_mode) for path in folder.rglob("*") if path.is_file()}
+    """Content and mode of every file below a folder, without that for results."""
+    paths = [path for path in folder.rglob("*") if path.is_file() and "out" not in path.parts]
+    return {path: (path.read_bytes(), path.stat().st_mode) for path in paths}
 
 
-def refused(folder, capsys):
-    """Merge and report refuse the folder, and change nothing beside it."""
-    mine = folder.parents[1] / "mine"
-    before, theirs = contents(mine), contents(folder.parent)
-    for command in (["merge", str(folder), "--out", str(mine / "out")], ["report", str(folder)]):
-        assert main(command) == 2
-        error = capsys.readouterr().err
-        assert error.count("\n") == 1
-        assert "Traceback" not in error
-    assert {path: content for path, content in contents(mine).items() if mine / "out" not in path.parents} == before
-    assert set(contents(folder.parent)) == set(theirs)
-    return error
+def refused(capsys, shard, *commands):
+    """Commands refuse a folder in one sentence, and change nothing beside that for results; return the sentence."""
+    out = shard.parents[1] / "mine" / "out"
+    before = contents(shard.parents[1])
+    for command in commands or ("merge",):
+        assert main([command, str(shard), *(["--out", str(out)] if command == "merge" else [])]) == 2
+        message = capsys.readouterr().err
+        assert message.count("\n") == 1
+        assert "Traceback" not in message
+    assert contents(shard.parents[1]) == before
+    return message
 
 
-NAMES = ["../evil.sh", "{folder}/mine/precious.txt", "inputs/../../evil.sh", "..", "store.sqlite", ""]
+OUTSIDE = ["../evil.sh", "{folder}/mine/precious.txt", "inputs/../../evil.sh"]
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [*OUTSIDE, "..", "store.sqlite", ""])
 def test_a_problem_file_of_the_grids(name, shard, tmp_path, capsys):
     """The copy of the grids comes from elsewhere, as the record does, and names a file."""
     grid = shard / "grid.toml"
     grid.write_text(grid.read_text().replace(PAD.name, name.format(folder=tmp_path)))
     forge(shard, lambda record: record["files"].update({"grid.toml": sha256(grid.read_bytes()).hexdigest()}))
-    assert main(["merge", str(shard), "--out", str(tmp_path / "mine" / "out")]) == 2
-    assert capsys.readouterr().err.count("\n") == 1
+    refused(capsys, shard)
     assert not (tmp_path / "mine" / "out" / "inputs").exists()
-    assert (tmp_path / "mine" / "precious.txt").read_text() == "precious"
 
 
-@pytest.mark.parametrize("name", ["../evil.sh", "{folder}/mine/precious.txt", "inputs/../../evil.sh"])
+@pytest.mark.parametrize("name", OUTSIDE)
 def test_a_file_of_the_record(name, shard, tmp_path, capsys):
     forge(shard, lambda record: record["files"].update({name.format(folder=tmp_path): "0" * 64}))
-    refused(shard, capsys)
+    refused(capsys, shard, "merge", "report")
 
 
 def test_a_copy_that_is_a_link_out_of_the_folder(shard, tmp_path, capsys):
     copy = shard / "inputs" / PAD.name
     copy.rename(tmp_path / "mine" / "precious.toml")
     copy.symlink_to(tmp_path / "mine" / "precious.toml")
-    refused(shard, capsys)
+    refused(capsys, shard, "merge", "report")
 
 
 def test_copies_are_not_written_through_a_link(shard, tmp_path, capsys):
-    out = tmp_path / "mine" / "out"
-    out.mkdir()
     (tmp_path / "mine" / "elsewhere").mkdir()
-    (out / "inputs").symlink_to(tmp_path / "mine" / "elsewhere")
-    assert main(["merge", str(shard), "--out", str(out)]) == 2
-    assert list((tmp_path / "mine" / "elsewhere").iterdir()) == []
+    (tmp_path / "mine" / "out").mkdir()
+    (tmp_path / "mine" / "out" / "inputs").symlink_to(tmp_path / "mine" / "elsewhere")
+    refused(capsys, shard)
 
 
-@pytest.mark.parametrize("name", ["store.sqlite", "store.sqlite-wal"])
-def test_a_file_that_is_written_in_place_is_no_link(name, shard, tmp_path, capsys):
-    precious = tmp_path / "mine" / "precious.txt"
+@pytest.mark.parametrize(
+    ("command", "name"),
+    [("merge", "store.sqlite"), ("merge", "store.sqlite-wal"), ("merge", "run.json"), ("report", "results.parquet")],
+)
+@pytest.mark.parametrize("target", ["{folder}/mine/precious.txt", "/dev/null"])
+def test_a_file_of_the_folder_that_is_a_link(command, name, target, shard, tmp_path, capsys):
+    """It is not written through, and a device or a pipe is not waited for."""
     (shard / name).unlink(missing_ok=True)
-    (shard / name).symlink_to(precious)
-    assert main(["merge", str(shard), "--out", str(tmp_path / "mine" / "out")]) == 2
-    assert str(shard / name) in capsys.readouterr().err
-    assert precious.read_text() == "precious"
-
-
-@pytest.mark.parametrize("name", ["run.json", "store.sqlite", "results.parquet"])
-def test_a_pipe_in_a_folder_is_not_waited_for(name, shard, tmp_path, capsys):
-    (shard / name).unlink()
-    (shard / name).symlink_to("/dev/null")
-    command = (
-        ["report", str(shard)] if name == "results.parquet" else ["merge", str(shard), "--out", str(tmp_path / "o")]
-    )
-    assert main(command) == 2
-    assert name in capsys.readouterr().err
+    (shard / name).symlink_to(target.format(folder=tmp_path))
+    assert name in refused(capsys, shard, command)
 
 
 @pytest.mark.parametrize("name", ["my run", "$(touch x)", "it's; x"])
@@ -127,20 +115,12 @@ def test_the_commands_in_messages_are_quoted(name, small_grid, tmp_path, monkeyp
 
 
 def test_texts_of_a_record_have_no_control_characters_on_the_terminal(shard, capsys):
-    def change(record):
-        record["models"]["jkr"]["citation"] = "J. \x1b[2J\x1b]0;title\x07"
-
-    forge(shard, change)
+    forge(shard, lambda record: record["models"]["jkr"].update(citation="J. \x1b[2J\x1b]0;title\x07"))
     assert main(["cite", str(shard)]) == 0
-    shown = capsys.readouterr().out
-    assert "\x1b" not in shown
-    assert "\x07" not in shown
+    printed = capsys.readouterr().out
+    assert "\x1b" not in printed
+    assert "\x07" not in printed
 
-
-GRID = (
-    'grid = [{ id = "mine", title = "Mine", reference = "bradley", models = ["jkr"], quantities = ["pull_off_force"], '
-    "n = [2], k = [0], mu = [1] }]"
-)
 
 #: A model that loads: a merge that runs it succeeds.
 EVIL = """
@@ -152,25 +132,18 @@ class Model:
 """
 
 
-def test_code_that_a_record_names_as_a_model_is_not_run(tmp_path, capsys):
-    shard = tmp_path / "shard"
+def test_code_that_a_record_names_as_a_model_is_not_run(shard, tmp_path, capsys):
     (tmp_path / "evil.py").write_text(EVIL)
-    (tmp_path / "grid.toml").write_text(GRID)
-    options = ("--model", "jkr", "--jobs", "1", "--quiet")
-    assert main(["sweep", str(tmp_path / "grid.toml"), *options, "--out", str(shard)]) == 0
     spec = f"{tmp_path / 'evil.py'}:Model"
     with rows_in(shard) as store:
-        (row,) = (row for row in store.items if row.model == "jkr")
-        store.add(replace(row, model=spec))
+        for row in store.items:
+            store.add(replace(row, model=spec))
     forge(shard, lambda record: record["arguments"].update(model=[spec]))
-    assert main(["merge", str(shard), "--out", str(tmp_path / "out")]) == 2
-    assert "unknown model" in capsys.readouterr().err
+    assert "unknown model" in refused(capsys, shard)
+    with pytest.raises(ValueError, match="unknown model"):
+        leaderboard([shard])
 
 
-def test_a_record_without_the_version_of_a_model(tmp_path, capsys):
-    (tmp_path / "grid.toml").write_text(GRID)
-    options = ("--model", "jkr", "--jobs", "1", "--quiet")
-    assert main(["sweep", str(tmp_path / "grid.toml"), *options, "--out", str(tmp_path / "shard")]) == 0
-    forge(tmp_path / "shard", lambda record: record["arguments"].update(external={"mine": "mine.py:Mine"}))
-    assert main(["merge", str(tmp_path / "shard"), "--out", str(tmp_path / "out")]) == 2
-    assert "mine" in capsys.readouterr().err
+def test_a_record_without_the_version_of_a_model(shard, capsys):
+    forge(shard, lambda record: record["arguments"].update(external={"mine": "mine.py:Mine"}))
+    assert "mine" in refused(capsys, shard)

@@ -13,18 +13,9 @@ from comparisons.pipeline.figures import make_figures
 from comparisons.pipeline.judgement import judge_folder
 from comparisons.pipeline.run import run
 from comparisons.runs.record import check_files, read_record
+from tests.comparisons.conftest import GRID as STANDING
 
-GRID = """
-[[grid]]
-id = "mine"
-title = "Mine"
-reference = "exact"
-models = ["ten-percent", "refuses"]
-quantities = ["pull_off_force"]
-n = [2]
-k = [0, 0.4]
-mu = [0.1, 1]
-"""
+GRID = STANDING.replace('tier = "quick"\n', "")
 
 
 def names(folder):
@@ -47,17 +38,15 @@ def test_a_sweep_has_the_record_of_a_run_and_no_verdicts(toys, tmp_path):
     out = tmp_path / "out"
     assert main(["sweep", str(tmp_path / "mine.toml"), "--jobs", "1", "--out", str(out)]) == 0
     record = read_record(out / "run.json")
-    assert record["command_name"] == "sweep"
+    assert (record["command_name"], record["verdicts"]) == ("sweep", {})
     assert record["arguments"]["tier"] is None
     assert record["arguments"]["grid"] == str(tmp_path / "mine.toml")
     assert (out / "grid.toml").read_text() == GRID
-    assert record["verdicts"] == {}
     assert record["parts"][0]["computations"] == 12
     assert names(out) == {*record["files"], "run.json", "store.sqlite"}
     assert not names(out) & {*VERDICT_FILES, "gates.toml"}
     check_files(record, out)
     assert main(["report", str(out)]) == 0
-    assert "report.html" in names(out)
 
 
 def test_a_sweep_after_a_run_leaves_no_verdicts_of_the_run(small_grid, tmp_path):
@@ -72,14 +61,13 @@ def test_a_sweep_after_a_run_leaves_no_verdicts_of_the_run(small_grid, tmp_path)
 
 def test_a_grid_file_of_the_user_is_not_replaced(toys, tmp_path):
     (tmp_path / "grid.toml").write_text("# mine")
-    with pytest.raises(ValueError, match=r"grid\.toml was not written by a run"):
+    with pytest.raises(ValueError, match=r"grid\.toml"):
         run(GRID, folder=tmp_path)
     assert (tmp_path / "grid.toml").read_text() == "# mine"
 
 
-def test_own_grids_can_be_judged_at_once_and_later(small_grid, tmp_path, capsys):
-    finished = run(GRID, small_grid, folder=tmp_path / "once")
-    assert str(finished.verdict) == "PASS"
+def test_grids_of_a_user_can_be_judged_at_once_and_later(small_grid, tmp_path, capsys):
+    assert str(run(GRID, small_grid, folder=tmp_path / "once").verdict) == "PASS"
     assert read_record(tmp_path / "once" / "run.json")["command_name"] == "run"
     run(GRID, folder=tmp_path / "later")
     assert main(["judge", str(tmp_path / "later")]) == 2
@@ -91,16 +79,16 @@ def test_own_grids_can_be_judged_at_once_and_later(small_grid, tmp_path, capsys)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "sentence"),
+    ("arguments", "named"),
     [
-        ({"cases": "quik"}, "the cases 'quik' are neither a tier"),
-        ({"cases": GRID, "gates": "[[gate"}, "a text is not TOML"),
+        ({"cases": "quik"}, "'quik'"),
+        ({"cases": GRID, "gates": "[[gate"}, "not TOML"),
         ({"cases": GRID, "models": ["nonesuch"]}, "unknown model"),
         ({"cases": GRID, "jobs": 0}, "0 is outside 1, 2, ..."),
     ],
 )
-def test_wrong_arguments_are_refused_before_anything_is_written(toys, tmp_path, arguments, sentence):
-    with pytest.raises(ValueError, match=re.escape(sentence)):
+def test_wrong_arguments_are_refused_before_anything_is_written(toys, tmp_path, arguments, named):
+    with pytest.raises(ValueError, match=re.escape(named)):
         run(**arguments, folder=tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
@@ -115,10 +103,10 @@ def test_the_figures_of_the_paper_have_a_record(tmp_path):
     assert sum(part["computations"] for part in record["parts"]) == record["rows"]["all"]
     make_figures(["2"], tmp_path)
     assert read_record(tmp_path / "run.json")["rows"]["resumed"] == record["rows"]["all"]
-    with pytest.raises(ValueError, match="figures of the paper, which no gate judges"):
+    with pytest.raises(ValueError, match="which no gate judges"):
         judge_folder(tmp_path)
     (tmp_path / "fig02_kernel_functions.csv").write_text("changed")
-    with pytest.raises(ValueError, match="write it again by fscm-bench paper"):
+    with pytest.raises(ValueError, match=r"fig02_kernel_functions\.csv was changed"):
         check_files(record, tmp_path)
 
 
@@ -133,12 +121,9 @@ def test_names_are_exported_and_the_import_is_light():
 
 
 def test_the_package_runs_as_a_module():
-    command = [sys.executable, "-m", "comparisons"]
-    done = subprocess.run([*command, "--version"], capture_output=True, text=True, check=True)
-    assert done.stdout.startswith("fscm-bench ")
-    done = subprocess.run([*command, "list"], capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stderr.count("\n") == 1
+    done = subprocess.run([sys.executable, "-m", "comparisons", "list"], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert done.stderr.startswith("python -m comparisons: ")
 
 
 def test_a_sweep_of_curves_alone_has_no_errors_in_its_tables(toys, tmp_path):
