@@ -37,24 +37,24 @@ class Range:
     Attributes
     ----------
     quantities : tuple of str
-    limits : tuple of (str, float, float)
-        Parameter, smallest and largest value; a parameter that is not there is not restricted.
+    limits : dict of str to (float, float)
+        Smallest and largest value of a parameter; a parameter that is not there is not restricted.
     """
 
     quantities: tuple[str, ...]
-    limits: tuple[tuple[str, float, float], ...]
+    limits: dict[str, tuple[float, float]]
 
     def within(self, case: Mapping[str, Any]) -> bool:
         """Whether a case is inside; a parameter that is None in the case is not restricted."""
-        values = ((case.get(name), low, high) for name, low, high in self.limits)
+        values = ((case.get(name), *ends) for name, ends in self.limits.items())
         return all(value is None or low <= value <= high for value, low, high in values)
 
     def ends(self, name: str) -> tuple[float, float]:
         """Return the smallest and the largest value of a parameter."""
-        return next(((low, high) for own, low, high in self.limits if own == name), (-math.inf, math.inf))
+        return self.limits.get(name, _NONE)
 
     def __str__(self) -> str:
-        limits = ", ".join(_limits(name, low, high) for name, low, high in self.limits)
+        limits = ", ".join(_limits(name, *ends) for name, ends in self.limits.items())
         return ", ".join(self.quantities) + (f" for {limits}" if limits else "")
 
 
@@ -148,13 +148,7 @@ class Domain:
         >>> Domain.of({"quantities": ["jump_in_gap"], "mu": [2, math.inf]}).as_json()
         [{'quantities': ['jump_in_gap'], 'mu': [2.0, None]}]
         """
-        return [
-            {
-                _QUANTITIES: list(table.quantities),
-                **{name: [end if math.isfinite(end) else None for end in ends] for name, *ends in table.limits},
-            }
-            for table in self.tables
-        ]
+        return [{_QUANTITIES: list(table.quantities), **_json_limits(table)} for table in self.tables]
 
     def __str__(self) -> str:
         return "; ".join(map(str, self.tables)) or "the cases of its data"
@@ -188,10 +182,10 @@ def _table(table: Mapping[Any, Any]) -> Range:
         raise ValueError(f"applies_to: {_QUANTITIES} = {quantities!a:.60} is not a list of at least one quantity")
     for quantity in quantities:
         if quantity not in ALL_QUANTITIES:
-            near = get_close_matches(str(quantity), ALL_QUANTITIES, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(ALL_QUANTITIES)}"
+            close = get_close_matches(str(quantity), ALL_QUANTITIES, n=1)
+            hint = f"did you mean {close[0]}?" if close else f"known are {', '.join(ALL_QUANTITIES)}"
             raise ValueError(f"applies_to: unknown quantity {quantity!a:.60}: {hint}")
-    limits = tuple((name, *_ends(name, table[name])) for name in PARAMETERS if name in table)
+    limits = {name: _ends(name, table[name]) for name in PARAMETERS if name in table}
     return Range(tuple(dict.fromkeys(quantities)), limits)
 
 
@@ -209,6 +203,10 @@ _NONE = (-math.inf, math.inf)
 
 def _is_end(end: object) -> bool:
     return end is None or (isinstance(end, numbers.Real) and not isinstance(end, bool))
+
+
+def _json_limits(table: Range) -> dict[str, list[float | None]]:
+    return {name: [end if math.isfinite(end) else None for end in ends] for name, ends in table.limits.items()}
 
 
 def _limits(name: str, low: float, high: float) -> str:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from comparisons.problem.problem import Problem
 
 __all__ = [
+    "FARTHEST_GAP",
     "ComputationFailed",
     "Curve",
     "HasCurve",
@@ -27,6 +28,11 @@ __all__ = [
     "RadialField",
     "Result",
 ]
+
+Array = NDArray[np.float64]
+
+#: Fields are stored out to this gap, in z0, where the traction has fallen to 0.2 % of its largest.
+FARTHEST_GAP = 10.0
 
 
 class NotApplicable(Exception):
@@ -120,9 +126,9 @@ class Curve:
     0.5
     """
 
-    displacement: NDArray[np.float64]
-    load: NDArray[np.float64]
-    columns: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    displacement: Array
+    load: Array
+    columns: dict[str, Array] = field(default_factory=dict)
     u_distance: float = 0.0
 
 
@@ -139,15 +145,23 @@ class RadialField:
 
     Examples
     --------
-    >>> RadialField(radius=np.array([0.1, 0.2]), pressure=np.array([0.3, -1.0]), gap=np.array([-0.1, 0.2])).u_distance
-    0.0
+    >>> surface = RadialField(np.array([0.1, 0.2]), pressure=np.array([0.3, -1.0]), gap=np.array([-0.1, 11.0]))
+    >>> radius, gap, u_distance = surface.shown("gap")
+    >>> gap.tolist(), u_distance
+    ([-0.1], 0.0)
     """
 
-    radius: NDArray[np.float64]
-    pressure: NDArray[np.float64]
-    gap: NDArray[np.float64]
+    radius: Array
+    pressure: Array
+    gap: Array
     u_distance: float = 0.0
     u_gap_distance: float = 0.0
+
+    def shown(self, name: str) -> tuple[Array, Array, float]:
+        """Return radii, the pressure or the gap out to the gap `FARTHEST_GAP`, and its bound."""
+        inside = self.gap <= FARTHEST_GAP
+        values, u_distance = (self.gap, self.u_gap_distance) if name == "gap" else (self.pressure, self.u_distance)
+        return self.radius[inside], values[inside], u_distance
 
 
 @runtime_checkable

@@ -12,7 +12,7 @@ So a command that needs JKR does not load the finite elements, and a new model i
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.resources import files
@@ -26,25 +26,11 @@ __all__ = ["MODELS", "ExternalIdentity", "create", "declared_models", "depends_o
 _FOLDER = "comparisons.models"
 _LITERALS = ("MODELS", "DEPENDS_ON_POISSON_RATIO")
 
-#: Modules whose models come first in lists and tables; the others follow by the name of the module.
-_FIRST = (
-    "fscm_model",
-    "stieltjes_model",
-    "fem_model",
-    "jkr",
-    "maugis_dugdale",
-    "dmt",
-    "bradley",
-    "semi_rigid",
-    "double_hertz",
-    "maugis_dugdale_jin",
-    "dmt_strength",
-    "carpick_ogletree_salmeron",
-    "pietrement_troyon",
-    "schwarz",
-    "jump_asymptotes",
-    "jkr_sphere",
-)
+#: Models that come first in lists and tables; the others follow by the name of their module.
+_REFERENCES = ("fscm", "fscm-stieltjes", "fscm-stieltjes-400", "fem")
+_OF_THE_PAPER = ("jkr", "md-original", "md-improved", "dmt", "bradley", "semi-rigid")
+_OF_OTHERS = ("double-hertz-n-k", "md-jin", "dmt-strength", "carpick-ogletree-salmeron", "pietrement-troyon", "schwarz")
+_ORDER = (*_REFERENCES, *_OF_THE_PAPER, *_OF_OTHERS, "jump-asymptotes", "jkr-sphere")
 
 
 def declared_models(source: str) -> dict[str, tuple[str, bool]]:
@@ -78,28 +64,23 @@ def declared_models(source: str) -> dict[str, tuple[str, bool]]:
     return {name: (cls, name in with_ratio) for name, cls in literals.get("MODELS", {}).items()}
 
 
-def _found() -> Iterator[tuple[str, str, bool]]:
-    """Name, "module:class" and use of Poisson's ratio of every model in the folder, in the order of lists."""
-    sources = {
-        entry.name.removesuffix(".py"): entry.read_text(encoding="utf-8")
-        for entry in files(_FOLDER).iterdir()
-        if entry.name.endswith(".py")
-    }
-    names: set[str] = set()
-    for module in [*(name for name in _FIRST if name in sources), *sorted(sources.keys() - set(_FIRST))]:
-        for name, (cls, with_ratio) in declared_models(sources[module]).items():
-            if name in names:
-                raise ValueError(f"{_FOLDER}.{module} declares a model {name}, which another module declares as well")
-            names.add(name)
-            yield name, f"{_FOLDER}.{module}:{cls}", with_ratio
+def _models_in_folder() -> dict[str, tuple[str, bool]]:
+    """Name -> "module:class" and use of Poisson's ratio of every model in the folder, in the order of lists."""
+    models: dict[str, tuple[str, bool]] = {}
+    for entry in sorted(files(_FOLDER).iterdir(), key=lambda entry: entry.name):
+        if entry.name.endswith(".py"):
+            module = f"{_FOLDER}.{entry.name.removesuffix('.py')}"
+            for name, (cls, with_ratio) in declared_models(entry.read_text(encoding="utf-8")).items():
+                if name in models:
+                    raise ValueError(f"{module} declares a model {name}, which another module declares as well")
+                models[name] = f"{module}:{cls}", with_ratio
+    return {name: models[name] for name in [*(name for name in _ORDER if name in models), *models]}
 
 
-_FOUND = list(_found())
+_MODELS = _models_in_folder()
 
 #: Name -> "module:class"; the class is called without arguments, or with Poisson's ratio alone if it takes it.
-MODELS: dict[str, str] = {name: place for name, place, _ in _FOUND}
-
-_WITH_POISSON_RATIO = frozenset(name for name, _, with_ratio in _FOUND if with_ratio)
+MODELS: dict[str, str] = {name: path for name, (path, _) in _MODELS.items()}
 
 
 def depends_on_poisson_ratio(name: str) -> bool:
@@ -112,7 +93,7 @@ def depends_on_poisson_ratio(name: str) -> bool:
     >>> depends_on_poisson_ratio("fem"), depends_on_poisson_ratio("fscm")
     (True, False)
     """
-    return name in _WITH_POISSON_RATIO
+    return name in _MODELS and _MODELS[name][1]
 
 
 def create(name: str, poisson_ratio: float | None = None) -> Model:

@@ -10,14 +10,14 @@ dP/dq = 0 at q^6 = (3-b) B_3 / ((9-b) B_9) = 168 B(4 - b, 6) = prod_{j=4..9} (j 
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import beta
 
 from comparisons.model import Curve
-from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, ClosedForm, Estimate, monomial
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, JUMPS, ClosedForm, Estimate, Limits, monomial
 from comparisons.problem import Problem
 
 __all__ = ["Bradley", "rigid_load", "rigid_pull_off"]
@@ -75,13 +75,9 @@ class Bradley(ClosedForm):
     name = "bradley"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 42 and 56; Zheng & Yu, J. Colloid Interface Sci. 310 (2007) 27-34"
     domain = "n > 2/3, any k; exact as mu -> 0"
-    applies_to: ClassVar[dict[str, list[Any]]] = {
-        "quantities": ["pull_off_force", "pull_off_displacement", "zero_load_displacement", "force_curve"],
-        "n": [0.667, None],
-    }
+    limits: ClassVar[Limits | None] = {"n": [0.667, None]}
     undefined: ClassVar[dict[str, str]] = dict.fromkeys(
-        ("jump_in_displacement", "jump_in_gap", "jump_out_displacement", "jump_out_gap"),
-        "a rigid pair under displacement control has no folds",
+        JUMPS, "a rigid pair under displacement control has no folds"
     ) | {
         "critical_tabor_number": "a rigid pair has no folds at any Tabor number",
         "hysteresis_energy": "a rigid pair has no folds to lose energy at",
@@ -93,19 +89,15 @@ class Bradley(ClosedForm):
 
     def pull_off_displacement(self, problem: Problem) -> Estimate:
         """Delta = 1 - 1/q at the smallest P."""
-        rigid_pull_off(float(problem.n))
         return _shifted(monomial((_gap_base(float(problem.n)), -1.0 / 6.0)))
 
     def zero_load_displacement(self, problem: Problem) -> Estimate:
         """Delta where attraction and repulsion balance."""
-        rigid_pull_off(float(problem.n))
         return _shifted(_zero_load_gap(float(problem.n)))
 
-    def curve(self, problem: Problem) -> Curve:
+    def force_curve(self, problem: Problem) -> Curve:
         """Return Eq. 42 from H0 = 10 to a compressive load; column ``central_gap``."""
-        self.check(problem)
         n = float(problem.n)
-        rigid_pull_off(n)
         nearest = _INSIDE * _zero_load_gap(n).value
         central_gap = np.geomspace(_FARTHEST_GAP + 1.0, nearest, _POINTS) - 1.0
         return Curve(displacement=-central_gap, load=rigid_load(n, central_gap), columns={"central_gap": central_gap})

@@ -9,10 +9,9 @@ between 2 (DMT) and 3/2 (JKR).  With lambda = 1.157 mu the fitted model is `md-o
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
-from comparisons.model import Curve, NotApplicable
-from comparisons.models.closed_form import FACTOR_ROUNDING, Estimate
+from comparisons.models.closed_form import FACTOR_ROUNDING, IN_CONTACT, Estimate
 from comparisons.models.homogeneous_sphere import HomogeneousSphere
 from comparisons.models.maugis_parameter import maugis_parameter
 from comparisons.problem import Problem
@@ -20,8 +19,6 @@ from comparisons.problem import Problem
 __all__ = ["CarpickOgletreeSalmeron"]
 
 MODELS = {"carpick-ogletree-salmeron": "CarpickOgletreeSalmeron"}
-
-_NO_DISPLACEMENT = "its equations relate load and contact radius, without the displacement"
 
 
 class CarpickOgletreeSalmeron(HomogeneousSphere):
@@ -36,9 +33,9 @@ class CarpickOgletreeSalmeron(HomogeneousSphere):
     name = "carpick-ogletree-salmeron"
     citation = "Carpick, Ogletree & Salmeron, J. Colloid Interface Sci. 211 (1999) 395-400, Eq. 12a"
     domain = "n = 2, k = 0; fit to Maugis-Dugdale with lambda = 1.157 mu"
-    applies_to: ClassVar[dict[str, list[Any]]] = {"quantities": ["pull_off_force"], "n": [2, 2], "k": [0, 0]}
-    undefined: ClassVar[dict[str, str]] = HomogeneousSphere.undefined | dict.fromkeys(
-        ("pull_off_displacement", "jump_out_displacement", "zero_load_displacement"), _NO_DISPLACEMENT
+    undefined: ClassVar[dict[str, str]] = IN_CONTACT | dict.fromkeys(
+        ("pull_off_displacement", "jump_out_displacement", "zero_load_displacement", "force_curve"),
+        "its equations relate load and contact radius, without the displacement",
     )
 
     def pull_off_force(self, problem: Problem) -> Estimate:
@@ -47,8 +44,3 @@ class CarpickOgletreeSalmeron(HomogeneousSphere):
         # 7/4 - (x - 1) / (4 (x + 1)), without a difference.
         value = 1.5 + 0.5 / (1.0 + power)
         return Estimate(value, FACTOR_ROUNDING * value)
-
-    def curve(self, problem: Problem) -> Curve:
-        """Raise `NotApplicable`: the formula has no displacement."""
-        self.check(problem)
-        raise NotApplicable(f"{self.name} has no force-displacement curve: {_NO_DISPLACEMENT}")

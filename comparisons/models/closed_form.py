@@ -7,20 +7,35 @@ from __future__ import annotations
 
 import math
 import time
-from abc import ABC, abstractmethod
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from comparisons.model import Curve, NotApplicable, Result
 from comparisons.problem import Problem
-from comparisons.quantities import QUANTITIES
+from comparisons.quantities import ALL_QUANTITIES, QUANTITIES
 
-__all__ = ["ClosedForm", "Estimate", "monomial"]
+__all__ = ["ClosedForm", "Estimate", "Limits", "monomial"]
 
 EPS = 2.0**-52
 
 # Relative error of one Gamma or Beta function of scipy over the arguments in use: measured worst 2e-15
 # (7 eps) on B(3 - 2/n, 2/n), 0.7 <= n <= 20; 16 leaves a factor of two.
 FACTOR_ROUNDING = 16.0 * EPS
+
+
+#: Ranges of parameters as `comparisons.domain` reads them; None is no limit.
+Limits = dict[str, list[Any]]
+
+#: Quantities that `pull_off_profile` returns.
+FIELDS = ("pull_off_pressure", "pull_off_gap")
+
+#: Quantities of the folds, and those that need both jumps.
+JUMPS = ("jump_in_displacement", "jump_in_gap", "jump_out_displacement", "jump_out_gap")
+CYCLE = ("hysteresis_energy", "critical_tabor_number")
+
+#: What a model of the contact alone does not define, and why.
+IN_CONTACT = dict.fromkeys((*JUMPS[:2], *CYCLE), "its equations hold in contact only") | {
+    "jump_out_gap": "the gap is zero by assumption wherever there is contact"
+}
 
 
 class Estimate(NamedTuple):
@@ -57,13 +72,20 @@ def monomial(*factors: tuple[float, float]) -> Estimate:
     return Estimate(value, abs(value) * amplification)
 
 
-class ClosedForm(ABC):
+class ClosedForm:
     """Base of the closed forms: it checks the problem, calls the method of the quantity and measures the time.
+
+    A closed form computes the quantities for which it has a method: `pull_off_force` and the other numbers by their
+    names, which return an `Estimate`, `force_curve`, and `pull_off_profile` for both fields.
 
     Attributes
     ----------
     name, version, citation, domain : str
         As in `comparisons.model.Model`.
+    limits : dict or None
+        Ranges of n, k and mu in which every quantity has a value; None if the model does not declare its domain.
+    narrower : dict
+        Further ranges of single quantities.
     undefined : dict of str to str
         Reasons why the model does not define a quantity, one sentence each.
 
@@ -78,7 +100,21 @@ class ClosedForm(ABC):
     version: ClassVar[str] = "1"
     citation: ClassVar[str]
     domain: ClassVar[str]
+    limits: ClassVar[Limits | None] = {}
+    narrower: ClassVar[dict[str, Limits]] = {}
     undefined: ClassVar[dict[str, str]] = {}
+
+    @property
+    def applies_to(self) -> list[dict[str, Any]] | None:
+        """The declared domain (`comparisons.domain`): the quantities that have a method, by their ranges."""
+        if self.limits is None:
+            return None
+        tables: dict[str, dict[str, Any]] = {}
+        for quantity in ALL_QUANTITIES:
+            if hasattr(self, "pull_off_profile" if quantity in FIELDS else quantity):
+                limits = self.limits | self.narrower.get(quantity, {})
+                tables.setdefault(str(limits), {"quantities": [], **limits})["quantities"].append(quantity)
+        return list(tables.values())
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity for the problem.
@@ -94,13 +130,8 @@ class ClosedForm(ABC):
         """
         if quantity not in QUANTITIES:
             raise ValueError(f"quantity {quantity!r} is unknown; the known ones are {', '.join(QUANTITIES)}")
-        self.check(problem)
-        method = getattr(self, quantity, None)
-        if method is None:
-            reason = self.undefined.get(quantity, "its equations do not contain it")
-            raise NotApplicable(f"{self.name} does not define {quantity}: {reason}")
         start = time.perf_counter()
-        estimate: Estimate = method(problem)
+        estimate: Estimate = self._call(quantity, problem)
         return Result(
             value=estimate.value,
             u_num=estimate.u_num,
@@ -109,9 +140,18 @@ class ClosedForm(ABC):
             seconds=time.perf_counter() - start,
         )
 
-    @abstractmethod
     def curve(self, problem: Problem) -> Curve:
         """Return the force-displacement curve, or raise as `evaluate` does."""
+        curve: Curve = self._call("force_curve", problem)
+        return curve
 
-    def check(self, problem: Problem) -> None:  # noqa: B027  # most models have nothing to check
+    def check(self, problem: Problem) -> None:
         """Raise `NotApplicable` where the model does not hold for the problem; by default it holds for every one."""
+
+    def _call(self, quantity: str, problem: Problem) -> Any:
+        self.check(problem)
+        method = getattr(self, quantity, None)
+        if method is None:
+            reason = self.undefined.get(quantity, "its equations do not contain it")
+            raise NotApplicable(f"{self.name} does not define {quantity}: {reason}")
+        return method(problem)

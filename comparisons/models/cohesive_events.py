@@ -1,4 +1,4 @@
-"""Pull-off, fold and zero load on the curve of a Maugis-Dugdale contact.
+"""Pull-off, fold and zero load on the curve of a contact with a cohesive zone.
 
 The curve is smooth in w = log(a/L).  A scan brackets every change of sign of an exact slope, Brent's method
 converges it to rounding, and the error bound of a value follows from the magnitude of the terms in it.
@@ -6,7 +6,6 @@ converges it to rounding, and the error bound of a value follows from the magnit
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -109,8 +108,9 @@ class CohesiveEvents:
         ComputationFailed
             If the scan saw a load below the minimum that was converged.
         """
-        roots = [self._root(i, _load_slope) for i in _sign_changes(*_load_slope(self.states))]
-        lowest = min([*(root for root in roots if root), self._end_point()], key=lambda event: event.load)
+        end_point = Event(-np.inf, 0.0, 0.0, self.contact.at(np.array([-np.inf])), 0, 0.0)
+        roots = [self._root(i, "load_slope") for i in self._sign_changes("load_slope")]
+        lowest = min([*(root for root in roots if root), end_point], key=lambda event: event.load)
         seen = int(np.argmin(self.states.load))
         margin = _LOAD_MARGIN * float(self.states.load_scale[seen])
         if float(self.states.load[seen]) < lowest.load - margin:
@@ -127,31 +127,39 @@ class CohesiveEvents:
         NotApplicable
             If delta grows with the contact radius throughout.
         """
-        changes = _sign_changes(*_displacement_slope(self.states))
-        if not changes:
+        if not self._sign_changes("displacement_slope"):
             raise NotApplicable(
                 "the displacement grows with the contact radius from the first touch: "
                 "there is no fold in contact, and Eqs. 66-69 hold in contact only"
             )
-        return _found(self._root(changes[-1], _displacement_slope), "fold")
+        return self._largest_root("displacement_slope")
 
     def zero_load(self) -> Event:
         """Return the state in contact with P = 0, beyond the pull-off."""
-        return _found(self._root(_sign_changes(*_load(self.states))[-1], _load), "zero load")
+        return self._largest_root("load")
 
-    def _end_point(self) -> Event:
-        """Return the state a = 0."""
-        return Event(-np.inf, 0.0, 0.0, self.contact.at(np.array([-np.inf])), 0, 0.0)
+    def _largest_root(self, name: str) -> Event:
+        event = self._root(self._sign_changes(name)[-1], name)
+        if event is None:
+            raise ComputationFailed(f"the finer quadrature does not confirm that the {name} changes its sign")
+        return event
 
-    def _root(self, i: int, function: Callable[[ContactState], tuple[Array, Array]]) -> Event | None:
-        """Converge the root of `function` that the scan saw between its points i and i + 1.
+    def _sign_changes(self, name: str) -> list[int]:
+        """Return the indices i where a number of the state rises through zero up to i + 1, by more than rounding."""
+        values, scales = _with_scale(self.states, name)
+        rises = (values[:-1] < 0.0) & (values[1:] >= 0.0)
+        real = np.abs(values) > _SCAN_NOISE * scales
+        return [int(i) for i in np.nonzero(rises & (real[:-1] | real[1:]))[0]]
 
-        The scan is coarse: the root may lie one step to either side, or, where the function is nothing but
+    def _root(self, i: int, name: str) -> Event | None:
+        """Converge the root of a number of the state that the scan saw between its points i and i + 1.
+
+        The scan is coarse: the root may lie one step to either side, or, where the number is nothing but
         rounding, not exist.  Return None then.
         """
 
         def relative(w: float) -> float:
-            value, scale = function(self.contact.at(np.array([w])))
+            value, scale = _with_scale(self.contact.at(np.array([w])), name)
             return float(value[0] / scale[0])
 
         low, high = float(self.w[i]), float(self.w[i + 1])
@@ -162,8 +170,7 @@ class CohesiveEvents:
         if not relative(low) < 0.0 < relative(high):
             return None
         w, report = scipy.optimize.brentq(relative, low, high, xtol=4.0 * EPS, rtol=4.0 * EPS, full_output=True)
-        around = self.contact.at(w + _DIFFERENCE * np.array([-1.0, 0.0, 1.0]))
-        values, scales = function(around)
+        values, scales = _with_scale(self.contact.at(w + _DIFFERENCE * np.array([-1.0, 0.0, 1.0])), name)
         slope = abs(float(values[2] - values[0])) / (2.0 * _DIFFERENCE)
         if not slope > 0.0:
             raise ComputationFailed(
@@ -174,30 +181,9 @@ class CohesiveEvents:
         return Event(w, w_error, 0.5 * slope * w_error**2, self.contact.at(np.array([w])), report.iterations, residual)
 
 
-def _found(event: Event | None, what: str) -> Event:
-    """Return the event, or raise `ComputationFailed` if the fine quadrature does not confirm it."""
-    if event is None:
-        raise ComputationFailed(f"the sign change of the scan at the {what} is not confirmed by the finer quadrature")
-    return event
-
-
-def _load(state: ContactState) -> tuple[Array, Array]:
-    return state.load, state.load_scale
-
-
-def _load_slope(state: ContactState) -> tuple[Array, Array]:
-    return state.load_slope, state.load_slope_scale
-
-
-def _displacement_slope(state: ContactState) -> tuple[Array, Array]:
-    return state.displacement_slope, state.displacement_slope_scale
-
-
-def _sign_changes(values: Array, scales: Array) -> list[int]:
-    """Return the indices i where `values` rises through zero between i and i + 1, by more than rounding."""
-    rises = (values[:-1] < 0.0) & (values[1:] >= 0.0)
-    real = np.abs(values) > _SCAN_NOISE * scales
-    return [int(i) for i in np.nonzero(rises & (real[:-1] | real[1:]))[0]]
+def _with_scale(state: ContactState, name: str) -> tuple[Array, Array]:
+    """Return a number of the state and the magnitude of its terms."""
+    return getattr(state, name), getattr(state, f"{name}_scale")
 
 
 def _end_of_scan(contact: CohesiveContact) -> float:

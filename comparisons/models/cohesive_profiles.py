@@ -3,11 +3,10 @@
 Inverting the Abel transform of `cohesive_contact`, the pressure inside the contact (r < a) is Hertz's for the
 radius a minus a share of the cohesive stress that rises from the inside to 1 at the edge,
 
-    p(r) = (stiffness / 2) n D(1) integral_r^a x^(n-1) (x^2 - r^2)^(-s) dx - Lambda share(r).
+    p(r) = (stiffness / 2) n D(1) integral_r^a x^(n-1) (x^2 - r^2)^(-s) dx - Lambda share(r),
+    share(r) = u^(-d) I_u(p, 1-s),    u = (c^2 - a^2) / (c^2 - r^2),
 
-Of a Maugis-Dugdale contact the share is I_u(s, 1-s), u = (c^2 - a^2) / (c^2 - r^2), with the regularised incomplete
-beta function I (k = 0: (2/pi) arcsin sqrt(u)), and 1 for a < r < c.  The contact has the share and the excess of other
-tractions.
+with the regularised incomplete beta function I (Maugis-Dugdale at k = 0: (2/pi) arcsin sqrt(u)).
 """
 
 from __future__ import annotations
@@ -84,7 +83,7 @@ def pressure(contact: CohesiveContact, state: ContactState, r: Array) -> Array:
     n, s = punch.n, punch.s
     a, c, L = _radii(state)
     zone = np.maximum((c - r) * (c + r), 0.0) / L**2
-    p = np.where(r < c, -contact.maugis_number * contact.zone_share(np.minimum(zone, 1.0)), 0.0)
+    p = np.where(r < c, -contact.maugis_number * np.minimum(zone, 1.0) ** contact.decay, 0.0)
     inside = r < a
     if not np.any(inside):
         return p
@@ -111,22 +110,20 @@ def gap(contact: CohesiveContact, state: ContactState, r: Array) -> Array:
     >>> gap(contact, state, state.cohesive_radius).round(12).tolist()       # Griffith: H(c) = 1 / Lambda
     [1.0]
     """
-    edge = _radii(state)
-    a, c, L = edge
+    a, c, L = _radii(state)
+    n = contact.punch.n
     H = np.zeros_like(r)
     for i in np.nonzero(r > a)[0]:
         ri = float(r[i])
         if contact.punch.s == 0.0:
             # Independent springs: the deformation is 2 p(r).
-            H[i] = (ri**contact.punch.n - a**contact.punch.n) / contact.punch.n
             opened = np.minimum(np.array([(ri - a) * (ri + a) / L**2]), 1.0)
-            H[i] += contact.amplitude(L) * (1.0 if ri >= c else float(contact.opening(1.0 - opened, opened)[0]))
-        elif ri < c:
-            H[i] = _gap_part(contact, edge, a, ri, np.sqrt((ri - a) * (ri + a)), ri)
+            share = 1.0 if ri >= c else float(contact.opening(1.0 - opened, opened)[0])
+            H[i] = (ri**n - a**n) / n + contact.amplitude(L) * share
         else:
-            H[i] = _gap_part(contact, edge, a, c, L, ri)
+            H[i] = _gap_part(contact, state, a, min(ri, c), ri)
             if ri > c:
-                H[i] += _gap_part(contact, edge, c, ri, np.sqrt((ri - c) * (ri + c)), ri)
+                H[i] += _gap_part(contact, state, c, ri, ri)
     return H
 
 
@@ -147,8 +144,8 @@ def cohesive_profiles(
     >>> from comparisons.models.graded_punch import GradedPunch
     >>> contact = CohesiveContact(GradedPunch(2.0, 0.0), 1.0)
     >>> state = contact.at(np.array([0.0]))
-    >>> found = cohesive_profiles(contact, state, contact.punch.scales(mu=1.0))
-    >>> float(found.pressure.min()), bool(found.gap[found.radius < found.contact_radius].max() == 0.0)
+    >>> surface = cohesive_profiles(contact, state, contact.punch.scales(mu=1.0))
+    >>> float(surface.pressure.min()), bool(surface.gap[surface.radius < surface.contact_radius].max() == 0.0)
     (-1.0, True)
     """
     a, c, L = _radii(state)
@@ -181,18 +178,12 @@ def _radii(state: ContactState) -> tuple[float, float, float]:
     return float(state.contact_radius[0]), float(state.cohesive_radius[0]), float(state.cohesive_width[0])
 
 
-def _gap_part(
-    contact: CohesiveContact,
-    edge: tuple[float, float, float],
-    start: float,
-    end: float,
-    width: float,
-    r: float,
-) -> float:
-    """Return the part of H(r) from start < x < end (a or c, r or c); width^2 = end^2 - start^2."""
+def _gap_part(contact: CohesiveContact, state: ContactState, start: float, end: float, r: float) -> float:
+    """Return the part of H(r) from start < x < end (a or c, r or c)."""
     punch = contact.punch
     n, s = punch.n, punch.s
-    a, c, L = edge
+    a, c, L = _radii(state)
+    width = L if (start, end) == (a, c) else float(np.sqrt((end - start) * (end + start)))
     log_rest = FINE.log_z / s
     rest, y = np.exp(log_rest), -np.expm1(log_rest)
     x2 = start**2 + width**2 * y

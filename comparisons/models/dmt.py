@@ -5,24 +5,27 @@ c = (n / sigma_0)^(1/n) by Griffith's relation over the undeformed profile, so t
 
     delta = 1/2 B(n/2, (1+k)/2) a^n,    P = Hertz(a) - n^(2/n) sigma_0^(1 - 2/n).
 
-The cohesive stress is eta(n) (Eq. 77), for which the pull-off force is Bradley's (Eq. 74) and sits at a = 0.
+The pull-off sits at a = 0.  With the cohesive stress eta(n) (Eq. 77), of `DMT`, its force is Bradley's (Eq. 74).  With
+the theoretical strength 16 sqrt(3) / 27 (Eq. 73), of `DMTStrength`, it is the limit of the original Maugis-Dugdale
+model and for n other than 2 not Bradley's.  For n = 2 the strength has no influence: both are the model of Derjaguin,
+Muller and Toporov.
 """
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from comparisons.model import Curve
-from comparisons.models.closed_form import FACTOR_ROUNDING, ClosedForm, Estimate, monomial
-from comparisons.models.cohesive_stress import eta
+from comparisons.models.closed_form import CYCLE, FACTOR_ROUNDING, JUMPS, ClosedForm, Estimate, Limits, monomial
+from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
-__all__ = ["DMT", "dmt_pull_off"]
+__all__ = ["DMT", "DMTStrength", "dmt_pull_off"]
 
-MODELS = {"dmt": "DMT"}
+MODELS = {"dmt": "DMT", "dmt-strength": "DMTStrength"}
 
 _POINTS = 401
 
@@ -52,20 +55,9 @@ class DMT(ClosedForm):
         "Zhu, Zheng, Huang & Yu, Eqs. 75-77; Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53 (1975) 314-326"
     )
     domain = "n > 2/3, 0 <= k <= 1; cohesive stress eta(n); exact pull-off as mu -> 0"
-    applies_to: ClassVar[dict[str, list[Any]]] = {
-        "quantities": ["pull_off_force", "pull_off_displacement", "zero_load_displacement", "force_curve"],
-        "n": [0.667, None],
-    }
+    limits: ClassVar[Limits | None] = {"n": [0.667, None]}
     undefined: ClassVar[dict[str, str]] = dict.fromkeys(
-        (
-            "jump_in_displacement",
-            "jump_in_gap",
-            "jump_out_displacement",
-            "jump_out_gap",
-            "hysteresis_energy",
-            "critical_tabor_number",
-        ),
-        "its displacement grows with the contact radius throughout, so it has no folds",
+        (*JUMPS, *CYCLE), "its displacement grows with the contact radius throughout, so it has no folds"
     )
 
     def cohesive_stress(self, problem: Problem) -> float:
@@ -78,8 +70,8 @@ class DMT(ClosedForm):
 
     def pull_off_displacement(self, problem: Problem) -> Estimate:
         """Zero: the pull-off sits at the point of first contact."""
-        self.cohesive_stress(problem)
-        GradedPunch.of(problem)
+        # Refuses what is no power law.
+        self.cohesive_stress(problem), GradedPunch.of(problem)
         return Estimate(0.0, 0.0)
 
     def zero_load_displacement(self, problem: Problem) -> Estimate:
@@ -92,12 +84,11 @@ class DMT(ClosedForm):
         inherited = power * (adhesion.u_num / adhesion.value + FACTOR_ROUNDING)
         return Estimate(estimate.value, estimate.u_num + inherited * estimate.value)
 
-    def curve(self, problem: Problem) -> Curve:
+    def force_curve(self, problem: Problem) -> Curve:
         """Return the contact branch from a = 0 to a load as compressive as the pull-off is tensile.
 
         Column ``contact_radius``.
         """
-        self.check(problem)
         punch = GradedPunch.of(problem)
         n, k = punch.n, punch.k
         adhesion = self.pull_off_force(problem).value
@@ -109,6 +100,24 @@ class DMT(ClosedForm):
             load=hertz * a ** (n + k + 1.0) - adhesion,
             columns={"contact_radius": a},
         )
+
+
+class DMTStrength(DMT):
+    """DMT-n-k with the cohesive stress 16 sqrt(3) / 27.
+
+    Examples
+    --------
+    >>> round(DMTStrength().evaluate(Problem.dimensionless(n=1, k=0.4, mu=0.1), "pull_off_force").value, 4)
+    0.9743
+    """
+
+    name = "dmt-strength"
+    citation = "Zhu, Zheng, Huang & Yu, Eqs. 73 and 75; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
+    domain = "n > 2/3, 0 <= k <= 1; cohesive stress 16 sqrt(3)/27"
+
+    def cohesive_stress(self, problem: Problem) -> float:
+        """sigma_0 = 16 sqrt(3) / 27, in dgamma / z0."""
+        return THEORETICAL_STRENGTH
 
 
 def _hertz(punch: GradedPunch, mu: float) -> float:

@@ -8,12 +8,8 @@ be infinite on the axis for n <= 1 - k, and largest inside the zone, away from t
 
 from __future__ import annotations
 
-from typing import ClassVar
-
-from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_model import CohesiveModel
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
-from comparisons.models.double_hertz_contact import DoubleHertzContact
 from comparisons.problem import Problem
 
 __all__ = ["DoubleHertz"]
@@ -36,8 +32,11 @@ class DoubleHertz(CohesiveModel):
         "2473-2492; other n: equations of this repository (docs/theory.md)"
     )
     domain = "n > (1-k)/2, 0 <= k <= 1; largest traction 16 sqrt(3)/27"
-    contact_type: ClassVar[type[CohesiveContact]] = DoubleHertzContact
 
     def cohesive_stress(self, problem: Problem) -> float:
         """Largest traction 16 sqrt(3) / 27, in dgamma / z0."""
         return THEORETICAL_STRENGTH
+
+    def decay(self, problem: Problem) -> float:
+        """Of the difference of two Hertz pressures: (1+k)/2."""
+        return 0.5 * (1.0 + float(problem.k))

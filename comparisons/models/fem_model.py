@@ -14,11 +14,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import fem_reference
 from comparisons.model import Curve, NotApplicable, RadialField, Result
-from comparisons.models.solver import result_of, translated
+from comparisons.models.solver import result_of, surface_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
-from comparisons.quantities.points import near
 from fscm.problem import Problem as PosedProblem
 
 if TYPE_CHECKING:
@@ -140,21 +139,14 @@ class FiniteElements:
     def _surface_at_pull_off(self, problem: Problem) -> RadialField:
         units, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            found = [fem_reference.profile(body, accuracy=level) for level in _LEVELS]
-        (radius, pressure, gap), fine = (
-            (
-                profile.radius / units["radius"],
-                profile.pressure / units["traction"],
-                profile.gap / units["gap"],
+            profiles = [fem_reference.profile(body, accuracy=level) for level in _LEVELS]
+        coarse, fine = (
+            RadialField(
+                profile.radius / units["radius"], profile.pressure / units["traction"], profile.gap / units["gap"]
             )
-            for profile in found
+            for profile in profiles
         )
-        fine_radius, fine_pressure, fine_gap = fine
-        return RadialField(
-            *fine,
-            mesh_difference(*near(gap, radius, pressure), *near(fine_gap, fine_radius, fine_pressure)),
-            mesh_difference(*near(gap, radius, gap), *near(fine_gap, fine_radius, fine_gap)),
-        )
+        return surface_of(coarse, fine)
 
     def _physical(self, problem: Problem) -> tuple[Mapping[str, float], fem_reference.Problem]:
         """The units of the results, and the problem of the solver."""

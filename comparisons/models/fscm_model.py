@@ -9,10 +9,8 @@ import numpy as np
 import fscm
 from comparisons.model import Curve, NotApplicable, RadialField, Result
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
-from comparisons.models.solver import result_of, translated
-from comparisons.numerics.curve_distance import mesh_difference
+from comparisons.models.solver import result_of, surface_of, translated
 from comparisons.problem import Problem
-from comparisons.quantities.points import near
 from fscm.states import radial_field
 
 __all__ = ["FullSelfConsistent"]
@@ -68,13 +66,7 @@ class FullSelfConsistent:
             if problem.posed.k == 1.0:
                 return gibson_profile(problem.posed)
             event = fscm.Analysis(problem.posed).event("pull_off")
-        check, value = radial_field(event.check), radial_field(event.value)
-        return RadialField(
-            value.radius,
-            value.pressure,
-            value.gap,
-            mesh_difference(
-                *near(check.gap, check.radius, check.pressure), *near(value.gap, value.radius, value.pressure)
-            ),
-            mesh_difference(*near(check.gap, check.radius, check.gap), *near(value.gap, value.radius, value.gap)),
+        coarse, fine = (radial_field(state) for state in (event.check, event.value))
+        return surface_of(
+            RadialField(coarse.radius, coarse.pressure, coarse.gap), RadialField(fine.radius, fine.pressure, fine.gap)
         )

@@ -11,7 +11,7 @@ import math
 from typing import ClassVar
 
 from comparisons.model import NotApplicable
-from comparisons.models.closed_form import ClosedForm
+from comparisons.models.closed_form import IN_CONTACT, ClosedForm, Limits
 from comparisons.models.maugis_parameter import maugis_parameter
 from comparisons.problem import Problem
 
@@ -40,14 +40,11 @@ class HomogeneousSphere(ClosedForm):
     comparisons.model.NotApplicable: schwarz is for n = 2 and k = 0, a sphere on a homogeneous solid, not for k = 0.4
     """
 
-    undefined: ClassVar[dict[str, str]] = dict.fromkeys(
-        ("jump_in_displacement", "jump_in_gap", "hysteresis_energy", "critical_tabor_number"),
-        "its equations hold in contact only",
-    ) | {"jump_out_gap": "the gap is zero by assumption wherever there is contact"}
+    limits: ClassVar[Limits | None] = {"n": [2, 2], "k": [0, 0]}
+    undefined: ClassVar[dict[str, str]] = IN_CONTACT
 
     def check(self, problem: Problem) -> None:
         """Raise `NotApplicable` unless n = 2, k = 0, the punch is r^2 / 2 and the law is 9-3."""
-        super().check(problem)
         for name, value, only in (("n", problem.n, 2.0), ("k", problem.k, 0.0)):
             if float(value) != only:
                 raise NotApplicable(

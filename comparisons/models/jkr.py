@@ -15,7 +15,7 @@ from typing import ClassVar
 import numpy as np
 
 from comparisons.model import Curve
-from comparisons.models.closed_form import EPS, ClosedForm, Estimate, monomial
+from comparisons.models.closed_form import EPS, IN_CONTACT, ClosedForm, Estimate, monomial
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
@@ -38,19 +38,9 @@ class JKR(ClosedForm):
     name = "jkr"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 50-57; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
     domain = "n > (1-k)/2, 0 <= k <= 1; exact as mu -> infinity"
-    applies_to: ClassVar[dict[str, list[str]]] = {
-        "quantities": [
-            "pull_off_force",
-            "pull_off_displacement",
-            "jump_out_displacement",
-            "zero_load_displacement",
-            "force_curve",
-        ]
-    }
-    undefined: ClassVar[dict[str, str]] = {
+    undefined: ClassVar[dict[str, str]] = IN_CONTACT | {
         "jump_in_displacement": "surfaces do not attract before contact, so nothing jumps in",
         "jump_in_gap": "surfaces do not attract before contact, so nothing jumps in",
-        "jump_out_gap": "the gap is zero by assumption wherever there is contact",
         "critical_tabor_number": "the curve has a fold at every Tabor number",
         "hysteresis_energy": "it needs a jump-in, and surfaces do not attract before contact",
     }
@@ -83,18 +73,16 @@ class JKR(ClosedForm):
 
     def jump_out_radius(self, problem: Problem) -> Estimate:
         """Contact radius at the fold (Eq. 53), in (Q z0)^(1/n); 0 at k = 1."""
-        self.check(problem)
         punch = GradedPunch.of(problem)
         if punch.s == 0.0:
             return Estimate(0.0, 0.0)
         return monomial(*_radius_power(punch, punch.s, 1.0), (problem.mu, 1.0 / punch.n))
 
-    def curve(self, problem: Problem) -> Curve:
+    def force_curve(self, problem: Problem) -> Curve:
         """Return Eqs. 50-51 from a = 0 to where the load is as compressive as the pull-off is tensile.
 
         Column ``contact_radius``.
         """
-        self.check(problem)
         punch = GradedPunch.of(problem)
         n, k, s = punch.n, punch.k, punch.s
         pull_off = monomial(*_radius_power(punch, s + k + 1.0, 1.0)).value

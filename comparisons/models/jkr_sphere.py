@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from comparisons.model import Curve, NotApplicable
-from comparisons.models.closed_form import EPS, ClosedForm, Estimate
+from comparisons.models.closed_form import EPS, ClosedForm, Estimate, Limits
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
@@ -46,12 +46,26 @@ def _sneddon(alpha: ArrayLike) -> NDArray[np.float64]:
     return np.where(x < _SERIES_BELOW, series, (1.0 + x**2) * np.arctanh(x) - x)
 
 
+# Of each event: the function that rises as `start` alpha^(3/2) or faster, `start`, and theta.
+_EVENTS: dict[str, tuple[Callable[[float], float], float, float]] = {
+    "pull_off": (lambda a: (2.0 * math.atanh(a) + 2.0 * a / (1.0 - a * a)) * math.sqrt(a), 4.0, 3.0),
+    "jump_out": (lambda a: (math.atanh(a) + a / (1.0 - a * a)) * math.sqrt(a), 2.0, 0.5),
+    "zero_load": (lambda a: float(_sneddon(a)) / a**1.5, 4.0 / 3.0, 2.0),
+}
+
+
 @dataclass(frozen=True, slots=True)
 class _Ball:
     """A ball by x = dgamma/(E* R) and by its radius in z0."""
 
     softness: float
     radius: float
+
+    @classmethod
+    def of(cls, problem: Problem) -> _Ball:
+        """Return the ball of a problem: x = (mu z0 / R)^(3/2) for n = 2 and k = 0 (Eq. 29)."""
+        radius = problem.punch["R"] / problem.units["displacement"]
+        return cls((problem.posed.mu / radius) ** 1.5, radius)
 
     def displacement(self, alpha: ArrayLike) -> NDArray[np.float64]:
         """Delta / R."""
@@ -63,10 +77,11 @@ class _Ball:
         x = np.asarray(alpha, float)
         return (_sneddon(x) - np.sqrt(8.0 * math.pi * self.softness * x**3)) / (math.pi * self.softness)
 
-    def radius_where(self, rise: Callable[[float], float], theta: float, first: float) -> float:
-        """Return alpha where a rising function, `first` alpha^(3/2) or more, is theta sqrt(2 pi x)."""
+    def at(self, event: str) -> float:
+        """Return alpha where the rising function of an event is theta sqrt(2 pi x)."""
+        rise, start, theta = _EVENTS[event]
         target = theta * math.sqrt(2.0 * math.pi * self.softness)
-        largest = (target / first) ** (2.0 / 3.0)
+        largest = (target / start) ** (2.0 / 3.0)
         if rise(_REACH) < target:
             raise NotApplicable(
                 f"the ball is smaller than the contact: its radius is that of the contact over {_REACH} or less"
@@ -75,20 +90,9 @@ class _Ball:
         largest = min(largest * (1.0 + 8.0 * EPS), _REACH)
         return float(brentq(lambda alpha: rise(alpha) - target, smallest, largest, xtol=1e-300, rtol=4.0 * EPS))
 
-    def at_pull_off(self) -> float:
-        """Alpha where dP = 0."""
-        return self.radius_where(lambda a: (2.0 * math.atanh(a) + 2.0 * a / (1.0 - a * a)) * math.sqrt(a), 3.0, 4.0)
-
-    def at_jump_out(self) -> float:
-        """Alpha where d delta = 0."""
-        return self.radius_where(lambda a: (math.atanh(a) + a / (1.0 - a * a)) * math.sqrt(a), 0.5, 2.0)
-
-    def at_zero_load(self) -> float:
-        """Alpha where P = 0."""
-        return self.radius_where(lambda a: float(_sneddon(a)) / a**1.5, 2.0, 4.0 / 3.0)
-
-    def displacement_at(self, alpha: float) -> Estimate:
+    def displacement_at(self, event: str) -> Estimate:
         """Return delta / z0 with the rounding of its terms and that of alpha."""
+        alpha = self.at(event)
         terms = alpha * math.atanh(alpha) + math.sqrt(2.0 * math.pi * self.softness * alpha)
         rounding = 32.0 * EPS * (terms + alpha**2) / (1.0 - alpha**2)
         return Estimate(self.radius * float(self.displacement(alpha)), self.radius * rounding)
@@ -112,6 +116,7 @@ class JKRSphere(ClosedForm):
     domain = "a ball on a homogeneous solid, contact radius up to 0.95 R; exact as mu -> infinity"
     #: Kinds of punches that it takes, none of them of the paper (`comparisons.problem.evaluation`).
     punches: ClassVar[tuple[str, ...]] = ("ball",)
+    limits: ClassVar[Limits | None] = None
     undefined: ClassVar[dict[str, str]] = JKR.undefined
 
     def check(self, problem: Problem) -> None:
@@ -123,35 +128,30 @@ class JKRSphere(ClosedForm):
 
     def pull_off_force(self, problem: Problem) -> Estimate:
         """-min P."""
-        ball = _ball(problem)
-        alpha = ball.at_pull_off()
+        ball = _Ball.of(problem)
+        alpha = ball.at("pull_off")
         terms = float(_sneddon(alpha)) + math.sqrt(8.0 * math.pi * ball.softness * alpha**3)
         return Estimate(-float(ball.load(alpha)), 32.0 * EPS * terms / (math.pi * ball.softness))
 
     def pull_off_displacement(self, problem: Problem) -> Estimate:
         """Delta where P is smallest."""
-        ball = _ball(problem)
-        return ball.displacement_at(ball.at_pull_off())
+        return _Ball.of(problem).displacement_at("pull_off")
 
     def jump_out_displacement(self, problem: Problem) -> Estimate:
         """Smallest delta on the curve."""
-        ball = _ball(problem)
-        return ball.displacement_at(ball.at_jump_out())
+        return _Ball.of(problem).displacement_at("jump_out")
 
     def zero_load_displacement(self, problem: Problem) -> Estimate:
         """Delta in contact where P = 0."""
-        ball = _ball(problem)
-        return ball.displacement_at(ball.at_zero_load())
+        return _Ball.of(problem).displacement_at("zero_load")
 
-    def curve(self, problem: Problem) -> Curve:
+    def force_curve(self, problem: Problem) -> Curve:
         """Return the curve from a = 0 to where the load is as compressive as the pull-off is tensile.
 
         It ends where the contact reaches 0.95 R.  Column ``contact_radius``.
         """
-        self.check(problem)
-        ball = _ball(problem)
-        pull_off = ball.at_pull_off()
-        end = pull_off
+        ball = _Ball.of(problem)
+        end = pull_off = ball.at("pull_off")
         while end < _REACH and ball.load(end) < -ball.load(pull_off):
             end = min(1.02 * end, _REACH)
         alpha = end * np.linspace(0.0, 1.0, _POINTS) ** 2
@@ -160,9 +160,3 @@ class JKRSphere(ClosedForm):
             load=ball.load(alpha),
             columns={"contact_radius": math.sqrt(ball.radius) * alpha},
         )
-
-
-def _ball(problem: Problem) -> _Ball:
-    """Return the ball of a problem: x = (mu z0 / R)^(3/2) for n = 2 and k = 0 (Eq. 29)."""
-    radius = problem.punch["R"] / problem.units["displacement"]
-    return _Ball((problem.posed.mu / radius) ** 1.5, radius)

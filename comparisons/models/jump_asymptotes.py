@@ -22,8 +22,8 @@ from typing import ClassVar
 import scipy
 from scipy.special import beta
 
-from comparisons.model import Curve, NotApplicable
-from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, ClosedForm, Estimate
+from comparisons.model import NotApplicable
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, ClosedForm, Estimate, Limits
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, attraction_coefficient
@@ -46,12 +46,13 @@ class JumpAsymptotes(ClosedForm):
     name = "jump-asymptotes"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 43-55 and Sec. 3.3; the energy of the cycle: docs/theory.md"
     domain = "n > 2/3, 0 <= k <= 1; where the asymptote of the jump-in lies above that of the jump-out"
-    undefined: ClassVar[dict[str, str]] = {
-        "pull_off_force": "jkr has that of its branch in contact",
-        "pull_off_displacement": "jkr has that of its branch in contact",
-        "zero_load_displacement": "jkr has that of its branch in contact",
+    limits: ClassVar[Limits | None] = None
+    undefined: ClassVar[dict[str, str]] = dict.fromkeys(
+        ("pull_off_force", "pull_off_displacement", "zero_load_displacement"), "jkr has that of its branch in contact"
+    ) | {
         "jump_out_gap": "the gap is zero by assumption on the branch in contact",
         "critical_tabor_number": "both asymptotes are for large Tabor numbers, far above the critical one",
+        "force_curve": "its branches are those of semi-rigid and jkr",
     }
 
     def jump_in_displacement(self, problem: Problem) -> Estimate:
@@ -82,13 +83,6 @@ class JumpAsymptotes(ClosedForm):
         # The ends are folds or roots to rounding; their errors count by the load there, which the scales contain.
         rounding = 4.0 * FACTOR_ROUNDING * (far_scale + unit * near_scale)
         return Estimate(far - unit * near, rounding)
-
-    def curve(self, problem: Problem) -> Curve:
-        """Raise `NotApplicable`: the cycle consists of two branches of other models."""
-        self.check(problem)
-        raise NotApplicable(
-            f"{self.name} has no force-displacement curve of its own: its branches are those of semi-rigid and jkr"
-        )
 
 
 def _far_energy(problem: Problem, jump_out: float) -> tuple[float, float]:

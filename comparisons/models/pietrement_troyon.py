@@ -19,7 +19,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from comparisons.model import Curve, NotApplicable
-from comparisons.models.closed_form import FACTOR_ROUNDING, Estimate
+from comparisons.models.closed_form import FACTOR_ROUNDING, IN_CONTACT, Estimate, Limits
 from comparisons.models.homogeneous_sphere import HomogeneousSphere, transition_parameter
 from comparisons.problem import Problem
 
@@ -51,16 +51,11 @@ class PietrementTroyon(HomogeneousSphere):
     domain = (
         "n = 2, k = 0; displacements for alpha >= 0.01 (mu >= 0.0082); fit to Maugis-Dugdale with lambda = 1.157 mu"
     )
-    applies_to: ClassVar[list[dict[str, list[Any]]]] = [
-        {"quantities": ["pull_off_force"], "n": [2, 2], "k": [0, 0]},
-        {
-            "quantities": ["pull_off_displacement", "zero_load_displacement", "force_curve"],
-            "n": [2, 2],
-            "k": [0, 0],
-            "mu": [0.0083, None],
-        },
-    ]
-    undefined: ClassVar[dict[str, str]] = HomogeneousSphere.undefined | {
+    narrower: ClassVar[dict[str, Limits]] = {
+        quantity: {"mu": [0.0083, None]}
+        for quantity in ("pull_off_displacement", "zero_load_displacement", "force_curve")
+    }
+    undefined: ClassVar[dict[str, str]] = IN_CONTACT | {
         "jump_out_displacement": "its equations hold above the pull-off, and the fold lies below"
     }
 
@@ -71,41 +66,35 @@ class PietrementTroyon(HomogeneousSphere):
 
     def pull_off_displacement(self, problem: Problem) -> Estimate:
         """Delta where P is smallest."""
-        alpha = self._alpha(problem)
-        return self._displacement(problem, alpha / (1.0 + alpha))
+        return self._displacement(problem, 0.0)
 
     def zero_load_displacement(self, problem: Problem) -> Estimate:
         """Delta in contact where P = 0."""
         return self._displacement(problem, 1.0)
 
-    def curve(self, problem: Problem) -> Curve:
+    def force_curve(self, problem: Problem) -> Curve:
         """Return the branch from the pull-off to a load as compressive as the pull-off is tensile."""
-        self.check(problem)
-        alpha = self._alpha(problem)
-        force = _pull_off(alpha)
         root = math.sqrt(2.0) * np.linspace(0.0, 1.0, _POINTS)
-        y = (alpha + root) / (1.0 + alpha)
-        square, S, beta = _coefficients(alpha)
-        displacement = float(problem.mu) * _UNIT * square * (y ** (4.0 / 3.0) - S * y ** (2.0 * beta / 3.0))
-        return Curve(displacement=displacement, load=force * (root**2 - 1.0))
+        grown, lift, unit = self._terms(problem, root)
+        force = _pull_off(transition_parameter(float(problem.mu)))
+        return Curve(displacement=unit * (grown - lift), load=force * (root**2 - 1.0))
 
-    def _alpha(self, problem: Problem) -> float:
-        """Return alpha, or raise `NotApplicable` where the fit of S has no meaning."""
+    def _displacement(self, problem: Problem, root: float) -> Estimate:
+        grown, lift, unit = self._terms(problem, root)
+        # S is a difference of terms up to 3.
+        return Estimate(float(unit * (grown - lift)), float(unit * FACTOR_ROUNDING * (grown + 6.0)))
+
+    def _terms(self, problem: Problem, root: Any) -> tuple[Any, Any, float]:
+        """Return y^(4/3), S y^(2 beta / 3) and the unit of delta at `root` = sqrt(1 + P / F)."""
         alpha = transition_parameter(float(problem.mu))
         if alpha < _SMALLEST_ALPHA:
             raise NotApplicable(
                 f"the displacement of {self.name} needs alpha >= {_SMALLEST_ALPHA}, below which its fit turns "
                 f"negative, but alpha = {alpha:.3g} at mu = {problem.mu:g}"
             )
-        return alpha
-
-    def _displacement(self, problem: Problem, y: float) -> Estimate:
-        """Return delta at y = (alpha + sqrt(1 + P / F)) / (1 + alpha)."""
-        square, S, beta = _coefficients(self._alpha(problem))
-        grown, lift = y ** (4.0 / 3.0), S * y ** (2.0 * beta / 3.0)
-        unit = float(problem.mu) * _UNIT * square
-        # S is a difference of terms up to 3.
-        return Estimate(unit * (grown - lift), unit * FACTOR_ROUNDING * (grown + 6.0))
+        y = (alpha + root) / (1.0 + alpha)
+        square, S, beta = _coefficients(alpha)
+        return y ** (4.0 / 3.0), S * y ** (2.0 * beta / 3.0), float(problem.mu) * _UNIT * square
 
 
 def _pull_off(alpha: float) -> float:

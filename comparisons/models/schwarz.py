@@ -12,7 +12,6 @@ Carpick, Ogletree and Salmeron at Maugis's lambda.
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar
 
 import numpy as np
 
@@ -56,17 +55,6 @@ class Schwarz(HomogeneousSphere):
         "alpha: Carpick, Ogletree & Salmeron, J. Colloid Interface Sci. 211 (1999) 395-400, Eq. 10"
     )
     domain = "n = 2, k = 0; alpha of Carpick, Ogletree and Salmeron with lambda = 1.157 mu"
-    applies_to: ClassVar[dict[str, list[Any]]] = {
-        "quantities": [
-            "pull_off_force",
-            "pull_off_displacement",
-            "jump_out_displacement",
-            "zero_load_displacement",
-            "force_curve",
-        ],
-        "n": [2, 2],
-        "k": [0, 0],
-    }
 
     def pull_off_force(self, problem: Problem) -> Estimate:
         """-min P (Eq. 34)."""
@@ -91,16 +79,15 @@ class Schwarz(HomogeneousSphere):
         flat, lift = a**2, punch.adhesion * math.sqrt(x * a)
         return Estimate(mu * (flat - lift), mu * FACTOR_ROUNDING * (flat + lift))
 
-    def curve(self, problem: Problem) -> Curve:
+    def force_curve(self, problem: Problem) -> Curve:
         """Return the contact branch from a = 0 to where JKR of the whole work of adhesion ends.
 
         Column ``contact_radius``.
         """
-        self.check(problem)
         punch, x = GradedPunch.of(problem), short_range_share(transition_parameter(float(problem.mu)))
         scale = punch.scales(problem.mu)
-        last = float(JKR().curve(problem).columns["contact_radius"][-1]) / scale.radius
-        a = last * np.linspace(0.0, 1.0, _POINTS) ** 2
+        end = float(JKR().curve(problem).columns["contact_radius"][-1]) / scale.radius
+        a = end * np.linspace(0.0, 1.0, _POINTS) ** 2
         load = punch.hertz_load * a**3 - punch.stiffness * punch.adhesion * np.sqrt(x * a**3) - 2.0 * (1.0 - x)
         return Curve(
             displacement=scale.displacement * (a**2 - punch.adhesion * np.sqrt(x * a)),

@@ -18,8 +18,9 @@ from scipy.special import beta, gamma
 
 from comparisons.model import Curve, NotApplicable
 from comparisons.models.bradley import rigid_load
-from comparisons.models.closed_form import EPS, ClosedForm, Estimate, monomial
+from comparisons.models.closed_form import EPS, ClosedForm, Estimate, Limits, monomial
 from comparisons.problem import Problem
+from comparisons.quantities import QUANTITIES
 
 __all__ = ["SemiRigid", "attraction_coefficient", "jump_in_coefficient"]
 
@@ -78,17 +79,9 @@ class SemiRigid(ClosedForm):
     name = "semi-rigid"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 40-48; Greenwood, Philos. Mag. 89 (2009) 945-965"
     domain = "n > (1-k)/3, 0 <= k <= 1; asymptotic for a jump-in at a large central gap"
+    limits: ClassVar[Limits | None] = None
     undefined: ClassVar[dict[str, str]] = dict.fromkeys(
-        (
-            "pull_off_force",
-            "pull_off_displacement",
-            "jump_out_displacement",
-            "jump_out_gap",
-            "zero_load_displacement",
-            "hysteresis_energy",
-            "critical_tabor_number",
-        ),
-        "it describes only the approach up to the jump-in, where deformations are small",
+        QUANTITIES, "it describes only the approach up to the jump-in, where deformations are small"
     )
 
     def jump_in_gap(self, problem: Problem) -> Estimate:
@@ -103,12 +96,11 @@ class SemiRigid(ClosedForm):
         factor = (4.0 - b) / (3.0 - b)
         return Estimate(1.0 - factor * fold.value, factor * fold.u_num + 4.0 * EPS * factor * fold.value + EPS)
 
-    def curve(self, problem: Problem) -> Curve:
+    def force_curve(self, problem: Problem) -> Curve:
         """Return Eqs. 41-42 from H0 = 10 (or twice the fold's, if farther) to the jump-in gap, or to H0 = 0.
 
         Columns ``central_gap``, and Eqs. 43-44 as ``asymptotic_displacement`` and ``asymptotic_load``.
         """
-        self.check(problem)
         n, k, mu = float(problem.n), float(problem.k), float(problem.mu)
         nearest = max(_fold(n, k, mu).value, 1.0)
         H0 = np.geomspace(max(_FARTHEST_GAP + 1.0, 2.0 * nearest), nearest, _POINTS) - 1.0

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
-from comparisons.model import ComputationFailed, NotApplicable, Result
+from comparisons.model import ComputationFailed, NotApplicable, RadialField, Result
+from comparisons.numerics.curve_distance import mesh_difference
 
-__all__ = ["result_of", "translated"]
+__all__ = ["result_of", "surface_of", "translated"]
 
 
 @contextmanager
@@ -50,3 +52,9 @@ def result_of(solution: Any, unit: float = 1.0) -> Result:
         # Lost in rounding, it is not finite.
         observed_order=order if order is not None and math.isfinite(order) else None,
     )
+
+
+def surface_of(coarse: RadialField, fine: RadialField) -> RadialField:
+    """Return the surface of the finer mesh; its uncertainty is the distance of the two meshes."""
+    pressure, gap = (mesh_difference(*coarse.shown(name)[:2], *fine.shown(name)[:2]) for name in ("pressure", "gap"))
+    return replace(fine, u_distance=pressure, u_gap_distance=gap)

@@ -16,12 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from comparisons.model import ComputationFailed, HasCurve, HasProfile, NotApplicable
+from comparisons.model import FARTHEST_GAP, ComputationFailed, HasCurve, HasProfile, NotApplicable
 from comparisons.models.gibson_limit import gibson_profile
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from comparisons.models.solver import translated
 from comparisons.problem import Problem
-from comparisons.quantities.points import FARTHEST_GAP
 from comparisons.registry import create
 from comparisons.runs.tasks import evaluate
 from fscm import Analysis, NoSuchEvent, NotConverged, solve

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from comparisons.quantities.points import force_curve, pull_off_gap, pull_off_pressure
 from comparisons.quantities.quantity import Axis, CurveQuantity, Kind, Points, Quantity, ScalarQuantity
 
 __all__ = [
@@ -18,117 +17,98 @@ __all__ = [
     "title_of",
 ]
 
-_DISPLACEMENT = Axis("displacement", "δ", "z0", "displacement", "δ / z₀", r"\delta / z_0", "displacement")
-_RADIUS = Axis("radius", "r", "(Q z0)^(1/n)", "radius", "r / (Q z₀)^(1/n)", r"r / (Q z_0)^{1/n}", "radius")
+_DISPLACEMENT = Axis("displacement", "δ", "displacement", "displacement", "δ / z₀", r"\delta / z_0")
+_RADIUS = Axis("radius", "r", "radius", "radius", "r / (Q z₀)^(1/n)", r"r / (Q z_0)^{1/n}")
 _LOAD = Axis(
     "load",
     "P",
-    "pi Q^(2/n) dgamma z0^(2/n-1)",
+    "load",
     "load",
     "P / (π Q^(2/n) Δγ z₀^(2/n−1))",
     r"P / (\pi Q^{2/n} \Delta\gamma z_0^{2/n-1})",
-    "load",
     "tension negative",
 )
 _PRESSURE = Axis(
-    "pressure",
-    "p",
-    "dgamma / z0",
-    "pressure at pull-off",
-    "p z₀ / Δγ",
-    r"p z_0 / \Delta\gamma",
-    "traction",
-    "tension negative",
+    "pressure", "p", "traction", "pressure at pull-off", "p z₀ / Δγ", r"p z_0 / \Delta\gamma", "tension negative"
 )
-_GAP = Axis("gap", "H", "z0", "gap at pull-off", "H / z₀", "H / z_0", "gap")
+_GAP = Axis("gap", "H", "gap", "gap at pull-off", "H / z₀", "H / z_0")
 
-#: Every scalar, by name: symbol, title, meaning and scale.
-QUANTITIES: dict[str, ScalarQuantity] = {
-    row[0]: ScalarQuantity(*row)
-    for row in (
-        ("pull_off_force", "-P_c", "pull-off force", "-min P along the equilibrium path", "load"),
-        (
-            "pull_off_displacement",
-            "delta_c",
-            "pull-off displacement",
-            "displacement where P is smallest",
-            "displacement",
-        ),
-        (
-            "jump_in_displacement",
-            "delta_in",
-            "jump-in displacement",
-            "fold where approach jumps into contact",
-            "displacement",
-        ),
-        ("jump_in_gap", "H0_in", "jump-in gap", "central gap at the jump-in fold", "gap"),
-        (
-            "jump_out_displacement",
-            "delta_out",
-            "jump-out displacement",
-            "fold where retreat jumps out of contact",
-            "displacement",
-        ),
-        ("jump_out_gap", "H0_out", "jump-out gap", "central gap at the jump-out fold", "gap"),
-        (
-            "zero_load_displacement",
-            "delta_0",
-            "zero-load displacement",
-            "displacement in contact where P = 0",
-            "displacement",
-        ),
-        ("hysteresis_energy", "W_hys", "hysteresis energy", "lost in one cycle of displacement control", "energy"),
-        (
-            "critical_tabor_number",
-            "mu_crit",
-            "critical Tabor number",
-            "jumps and hysteresis exist above it; mu is ignored",
-            "number",
-        ),
-    )
-}
+_SCALARS = (
+    ("pull_off_force", "-P_c", "pull-off force", "-min P along the equilibrium path", "load"),
+    ("pull_off_displacement", "delta_c", "pull-off displacement", "displacement where P is smallest", "displacement"),
+    (
+        "jump_in_displacement",
+        "delta_in",
+        "jump-in displacement",
+        "fold where approach jumps into contact",
+        "displacement",
+    ),
+    ("jump_in_gap", "H0_in", "jump-in gap", "central gap at the jump-in fold", "gap"),
+    (
+        "jump_out_displacement",
+        "delta_out",
+        "jump-out displacement",
+        "fold where retreat jumps out of contact",
+        "displacement",
+    ),
+    ("jump_out_gap", "H0_out", "jump-out gap", "central gap at the jump-out fold", "gap"),
+    (
+        "zero_load_displacement",
+        "delta_0",
+        "zero-load displacement",
+        "displacement in contact where P = 0",
+        "displacement",
+    ),
+    ("hysteresis_energy", "W_hys", "hysteresis energy", "lost in one cycle of displacement control", "energy"),
+    (
+        "critical_tabor_number",
+        "mu_crit",
+        "critical Tabor number",
+        "jumps and hysteresis exist above it; mu is ignored",
+        "number",
+    ),
+)
 
-#: Curves and fields.
-CURVES: dict[str, CurveQuantity] = {
-    row.name: row
-    for row in (
-        CurveQuantity(
-            name="force_curve",
-            symbol="P(delta)",
-            title="force-displacement curve",
-            meaning="equilibrium path, from far away into contact",
-            kind=Kind.CURVE,
-            x=_DISPLACEMENT,
-            y=_LOAD,
-            caption="The whole equilibrium path, its unstable part included, from far away (left) into contact. A "
-            "machine that controls the displacement jumps where the path turns back. Tension is negative.",
-            compute=force_curve,
-        ),
-        CurveQuantity(
-            name="pull_off_pressure",
-            symbol="p(r)",
-            title="pressure at pull-off",
-            meaning="pressure over the radius where P is smallest",
-            kind=Kind.FIELD,
-            x=_RADIUS,
-            y=_PRESSURE,
-            caption="The pressure where the load is smallest, out to a gap of 10 z₀; tension is negative.",
-            compute=pull_off_pressure,
-        ),
-        CurveQuantity(
-            name="pull_off_gap",
-            symbol="H(r)",
-            title="gap at pull-off",
-            meaning="gap over the radius where P is smallest",
-            kind=Kind.FIELD,
-            x=_RADIUS,
-            y=_GAP,
-            caption="The gap where the load is smallest, out to 10 z₀. Zero is the equilibrium distance of two flat "
-            "surfaces, where the pressure is zero.",
-            compute=pull_off_gap,
-        ),
-    )
-}
+#: Every scalar, by name.
+QUANTITIES = {row[0]: ScalarQuantity(*row) for row in _SCALARS}
+
+_CURVES = (
+    CurveQuantity(
+        "force_curve",
+        "P(delta)",
+        "force-displacement curve",
+        "equilibrium path, from far away into contact",
+        Kind.CURVE,
+        _DISPLACEMENT,
+        _LOAD,
+        "The whole equilibrium path, its unstable part included, from far away (left) into contact. A "
+        "machine that controls the displacement jumps where the path turns back. Tension is negative.",
+    ),
+    CurveQuantity(
+        "pull_off_pressure",
+        "p(r)",
+        "pressure at pull-off",
+        "pressure over the radius where P is smallest",
+        Kind.FIELD,
+        _RADIUS,
+        _PRESSURE,
+        "The pressure where the load is smallest, out to a gap of 10 z₀; tension is negative.",
+    ),
+    CurveQuantity(
+        "pull_off_gap",
+        "H(r)",
+        "gap at pull-off",
+        "gap over the radius where P is smallest",
+        Kind.FIELD,
+        _RADIUS,
+        _GAP,
+        "The gap where the load is smallest, out to 10 z₀. Zero is the equilibrium distance of two flat "
+        "surfaces, where the pressure is zero.",
+    ),
+)
+
+#: Curves and fields, by name.
+CURVES = {row.name: row for row in _CURVES}
 
 #: Every scalar and every curve, by name.
 ALL_QUANTITIES: dict[str, ScalarQuantity | CurveQuantity] = {**QUANTITIES, **CURVES}
@@ -142,5 +122,5 @@ def title_of(quantity: str) -> str:
     >>> title_of("pull_off_force"), title_of("force_curve"), title_of("work_of_adhesion")
     ('pull-off force', 'force-displacement curve', 'work of adhesion')
     """
-    known = ALL_QUANTITIES.get(quantity)
-    return known.title if known else quantity.replace("_", " ")
+    row = ALL_QUANTITIES.get(quantity)
+    return row.title if row else quantity.replace("_", " ")

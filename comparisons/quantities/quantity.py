@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
-from comparisons.model import Model, Result
+from comparisons.model import HasCurve, HasProfile, Model, NotApplicable, Result
 
 if TYPE_CHECKING:
     from comparisons.problem.problem import Problem
@@ -23,6 +23,30 @@ class Kind(StrEnum):
     FIELD = "field"
 
 
+#: The scales of `fscm.Problem.units`: unit of a dimensionless number, and unit in SI.
+_UNITS = {
+    "displacement": ("z0", "m"),
+    "gap": ("z0", "m"),
+    "radius": ("(Q z0)^(1/n)", "m"),
+    "load": ("pi Q^(2/n) dgamma z0^(2/n-1)", "N"),
+    "energy": ("pi Q^(2/n) dgamma z0^(2/n)", "J"),
+    "traction": ("dgamma / z0", "Pa"),
+    "number": ("1", "1"),
+}
+
+#: Sign rule of a scalar by its scale, and that rule as a test of a value.
+_SIGNS: dict[str, tuple[str, Callable[[float], bool]]] = {
+    "load": ("positive, though the load is a tension", lambda value: value > 0.0),
+    "energy": ("never negative", lambda value: value >= 0.0),
+    "displacement": ("positive towards the half-space, zero where the undeformed gap at r = 0 is zero", lambda _: True),
+    "gap": ("zero at the equilibrium distance of two flat surfaces, above -1", lambda value: value > -1.0),
+    "number": ("positive", lambda value: value > 0.0),
+}
+
+#: Scales of the columns that a curve may have.
+_COLUMNS = {"central_gap": "gap", "edge_radius": "radius", "contact_radius": "radius", "cohesive_radius": "radius"}
+
+
 @dataclass(frozen=True, slots=True)
 class Quantity:
     """What every quantity has: name, symbol, title (its name in a sentence) and meaning."""
@@ -31,41 +55,6 @@ class Quantity:
     symbol: str
     title: str
     meaning: str
-
-
-@dataclass(frozen=True, slots=True)
-class _Scale:
-    """Unit, that in SI, sign rule, and that rule as a test of a value."""
-
-    unit: str
-    si_unit: str
-    sign: str
-    admits: Callable[[float], bool]
-
-
-#: The scales of `fscm.Problem.units`.
-_SCALES = {
-    "load": _Scale(
-        "pi Q^(2/n) dgamma z0^(2/n-1)", "N", "positive, though the load is a tension", lambda value: value > 0.0
-    ),
-    "energy": _Scale("pi Q^(2/n) dgamma z0^(2/n)", "J", "never negative", lambda value: value >= 0.0),
-    "displacement": _Scale(
-        "z0",
-        "m",
-        "positive towards the half-space, zero where the undeformed gap at r = 0 is zero",
-        lambda value: True,
-    ),
-    "gap": _Scale(
-        "z0", "m", "zero at the equilibrium distance of two flat surfaces, above -1", lambda value: value > -1.0
-    ),
-    "number": _Scale("1", "1", "positive", lambda value: value > 0.0),
-}
-
-#: Units in SI of the scales of axes and columns.
-_SI_UNITS = {"displacement": "m", "gap": "m", "radius": "m", "load": "N", "traction": "Pa"}
-
-#: Scales of the columns that a curve may have.
-_COLUMNS = {"central_gap": "gap", "edge_radius": "radius", "contact_radius": "radius", "cohesive_radius": "radius"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,21 +80,21 @@ class ScalarQuantity(Quantity):
     @property
     def unit(self) -> str:
         """The scale of the dimensionless value."""
-        return _SCALES[self.scale].unit
+        return _UNITS[self.scale][0]
 
     @property
     def si_unit(self) -> str:
         """The unit in SI."""
-        return _SCALES[self.scale].si_unit
+        return _UNITS[self.scale][1]
 
     @property
     def sign(self) -> str:
         """The positive direction, and the place of zero."""
-        return _SCALES[self.scale].sign
+        return _SIGNS[self.scale][0]
 
     def admits(self, value: float) -> bool:
         """Whether a value keeps the sign rule."""
-        return _SCALES[self.scale].admits(value)
+        return _SIGNS[self.scale][1](value)
 
     @property
     def relative(self) -> bool:
@@ -129,34 +118,40 @@ class Axis:
     Attributes
     ----------
     name : str
-        Heading of its column in files.
-    symbol, unit : str
+        Heading of its column in files; for a field also the name in `comparisons.model.RadialField`.
+    symbol : str
         As in texts.
+    scale : str
+        Of `fscm.Problem.units`.
     title : str
         Its name in a sentence.
     formula, mathtext : str
         The dimensionless variable in Unicode, and as mathematics of Matplotlib, which begins with the symbol.
-    scale : str
-        Of `fscm.Problem.units`.
     sign : str
         Meaning of a negative value, where it needs one.
+    system : int
+        0 for a dimensionless axis, 1 for SI.
     """
 
     name: str
     symbol: str
-    unit: str
+    scale: str
     title: str
     formula: str
     mathtext: str
-    scale: str
     sign: str = ""
+    system: int = 0
+
+    @property
+    def unit(self) -> str:
+        """The unit as in texts."""
+        return _UNITS[self.scale][self.system]
 
     @property
     def in_si(self) -> Axis:
         """The same axis in SI."""
-        unit = _SI_UNITS[self.scale]
         symbol = self.mathtext.partition(" ")[0]
-        return replace(self, mathtext=rf"{symbol}\ \mathrm{{({unit})}}", unit=unit)
+        return replace(self, mathtext=rf"{symbol}\ \mathrm{{({_UNITS[self.scale][1]})}}", system=1)
 
     @property
     def label(self) -> str:
@@ -178,7 +173,9 @@ class Axis:
 class Points:
     """Points in the order of the curve, in the units of the problem, and the bound on their distance from it.
 
-    `columns` holds what else a model knows at these points; it is shown and not stored.
+    The bound is that in the plane in which both axes are scaled by the range of the curve (see
+    `comparisons.numerics.curve_distance`).  `columns` holds what else a model knows at these points; it is shown and
+    not stored.
     """
 
     x: list[float]
@@ -189,7 +186,7 @@ class Points:
 
 @dataclass(frozen=True, slots=True)
 class CurveQuantity(Quantity):
-    """A curve or a field: its axes, the caption of its plot, and the function that evaluates it.
+    """A curve or a field: its axes and the caption of its plot.
 
     Examples
     --------
@@ -202,7 +199,6 @@ class CurveQuantity(Quantity):
     x: Axis
     y: Axis
     caption: str
-    compute: Callable[[Model, Problem], Points]
 
     @property
     def unit(self) -> str:
@@ -230,7 +226,7 @@ class CurveQuantity(Quantity):
     def columns_in_si(self) -> dict[str, str]:
         """The columns of points in SI, with their units: ``displacement [m]``."""
         scales = {self.x.name: self.x.scale, self.y.name: self.y.scale, **_COLUMNS}
-        return {name: f"{name} [{_SI_UNITS[scale]}]" for name, scale in scales.items()}
+        return {name: f"{name} [{_UNITS[scale][1]}]" for name, scale in scales.items()}
 
     def in_units(self, points: Points, units: Mapping[str, float]) -> Points:
         """Return dimensionless points in the units of a problem."""
@@ -244,5 +240,27 @@ class CurveQuantity(Quantity):
         return self.y.sign
 
     def evaluate(self, model: Model, problem: Problem) -> Points:
-        """Return the points of a model, or raise `NotApplicable` or `ComputationFailed`."""
-        return self.compute(model, problem)
+        """Return the points of a model, or raise `NotApplicable` or `ComputationFailed`.
+
+        Fields are those where P is smallest, out to the gap `comparisons.model.FARTHEST_GAP`.
+
+        Examples
+        --------
+        >>> from comparisons.problem import Problem
+        >>> from comparisons.quantities import CURVES
+        >>> from comparisons.registry import create
+        >>> problem = Problem.dimensionless(n=2, k=0, mu=0.1)
+        >>> round(min(CURVES["force_curve"].evaluate(create("bradley"), problem).y), 3)
+        -2.0
+        """
+        if self.kind is Kind.CURVE:
+            if not isinstance(model, HasCurve):
+                raise NotApplicable("the model has no force-displacement curve")
+            curve = model.curve(problem)
+            x, y, u_distance, columns = curve.displacement, curve.load, curve.u_distance, curve.columns
+        else:
+            if not isinstance(model, HasProfile):
+                raise NotApplicable("the model does not know the surface at pull-off")
+            x, y, u_distance = model.pull_off_profile(problem).shown(self.y.name)
+            columns = {}
+        return Points(list(map(float, x)), list(map(float, y)), float(u_distance), columns)

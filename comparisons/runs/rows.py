@@ -49,7 +49,7 @@ class Row:
         As of `comparisons.model.Result`.
     points : tuple of (list of float, list of float, float), or None
         Of a curve or a field: horizontal values, vertical values, and the bound on their distance from the
-        exact curve (see `comparisons.quantities.points`).
+        exact curve (see `comparisons.quantities.Points`).
     dimensionless_value, dimensionless_u_num : float or None
         Of the problem of a file, in `dimensionless_unit`, where the units of the paper are defined.
     dimensionless_unit : str

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from comparisons.domain import Domain, declared_domain
-from comparisons.judging.gates import gates_text, load_gates
+from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
 from comparisons.judging.selection import needed_keys
 from comparisons.judging.summary import summarise
@@ -29,11 +29,9 @@ FORCE = {"quantities": ["pull_off_force"]}
         ([], "applies_to has 0 tables, outside 1 to 20"),
         ([FORCE] * 21, "applies_to has 21 tables"),
         ({"n": [2, 2]}, "quantities = None is not a list of at least one quantity"),
-        ({"quantities": []}, r"quantities = \[\] is not a list"),
         ({"quantities": ["pull_of_force"]}, "unknown quantity 'pull_of_force': did you mean pull_off_force"),
         ({**FORCE, "N": [2, 2]}, "unknown key 'N'; the keys are quantities, n, k, mu, nu"),
         ({**FORCE, "n": 2}, r"n = 2 is not \[low, high\]"),
-        ({**FORCE, "n": [2]}, r"n = \[2\] is not \[low, high\]"),
         ({**FORCE, "n": [3, 2]}, r"n = \[3, 2\] is not \[low, high\]"),
         ({**FORCE, "n": [math.nan, 2]}, r"n = \[nan, 2\] is not"),
         ({**FORCE, "n": [True, 2]}, r"n = \[True, 2\] is not"),
@@ -65,18 +63,12 @@ MAY_BE_MISSING = {name for name in QUANTITIES if name.startswith("jump_") or nam
 DECLARED = [name for name in MODELS if declared_domain(create(name)) is not None]
 
 
-def test_closed_forms_declare_their_domain():
-    assert {"jkr", "dmt", "bradley", "md-original", "md-improved", "atlas"} <= set(DECLARED)
-
-
 @pytest.mark.parametrize("name", DECLARED)
 def test_a_model_has_a_value_everywhere_in_the_domain_that_it_declares(name):
     model = create(name)
-    domain = declared_domain(model)
-    for table in domain.tables:
-        box = {
-            name: [max(low, table.ends(name)[0]), min(high, table.ends(name)[1])] for name, (low, high) in BOX.items()
-        }
+    for table in declared_domain(model).tables:
+        ends = {parameter: table.ends(parameter) for parameter in BOX}
+        box = {key: [max(BOX[key][0], low), min(BOX[key][1], high)] for key, (low, high) in ends.items()}
         for point in latin_hypercube({"count": 8, "seed": 5, **box}, "the test"):
             case = Problem.dimensionless(*point)
             for quantity in set(table.quantities) & set(QUANTITIES):
@@ -134,49 +126,44 @@ def judged(statuses, domain, gate=GATE, reference="ok"):
     cases = grids[0].cases
     rows = frame([evaluate_task(Task("bradley", "pull_off_force", case)) for case in cases])
     rows.loc[:, "status"] = reference
-    own = rows.copy().assign(model="jkr", status=statuses)
-    own.loc[own["status"] != "ok", ["value", "u_num"]] = math.nan
+    candidate = rows.copy().assign(model="jkr", status=statuses)
+    candidate.loc[candidate["status"] != "ok", ["value", "u_num"]] = math.nan
     domains = {} if domain is None else {"jkr": Domain.of(domain)}
-    return judge(load_gates(gate), grids, pd.concat([rows, own]), None, ["jkr"], domains)
+    return judge(load_gates(gate), grids, pd.concat([rows, candidate]), None, ["jkr"], domains)
 
 
 def test_not_applicable_is_a_failure_inside_the_declared_domain_and_left_out_outside():
-    statuses = ["ok", "ok", "not-applicable", "not-applicable"]
-    table = judged(statuses, {**FORCE, "mu": [0.1, 1]})
+    table = judged(["ok", "ok", "not-applicable", "not-applicable"], {**FORCE, "mu": [0.1, 1]})
     assert table["verdict"].tolist() == ["PASS", "PASS", "FAIL", "NOT-APPLICABLE"]
     assert table["status"].tolist() == ["ok", "ok", "not-applicable", "outside"]
     assert table["reason"].iloc[2].endswith("(inside the domain that the model declares)")
     summary = summarise(table).iloc[0]
-    assert summary[["verdict", "asked", "answered", "not_applicable", "failed", "outside"]].tolist() == [
-        "FAIL",
-        3,
-        2,
-        1,
-        0,
-        1,
-    ]
-    # Without a declared domain it is left out, as the gate states.
-    assert set(judged(statuses, None)["verdict"]) == {"PASS", "NOT-APPLICABLE"}
+    counts = summary[["asked", "answered", "not_applicable", "failed", "outside"]].tolist()
+    assert (summary["verdict"], counts) == ("FAIL", [3, 2, 1, 0, 1])
 
 
-def test_a_row_outside_the_domain_counts_for_nothing_even_if_it_has_a_value():
-    table = judged(["ok"] * 4, {**FORCE, "mu": [0.1, 1]})
-    assert table["verdict"].tolist() == ["PASS"] * 3 + ["NOT-APPLICABLE"]
-
-
-def test_where_the_reference_has_no_value_either_not_applicable_is_right():
-    table = judged(["not-applicable"] * 4, FORCE, reference="not-applicable")
-    assert set(table["status"].iloc[:4]) == {"no-event"}
-    assert "FAIL" not in set(table["verdict"])
+@pytest.mark.parametrize(
+    ("statuses", "domain", "reference", "verdicts"),
+    [
+        # Without a declared domain it is left out, as the gate states.
+        (["ok", "ok", "not-applicable", "ok"], None, "ok", ["PASS", "PASS", "NOT-APPLICABLE", "PASS"]),
+        # A row outside the domain counts for nothing even if it has a value.
+        (["ok"] * 4, {**FORCE, "mu": [0.1, 1]}, "ok", ["PASS"] * 3 + ["NOT-APPLICABLE"]),
+        # Where the reference has no value either, not applicable is right.
+        (["not-applicable"] * 4, FORCE, "not-applicable", ["NOT-APPLICABLE"] * 4),
+    ],
+)
+def test_what_counts_beside_the_domain(statuses, domain, reference, verdicts):
+    assert judged(statuses, domain, reference=reference)["verdict"].tolist()[:4] == verdicts
 
 
 def test_the_reference_is_computed_where_a_model_refuses_what_it_promises():
     grids, gates = load_grids(GRID), load_gates(GATE)
     refused = ("jkr", "pull_off_force", 2.0, 0.0, 1.0, None, "")
     reference = ("bradley", *refused[1:])
-    known = {refused: "not-applicable"}
-    assert reference not in needed_keys(gates, grids, ["jkr"], known)
-    assert reference in needed_keys(gates, grids, ["jkr"], known, {"jkr": Domain.of(FORCE)})
+    statuses = {refused: "not-applicable"}
+    assert reference not in needed_keys(gates, grids, ["jkr"], statuses)
+    assert reference in needed_keys(gates, grids, ["jkr"], statuses, {"jkr": Domain.of(FORCE)})
 
 
 @pytest.mark.parametrize(("share", "verdict"), [(0.5, "PASS"), (0.51, "FAIL")])
@@ -184,10 +171,7 @@ def test_min_coverage_is_a_share_of_the_evaluated_cases(share, verdict):
     gate = GATE.replace("min_cases = 1", f"min_cases = 1\nmin_coverage = {share}")
     summary = summarise(judged(["ok", "ok", "not-applicable", "not-applicable"], None, gate)).iloc[0]
     assert summary["verdict"] == verdict
-    if verdict == "FAIL":
-        assert (
-            "jkr has a value in 2 of the 4 cases in which it is evaluated; the gate requires 51 %" in summary["reason"]
-        )
+    assert verdict == "PASS" or "a value in 2 of the 4 cases" in summary["reason"]
 
 
 @pytest.mark.parametrize("share", [0, -0.1, 1.1, math.nan])
@@ -196,15 +180,10 @@ def test_a_min_coverage_that_is_no_share_is_refused(share):
         load_gates(GATE.replace("min_cases = 1", f"min_cases = 1\nmin_coverage = {share}"))
 
 
-def test_jkr_that_refuses_its_hard_cases_does_not_pass_the_standing_gate():
-    """Four answers of 192 passed once."""
-    (gate,) = (gate for gate in load_gates(gates_text()) if gate.id == "GIVEN-PULL-OFF-FORCE")
-    assert gate.min_coverage > 4 / 192
-
-
 def test_a_run_of_a_closed_form_has_no_standing_gate_whose_cases_it_does_not_compute():
     """`fscm-bench run --model jkr` was in error for want of the cases of verification."""
-    judged = {gate.id for gate in read_gates(None, load_cases("quick", ["jkr"]), ["jkr"]).gates}
-    every = {gate.id for gate in read_gates(None, load_cases("quick", None), None).gates}
-    assert "JKR-JUMP-OUT" in every - judged
-    assert "JKR-LIMIT-PULL-OFF" in judged
+    of_jkr, of_all = (
+        {gate.id for gate in read_gates(None, load_cases("quick", names), names).gates} for names in (["jkr"], None)
+    )
+    assert "JKR-JUMP-OUT" in of_all - of_jkr
+    assert "JKR-LIMIT-PULL-OFF" in of_jkr

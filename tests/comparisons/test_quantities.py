@@ -9,51 +9,43 @@ import pytest
 import comparisons
 from comparisons.model import NotApplicable
 from comparisons.problem import Problem
-from comparisons.quantities import ALL_QUANTITIES, CURVES, QUANTITIES, Kind, title_of
+from comparisons.quantities import ALL_QUANTITIES, CURVES, QUANTITIES, title_of
 from comparisons.registry import create
 
 PROBLEM = Problem.dimensionless(n=2, k=0, mu=0.3)
 
 
-def test_numbers_and_curves_are_the_rows_of_one_registry():
-    assert ALL_QUANTITIES == {**QUANTITIES, **CURVES}
-    assert {row.kind for row in QUANTITIES.values()} == {Kind.SCALAR}
-    assert {row.kind for row in CURVES.values()} == {Kind.CURVE, Kind.FIELD}
-    for row in ALL_QUANTITIES.values():
-        assert all((row.name, row.symbol, row.title, row.meaning, row.unit))
-
-
-def test_the_scales_are_those_of_a_physical_problem():
+def test_rows_have_texts_and_the_scales_of_a_physical_problem():
     scales = PROBLEM.posed.in_units(c0=1.0, nu=0.3, Q=1.0, work_of_adhesion=1.0, z0=1.0).units
     assert {row.scale for row in QUANTITIES.values()} <= set(scales)
+    assert {axis.scale for row in CURVES.values() for axis in (row.x, row.y)} <= set(scales)
+    for row in ALL_QUANTITIES.values():
+        assert all((row.name, row.symbol, row.title, row.meaning, row.unit))
+        assert ALL_QUANTITIES[row.name] is row
+    assert title_of("pull_off_gap") == "gap at pull-off"
 
 
-def test_a_number_is_that_of_the_model():
+def test_a_value_is_that_of_the_model_and_points_have_what_else_it_knows():
     model = create("jkr")
-    for name in ("pull_off_force", "pull_off_displacement", "zero_load_displacement"):
-        result = QUANTITIES[name].evaluate(model, PROBLEM)
-        assert result.value == model.evaluate(PROBLEM, name).value
-        assert QUANTITIES[name].admits(result.value)
-
-
-def test_a_curve_has_what_else_the_model_knows_on_it():
-    curve = create("jkr").curve(PROBLEM)
-    points = CURVES["force_curve"].evaluate(create("jkr"), PROBLEM)
+    curve, points = model.curve(PROBLEM), CURVES["force_curve"].evaluate(model, PROBLEM)
+    assert QUANTITIES["pull_off_force"].evaluate(model, PROBLEM).value == pytest.approx(1.5, rel=1e-14)
     assert (points.x, points.y) == (curve.displacement.tolist(), curve.load.tolist())
-    assert list(points.columns) == list(curve.columns) != []
+    assert list(points.columns) == ["contact_radius"]
 
 
-def test_a_field_that_a_model_does_not_know_is_not_applicable():
-    for name in ("pull_off_pressure", "pull_off_gap"):
-        with pytest.raises(NotApplicable, match="does not know the surface"):
-            CURVES[name].evaluate(create("jkr"), PROBLEM)
-
-
-@pytest.mark.parametrize("name", ["fscm", "fem"])
-def test_a_quantity_that_a_model_does_not_compute_is_not_applicable(name):
-    """A row of the registry may be there before a solver computes it."""
-    with pytest.raises(NotApplicable, match="gap_at_infinity"):
-        create(name, 0.3).evaluate(PROBLEM, "gap_at_infinity")
+@pytest.mark.parametrize(
+    ("model", "quantity", "reason"),
+    [
+        ("jkr", CURVES["pull_off_pressure"].evaluate, "does not know the surface"),
+        ("jkr", CURVES["pull_off_gap"].evaluate, "does not know the surface"),
+        # A row of the registry may be there before a solver computes it.
+        ("fscm", lambda model, problem: model.evaluate(problem, "gap_at_infinity"), "gap_at_infinity"),
+        ("fem", lambda model, problem: model.evaluate(problem, "gap_at_infinity"), "gap_at_infinity"),
+    ],
+)
+def test_what_a_model_does_not_compute_is_not_applicable(model, quantity, reason):
+    with pytest.raises(NotApplicable, match=reason):
+        quantity(create(model), PROBLEM)
 
 
 @pytest.mark.parametrize(
@@ -73,25 +65,16 @@ def test_the_sign_rule_is_that_of_the_scale(name, value, admitted):
     assert QUANTITIES[name].admits(value) is admitted
 
 
-def test_titles_are_names_in_a_sentence():
-    assert title_of("critical_tabor_number") == "critical Tabor number"
-    assert [title_of(name) for name in CURVES] == [
-        "force-displacement curve",
-        "pressure at pull-off",
-        "gap at pull-off",
-    ]
-
-
 @pytest.mark.parametrize("folder", ["output", "cli", "runs", "judging"])
 def test_there_is_no_second_registry(folder):
     """A dictionary of texts by names of quantities would be one."""
-    found = [
+    copies = [
         path.name
         for path in (Path(comparisons.__file__).parent / folder).rglob("*.py")
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.Dict) and _constants(node.keys) & set(ALL_QUANTITIES) and _constants(node.values)
     ]
-    assert found == []
+    assert copies == []
 
 
 def _constants(nodes: Iterable[ast.expr | None]) -> set[str]:

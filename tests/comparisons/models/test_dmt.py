@@ -5,59 +5,62 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from comparisons.models.bradley import Bradley
+from comparisons import create
 from comparisons.models.closed_form import Estimate
 from comparisons.models.cohesive_contact import CohesiveContact
-from comparisons.models.cohesive_stress import eta
-from comparisons.models.dmt import DMT, dmt_pull_off
+from comparisons.models.dmt import DMT
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
 contact = Problem.dimensionless
+BOTH = pytest.mark.parametrize("name", ["dmt", "dmt-strength"])
 
 
-@pytest.mark.parametrize("n", [0.8, 1.0, 1.5, 2.0, 5.0, 10.0])
-def test_pull_off_is_bradleys(n: float) -> None:
-    """Eq. 74."""
-    problem = contact(n, 0.4, 0.7)
-    dmt, bradley = (m.evaluate(problem, "pull_off_force") for m in (DMT(), Bradley()))
-    assert dmt.value == pytest.approx(bradley.value, rel=1e-13)
+def force_of(name: str, problem: Problem) -> float:
+    return create(name).evaluate(problem, "pull_off_force").value
+
+
+@pytest.mark.parametrize("n", [0.8, 1.0, 2.0, 5.0, 10.0])
+def test_pull_off(n: float) -> None:
+    """Eq. 74, and the strength over the disc in which the undeformed gap r^n / n is below 1 / sigma_th."""
+    problem, strength = contact(n, 0.4, 0.7), 16 * np.sqrt(3) / 27
+    assert force_of("dmt", problem) == pytest.approx(force_of("bradley", problem), rel=1e-13)
+    assert force_of("dmt-strength", problem) == pytest.approx(strength * (n / strength) ** (2 / n), rel=1e-13)
     assert DMT().evaluate(problem, "pull_off_displacement").value == 0.0
 
 
-def test_homogeneous_sphere_is_hertz() -> None:
+@BOTH
+def test_homogeneous_sphere_is_hertz(name: str) -> None:
     """P = (4/3) E* a^3 / R - 2 pi R dgamma, delta = a^2 / R; E* = mu^(-3/2) for Q = z0 = dgamma = 1."""
-    mu = 0.6
-    curve = DMT().curve(contact(2, 0, mu))
+    mu, model = 0.6, create(name)
+    curve = model.curve(contact(2, 0, mu))
     a = curve.columns["contact_radius"]
     np.testing.assert_allclose(curve.load, (4 / 3) * mu**-1.5 * a**3 / np.pi - 2, rtol=1e-13, atol=1e-13)
     np.testing.assert_allclose(curve.displacement, a**2, rtol=1e-14)
     zero = (1.5 * np.pi * mu**1.5) ** (2 / 3)
-    assert DMT().evaluate(contact(2, 0, mu), "zero_load_displacement").value == pytest.approx(zero, rel=1e-13)
+    assert model.evaluate(contact(2, 0, mu), "zero_load_displacement").value == pytest.approx(zero, rel=1e-13)
 
 
-@pytest.mark.parametrize(("n", "k"), [(1.0, 0.2), (1.5, 0.0), (2.0, 0.4), (5.0, 0.6)])
-def test_curve_is_the_limit_of_maugis_dugdale(n: float, k: float) -> None:
+@BOTH
+@pytest.mark.parametrize(("n", "k"), [(1.0, 0.2), (1.5, 0.0), (5.0, 0.6)])
+def test_curve_is_the_limit_of_maugis_dugdale(name: str, n: float, k: float) -> None:
     """The difference vanishes like a positive power of mu: a thousandth of mu shrinks it manyfold."""
-    errors = []
+    errors, model = [], create(name)
     for mu in (1e-3, 1e-6):
-        problem = contact(n, k, mu)
-        punch = GradedPunch.of(problem)
+        problem, punch = contact(n, k, mu), GradedPunch(n, k)
         scale = punch.scales(mu)
-        state = CohesiveContact(punch, eta(n) * mu).at(np.linspace(-14.0, -1.0, 200))
-        a = scale.radius * state.contact_radius
-        dmt = DMT().curve(problem)
+        state = CohesiveContact(punch, model.cohesive_stress(problem) * mu).at(np.linspace(-14.0, -1.0, 200))
+        dmt, a = model.curve(problem), scale.radius * state.contact_radius
         end = dmt.columns["contact_radius"][-1]
         inside = a < end
-        load = scale.load * state.load[inside]
-        adhesion = dmt_pull_off(n, eta(n)).value
+        adhesion = force_of(name, problem)
         hertz = (dmt.load[-1] + adhesion) * (a[inside] / end) ** (n + k + 1)
-        errors.append(np.max(np.abs(load - (hertz - adhesion))))
+        errors.append(np.max(np.abs(scale.load * state.load[inside] - (hertz - adhesion))))
         assert np.count_nonzero(inside) > 5
     assert errors[1] < 0.05 * errors[0] < 0.05
 
 
-@pytest.mark.parametrize(("n", "k", "mu"), [(1.0, 0.0, 0.2), (2.0, 0.4, 1.0), (5.0, 0.6, 3.0), (2.0, 1.0, 1.0)])
+@pytest.mark.parametrize(("n", "k", "mu"), [(1.0, 0.0, 0.2), (5.0, 0.6, 3.0), (2.0, 1.0, 1.0)])
 def test_zero_load_lies_on_the_curve(n: float, k: float, mu: float) -> None:
     curve = DMT().curve(contact(n, k, mu))
     # Interpolated in a^(n+k+1), in which the load is a straight line.
@@ -66,27 +69,18 @@ def test_zero_load_lies_on_the_curve(n: float, k: float, mu: float) -> None:
     assert DMT().evaluate(contact(n, k, mu), "zero_load_displacement").value == pytest.approx(expected, rel=1e-12)
 
 
-@pytest.mark.parametrize(("n", "k"), [(1.0, 0.0), (2.0, 0.4), (5.0, 0.6)])
-def test_the_zero_load_displacement_inherits_the_bound_of_the_adhesion(
-    n: float, k: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_zero_load_displacement_inherits_the_bound_of_the_adhesion(monkeypatch: pytest.MonkeyPatch) -> None:
     """It covers what an adhesion that is wrong by its bound changes, and little more."""
-    problem, model, relative = contact(n, k, 0.7), DMT(), 1e-6
+    problem, model, relative = contact(5.0, 0.6, 0.7), DMT(), 1e-6
     adhesion = model.pull_off_force(problem).value
 
-    def found(factor: float) -> Estimate:
-        monkeypatch.setattr(model, "pull_off_force", lambda _: Estimate(factor * adhesion, relative * adhesion))
+    def estimate(factor: float, bound: float) -> Estimate:
+        monkeypatch.setattr(model, "pull_off_force", lambda _: Estimate(factor * adhesion, bound * adhesion))
         return model.zero_load_displacement(problem)
 
-    low, middle, high = (found(factor) for factor in (1.0 - relative, 1.0, 1.0 + relative))
+    low, middle, high = (estimate(factor, relative) for factor in (1.0 - relative, 1.0, 1.0 + relative))
     change = max(high.value - middle.value, middle.value - low.value)
     assert change * (1.0 - 1e-5) < middle.u_num < 1.001 * change
-
-
-def test_the_zero_load_displacement_has_the_rounding_of_its_own_factors(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With an exact adhesion: that of the power n / (n + k + 1) and of two factors."""
-    problem, model = contact(2.0, 0.4, 0.7), DMT()
-    monkeypatch.setattr(model, "pull_off_force", lambda _: Estimate(1.8, 0.0))
-    result, power = model.zero_load_displacement(problem), 2.0 / 3.4
-    least = 16.0 * 2.0**-52 * (1.0 + 2.0 * power)
-    assert least * result.value < result.u_num < 2.0 * least * result.value
+    # With an exact adhesion: the rounding of the power n / (n + k + 1) and of two factors.
+    exact, least = estimate(1.0, 0.0), 16.0 * 2.0**-52 * (1.0 + 2.0 * 5.0 / 6.6)
+    assert least * exact.value < exact.u_num < 2.0 * least * exact.value

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import mpmath as mp
-import numpy as np
 import pytest
 
 from comparisons.model import NotApplicable
@@ -18,7 +17,6 @@ CASES = [
     (2.0, 0.0, 3.0),
     (1.5, 0.4, 5.0),
     (5.0, 0.2, 2.0),
-    (1.0, 0.0, 20.0),
     (0.9, 0.3, 20.0),
     (3.0, 0.9, 2.0),
     (2, 1, 4),
@@ -71,57 +69,24 @@ def cycle(problem: Problem) -> mp.mpf:
 
 @pytest.mark.parametrize(("n", "k", "mu"), CASES)
 def test_energy_is_the_quadrature_of_the_printed_branches(n: float, k: float, mu: float) -> None:
+    """The folds are rounded, which is of second order; the quadrature is good to 20 digits."""
     problem = Problem.dimensionless(n, k, mu)
     result = MODEL.evaluate(problem, "hysteresis_energy")
-    with mp.workdps(25):
+    with mp.workdps(30):
         expected = cycle(problem)
-    assert result.value == pytest.approx(float(expected), rel=1e-9)
+    assert abs(result.value - float(expected)) <= result.u_num
     assert 0.0 < result.u_num < 1e-11 * max(1.0, result.value)
-
-
-def test_error_bound_holds_against_many_digits() -> None:
-    for n, k, mu in CASES[:3]:
-        problem = Problem.dimensionless(n, k, mu)
-        result = MODEL.evaluate(problem, "hysteresis_energy")
-        with mp.workdps(30):
-            # The folds are rounded, which is of second order; the quadrature is good to 20 digits.
-            assert abs(result.value - float(cycle(problem))) <= result.u_num
-
-
-def test_the_area_between_the_curves_of_both_models() -> None:
-    """The polygon of the two curves, closed at the two jumps."""
-    problem = Problem.dimensionless(2, 0.4, 5.0)
-    approach, contact = SemiRigid().curve(problem), JKR().curve(problem)
-    far_x, far_y = (approach.columns[f"asymptotic_{name}"] for name in ("displacement", "load"))
-    delta_in, delta_out = (
-        model.evaluate(problem, name).value
-        for model, name in ((SemiRigid(), "jump_in_displacement"), (JKR(), "jump_out_displacement"))
-    )
-    fold = int(np.argmin(contact.displacement))
-    x = np.linspace(delta_out, delta_in, 20001)
-    upper = np.interp(x, far_x, far_y)
-    lower = np.interp(x, contact.displacement[fold:], contact.load[fold:])
-    area = float(np.sum(0.5 * (upper - lower)[1:] + 0.5 * (upper - lower)[:-1]) * (x[1] - x[0]))
-    assert MODEL.evaluate(problem, "hysteresis_energy").value == pytest.approx(area, rel=5e-3)
 
 
 def test_it_has_the_jumps_of_the_two_models() -> None:
     problem = Problem.dimensionless(2, 0.4, 5.0)
-    for name, model in (
-        ("jump_in_displacement", SemiRigid()),
-        ("jump_in_gap", SemiRigid()),
-        ("jump_out_displacement", JKR()),
-    ):
-        assert MODEL.evaluate(problem, name).value == model.evaluate(problem, name).value
+    for name in ("jump_in_displacement", "jump_in_gap"):
+        assert MODEL.evaluate(problem, name).value == SemiRigid().evaluate(problem, name).value
+    jump_out = JKR().evaluate(problem, "jump_out_displacement").value
+    assert MODEL.evaluate(problem, "jump_out_displacement").value == jump_out
 
 
-@pytest.mark.parametrize(
-    ("problem", "reason"),
-    [
-        (Problem.dimensionless(2, 0, 1), "is not above that of the jump-out, -1.6"),
-        (Problem.dimensionless(2, 0, 1e-3), "needs a positive one"),
-    ],
-)
-def test_refusals(problem: Problem, reason: str) -> None:
+@pytest.mark.parametrize(("mu", "reason"), [(1, "is not above that of the jump-out, -1.6"), (1e-3, "a positive one")])
+def test_refusals(mu: float, reason: str) -> None:
     with pytest.raises(NotApplicable, match=reason):
-        MODEL.evaluate(problem, "hysteresis_energy")
+        MODEL.evaluate(Problem.dimensionless(2, 0, mu), "hysteresis_energy")

@@ -1,16 +1,26 @@
-"""The adapters to the two references: results, units, exceptions."""
+"""The adapters of the integral equation and of the Stieltjes scheme, and failures of both references."""
 
+import re
+
+import numpy as np
 import pytest
 
 import fem_reference
 import fscm
-from comparisons.model import ComputationFailed, NotApplicable
-from comparisons.models.fem_model import FiniteElements
+from comparisons.model import ComputationFailed, Result
+from comparisons.models.solver import result_of
 from comparisons.models.stieltjes_model import StieltjesModel
 from comparisons.problem import Problem
-from comparisons.quantities import QUANTITIES
+from comparisons.quantities import CURVES
 from comparisons.registry import create
 from comparisons.runs.tasks import evaluate
+
+
+def test_a_result_has_the_value_and_the_bound_of_the_solution_in_its_unit():
+    solution = Result(value=3.0, u_num=0.5, size=9, iterations=8, residual=7e-16, observed_order=float("nan"))
+    result = result_of(solution, unit=2.0)
+    assert (result.value, result.u_num, result.observed_order) == (1.5, 0.25, None)
+    assert (result.size, result.iterations, result.residual) == (9, 8, 7e-16)
 
 
 def test_a_jump_below_the_critical_tabor_number_is_not_applicable():
@@ -19,76 +29,56 @@ def test_a_jump_below_the_critical_tabor_number_is_not_applicable():
     assert "critical Tabor number" in row.reason
 
 
-@pytest.mark.parametrize(("name", "segments"), [("fscm-stieltjes", 2500), ("fscm-stieltjes-400", 400)])
-def test_the_stieltjes_scheme_states_its_own_segments(name, segments):
-    model = create(name)
-    assert model._segments == segments
-    assert f"wider than the {segments} segments" in model.domain
-
-
 def test_the_curve_of_the_reference_holds_its_own_pull_off():
     curve = create("fscm").curve(Problem.dimensionless(2, 0.4, 1))
     assert -curve.load.min() == pytest.approx(1.78848171, rel=1e-3)
-    assert len(curve.load) == len(curve.displacement) == len(curve.columns["central_gap"])
+    assert 0.0 < curve.u_distance < 1e-6
 
 
-@pytest.mark.parametrize("solver", ["fscm", "fem"])
-def test_a_solver_that_does_not_converge_has_failed(monkeypatch, solver):
-    package = {"fscm": fscm, "fem": fem_reference}[solver]
+def test_both_fields_end_at_the_same_gap_and_have_their_own_bound():
+    model, problem = create("fscm"), Problem.dimensionless(n=2, k=0.4, mu=0.5)
+    pressure, gap = (CURVES[name].evaluate(model, problem) for name in ("pull_off_pressure", "pull_off_gap"))
+    surface = model.pull_off_profile(problem)
+    assert pressure.x == gap.x
+    assert max(gap.y) <= 10 < max(surface.gap)
+    assert (pressure.u_distance, gap.u_distance) == (surface.u_distance, surface.u_gap_distance)
+    # The gap determines the pressure (Eq. 9).
+    assert pressure.y == pytest.approx(problem.posed.law.traction(np.array(gap.y)).tolist())
 
+
+@pytest.mark.parametrize("package", [fscm, fem_reference])
+def test_a_solver_that_does_not_converge_has_failed(monkeypatch, package):
     def stuck(*_, **__):
         raise package.NotConverged("50 iterations were not enough")
 
     monkeypatch.setattr(package, "solve", stuck)
     monkeypatch.setattr(package, "trace", stuck)
-    with pytest.raises(ComputationFailed, match="50 iterations"):
-        create(solver).evaluate(Problem.dimensionless(2, 0, 1), "pull_off_force")
-    with pytest.raises(ComputationFailed, match="50 iterations"):
-        create(solver).curve(Problem.dimensionless(2, 0, 1))
-
-
-@pytest.mark.parametrize("quantity", fem_reference.QUANTITIES)
-def test_the_finite_elements_get_the_same_tabor_number_and_return_the_same_unit(monkeypatch, quantity):
-    seen = {}
-
-    def one_unit(body, quantity_name):
-        solid, punch, law = body.solid, body.punch, body.law
-        physical = fscm.Problem(
-            fscm.PowerLaw(solid.E0, solid.c0, solid.k, solid.nu),
-            fscm.PowerPunch(punch.n, punch.Q),
-            fscm.LennardJones(law.work_of_adhesion, law.z0),
-        )
-        seen.update(mu=physical.mu, nu=solid.nu, quantity=quantity_name)
-        unit = physical.units[QUANTITIES[quantity_name].scale]
-        return fem_reference.Solution(2.5 * unit, 0.5 * unit, 9, 8, 7e-16, 0.6, (4, 6, 7), (2.5 * unit,) * 3)
-
-    monkeypatch.setattr(fem_reference, "solve", one_unit)
-    result = FiniteElements(0.2).evaluate(Problem.dimensionless(1.5, 0.4, 0.8), quantity)
-    assert seen == {"mu": pytest.approx(0.8, rel=1e-13), "nu": 0.2, "quantity": quantity}
-    assert (result.value, result.u_num) == (pytest.approx(2.5), pytest.approx(0.5))
-    assert (result.size, result.iterations, result.residual) == (9, 8, 7e-16)
-
-
-@pytest.mark.parametrize(
-    ("problem", "quantity", "reason"),
-    [
-        (Problem.dimensionless(0.9, 0, 1), "pull_off_force", "n >= 1"),
-        (Problem.dimensionless(2, 1, 1), "pull_off_force", "k <= 0.9, not k = 1"),
-        (Problem.dimensionless(2, 0.95, 1), "pull_off_force", "k <= 0.9, not k = 0.95"),
-        (Problem.dimensionless(2, 0, 1), "contact_radius", "do not compute"),
-    ],
-)
-def test_what_the_finite_elements_do_not_do(problem, quantity, reason):
-    with pytest.raises(NotApplicable, match=reason):
-        FiniteElements().evaluate(problem, quantity)
+    model, problem = create({fscm: "fscm", fem_reference: "fem"}[package]), Problem.dimensionless(2, 0, 1)
+    for call in (lambda: model.evaluate(problem, "pull_off_force"), lambda: model.curve(problem)):
+        with pytest.raises(ComputationFailed, match="50 iterations"):
+            call()
 
 
 def test_the_stieltjes_scheme_is_within_its_bound():
-    model = StieltjesModel(segments=200)
-    row = evaluate(model, "pull_off_force", Problem.dimensionless(2, 0.4, 0.5))
-    assert abs(row.value - 1.86628026) < row.u_num < 1e-2
-    assert evaluate(model, "hysteresis_energy", Problem.dimensionless(2, 0.4, 0.5)).status == "not-applicable"
+    model, problem = StieltjesModel(segments=200), Problem.dimensionless(2, 0.4, 0.5)
+    result = model.evaluate(problem, "pull_off_force")
+    assert abs(result.value - 1.86628026) < result.u_num < 1e-2
+    assert evaluate(model, "hysteresis_energy", problem).status == "not-applicable"
     assert evaluate(model, "pull_off_force", Problem.dimensionless(2, 1, 0.5)).status == "not-applicable"
+
+
+@pytest.mark.parametrize(("name", "segments"), [("fscm-stieltjes", 2500), ("fscm-stieltjes-400", 400)])
+def test_the_path_of_the_stieltjes_scheme_ends_where_the_domain_says(name, segments):
+    model = create(name)
+    assert model._segments == segments
+    assert f"wider than the {segments} segments" in model.domain
+    start, end = map(float, re.search(r"central gaps from (\S+) to (-?[0-9.]+)", model.domain).groups())
+    central_gap = StieltjesModel(segments=60).curve(Problem.dimensionless(n=1, k=0.2, mu=0.1)).columns["central_gap"]
+    assert (central_gap[0], central_gap[-1]) == (start, end)
+    # A softer solid is in compression before that.
+    curve = StieltjesModel(segments=60).curve(Problem.dimensionless(n=2, k=0.4, mu=0.5))
+    assert curve.load[-1] > 0.0 >= curve.load[-2]
+    assert curve.columns["central_gap"][-1] > end
 
 
 @pytest.mark.heavy
@@ -97,6 +87,6 @@ def test_the_stieltjes_scheme_is_within_its_bound():
 )
 def test_the_two_references_agree_within_their_uncertainties(case):
     """As the stored results do, which the gates of both references compare in every case."""
-    first, second = (evaluate(create(name, 0.2), "pull_off_force", case) for name in ("fscm", "fem"))
-    assert abs(first.value - second.value) <= first.u_num + second.u_num
-    assert second.u_num < 1e-6
+    equation, elements = (evaluate(create(name, 0.2), "pull_off_force", case) for name in ("fscm", "fem"))
+    assert abs(equation.value - elements.value) <= equation.u_num + elements.u_num
+    assert elements.u_num < 1e-6
