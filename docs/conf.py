@@ -18,6 +18,7 @@ extensions = [
     "mathml",
     "api_pages",
     "repository_pages",
+    "kind_tables",
 ]
 exclude_patterns = [
     *("_extensions", "examples", "ci", "gallery", "**/.ipynb_checkpoints"),

@@ -5,9 +5,24 @@ rigid punch f(r), a surface law p(H).  The solid is meshed with high-order eleme
 stiffness of the infinite exterior.  Condensed to its surface it follows the path of equilibria; at an event every
 displacement of the mesh is solved with pyamg.
 
-The public names are listed in `__init__.pyi`; a module is loaded when one of its names is first used.
+A name of `__all__` of a module of solids, punches or laws is a name of the package.  The other names are listed in
+`_lazy.pyi`; a module is loaded when one of them is first used.
 """
+
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+from fem_reference import laws, profiles, punch, solids, tabulated_law
+from fem_reference.laws import *
+from fem_reference.profiles import *
+from fem_reference.punch import *
+from fem_reference.solids import *
+from fem_reference.tabulated_law import *
+
+if TYPE_CHECKING:
+    from fem_reference._lazy import *
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
+__all__ += [name for module in (laws, profiles, punch, solids, tabulated_law) for name in module.__all__]

@@ -13,15 +13,7 @@ from fem_reference._typing import Array
 from fem_reference._validation import check_positive
 from fem_reference.errors import NotConverged
 
-__all__ = [
-    "CustomPunch",
-    "PowerPunch",
-    "Punch",
-    "check_contact",
-    "check_without_asperities",
-    "kinks_of",
-    "radius_at_height",
-]
+__all__ = ["CustomPunch", "PowerPunch", "Punch"]
 
 #: Radii in equal ratios at which the shape of a punch is examined: forty in a factor of two over 22 decades.
 RADII = 3000

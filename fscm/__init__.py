@@ -5,9 +5,52 @@
 >>> round(solution.value, 8)
 1.78848171
 
-The public names are listed in `__init__.pyi`; a module is loaded when one of its names is first used.
+A name of `__all__` of a module of solids, punches or laws is a name of the package.  The other names are listed in
+`_lazy.pyi`; a module is loaded when one of them is first used.
 """
+
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+from fscm import (
+    custom_punch,
+    custom_solid,
+    laws,
+    layers,
+    measured_punch,
+    punch,
+    solids,
+    tabulated_law,
+    tabulated_modulus,
+)
+from fscm.custom_punch import *
+from fscm.custom_solid import *
+from fscm.laws import *
+from fscm.layers import *
+from fscm.measured_punch import *
+from fscm.punch import *
+from fscm.solids import *
+from fscm.tabulated_law import *
+from fscm.tabulated_modulus import *
+
+if TYPE_CHECKING:
+    from fscm._lazy import *
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
+__all__ += [
+    name
+    for module in (
+        custom_punch,
+        custom_solid,
+        laws,
+        layers,
+        measured_punch,
+        punch,
+        solids,
+        tabulated_law,
+        tabulated_modulus,
+    )
+    for name in module.__all__
+]

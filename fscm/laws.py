@@ -15,7 +15,7 @@ import numpy as np
 from fscm._typing import Array
 from fscm._validation import real_number
 
-__all__ = ["LennardJones", "Mie", "ScaledLaw", "SurfaceLaw", "dimensionless_law"]
+__all__ = ["LennardJones", "Mie", "SurfaceLaw"]
 
 
 @runtime_checkable

@@ -17,18 +17,7 @@ from fscm._typing import Array
 from fscm._validation import real_number
 from fscm.errors import NotConverged
 
-__all__ = [
-    "Ball",
-    "PowerPunch",
-    "PowerSum",
-    "PunchShape",
-    "RoundedCone",
-    "ScaledPunch",
-    "check_reach",
-    "kinks_of",
-    "scaled_punch",
-    "unit_of_radii",
-]
+__all__ = ["Ball", "PowerPunch", "PowerSum", "PunchShape", "RoundedCone"]
 
 # Least radius in the search for the unit of radii of a custom shape, and number of bisections: the choice of the unit
 # changes no result.

@@ -17,18 +17,7 @@ from fscm._response_factor import response_factor
 from fscm._typing import Array
 from fscm._validation import real_number
 
-__all__ = [
-    "Coating",
-    "Exponential",
-    "GradedHalfSpace",
-    "Homogeneous",
-    "OffsetPowerLaw",
-    "PowerLaw",
-    "ScaledSolid",
-    "Solid",
-    "contact_modulus",
-    "elastic_ratio",
-]
+__all__ = ["Coating", "Exponential", "GradedHalfSpace", "Homogeneous", "OffsetPowerLaw", "PowerLaw"]
 
 #: Reasons of a refused Poisson's ratio, and of a refused number that is not positive.
 ELASTIC, POSITIVE = "the solid is elastic, and incompressible at 0.5", "it is a positive quantity"

@@ -34,8 +34,8 @@ ALLOWED = {
     "comparisons.problem.problem": ("fscm",),
     # The pressure at the pull-off force and the surface compliance of a solid, which are no quantities of a model.
     "comparisons.problem.elastic_energy": ("fscm",),
-    # Checks the parts of a file before the whole.
-    "comparisons.problem.consistency": ("fscm",),
+    # Checks the sections of a file before the whole.
+    "comparisons.problem.reading": ("fscm",),
     # Derivatives of a value, which are no quantity of a model.
     "comparisons.description.uncertainty": ("fscm",),
     # The Stieltjes scheme from an accurate surface on.

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from datetime import date, time
 from difflib import get_close_matches
 from functools import lru_cache
 from importlib.resources import files
@@ -21,7 +22,7 @@ from jsonschema.validators import extend
 
 from comparisons.data.toml_text import is_real
 
-__all__ = ["known_name", "label", "validated"]
+__all__ = ["known_name", "label", "shown", "validated", "validator_of"]
 
 #: What is refused first in one table: a misspelt key is also a missing one.
 _ORDER = ("additionalProperties", "required")
@@ -32,17 +33,24 @@ _NAME = re.compile(r"[A-Za-z0-9]+([-._][A-Za-z0-9.]+)*")
 _LONGEST = 80
 
 
-def validated(document: dict[str, Any], schema: str, source: str) -> None:
+def validated(
+    document: Mapping[str, Any],
+    schema: str | Validator,
+    source: str,
+    place: Callable[..., str] | None = None,
+) -> None:
     """Refuse tables that do not fit a schema.
 
     Parameters
     ----------
     document : dict
         As `comparisons.data.toml_text.parse` returns it.
-    schema : str
-        Name of ``<schema>.schema.json`` in this folder.
+    schema : str or Validator
+        Name of ``<schema>.schema.json`` in this folder, or as `validator_of` returns it.
     source : str
         What was read, for the sentence.
+    place : callable, optional
+        Names of table and key -> what was read with the line, in place of `source`.
 
     Raises
     ------
@@ -55,10 +63,11 @@ def validated(document: dict[str, Any], schema: str, source: str) -> None:
     Traceback (most recent call last):
     ValueError: mine.toml: grid mine: unknown key 'titel': did you mean title?
     """
-    validator = _validator(schema)
-    errors = sorted(validator.iter_errors(document), key=_place)
+    validator = _shipped_validator(schema) if isinstance(schema, str) else schema
+    errors = sorted(validator.iter_errors(document), key=_position)
     if errors:
-        raise ValueError(f"{source}: {_sentence(errors[0], document, validator.schema)}")
+        where = place(*errors[0].absolute_path, *_unknown_keys(errors[0])) if place else source
+        raise ValueError(f"{where}: {_sentence(errors[0], document, validator.schema)}")
 
 
 def label(kind: str, table: object, number: int) -> str:
@@ -72,7 +81,7 @@ def label(kind: str, table: object, number: int) -> str:
     if not isinstance(table, Mapping) or "id" not in table:
         return f"{kind} {number}"
     id = table["id"]
-    return f"{kind} {id}" if isinstance(id, str) and _NAME.fullmatch(id) else f"{kind} {number} (id = {_shown(id)})"
+    return f"{kind} {id}" if isinstance(id, str) and _NAME.fullmatch(id) else f"{kind} {number} (id = {shown(id)})"
 
 
 def known_name(what: str, name: str, known: Iterable[str], where: str) -> None:
@@ -91,27 +100,36 @@ def known_name(what: str, name: str, known: Iterable[str], where: str) -> None:
     """
     known = list(known)
     if name not in known:
-        raise ValueError(f"{where}: unknown {what} {_shown(name)}{_nearest(name, known)}")
+        raise ValueError(f"{where}: unknown {what} {shown(name)}{_nearest(name, known)}")
 
 
 @lru_cache
-def _validator(schema: str) -> Validator:
-    content = json.loads(files("comparisons.data").joinpath(f"{schema}.schema.json").read_text(encoding="utf-8"))
-    Draft202012Validator.check_schema(content)
+def _shipped_validator(schema: str) -> Validator:
+    return validator_of(json.loads(files("comparisons.data").joinpath(f"{schema}.schema.json").read_text("utf-8")))
+
+
+def validator_of(schema: Mapping[str, Any]) -> Validator:
+    """Return the validator of a JSON schema, for which a number may be infinite."""
+    Draft202012Validator.check_schema(schema)
     types = Draft202012Validator.TYPE_CHECKER.redefine_many(
         {
             "number": lambda _, value: is_real(value) and value == value,
             "integer": lambda _, value: isinstance(value, int) and is_real(value),
         }
     )
-    return extend(Draft202012Validator, type_checker=types)(content)
+    return extend(Draft202012Validator, type_checker=types)(schema)
 
 
-def _place(error: ValidationError) -> tuple[list[tuple[int, str]], int]:
+def _position(error: ValidationError) -> tuple[list[tuple[int, str]], int]:
     """Position in the file, tables before what is in them."""
     path = [(part, "") if isinstance(part, int) else (-1, part) for part in error.absolute_path]
     order = _ORDER.index(error.validator) if error.validator in _ORDER else len(_ORDER)
     return (path if order == len(_ORDER) else path[:2]), order
+
+
+def _unknown_keys(error: ValidationError) -> list[str]:
+    unknown = error.validator == "additionalProperties"
+    return [key for key in error.instance if key not in error.schema["properties"]] if unknown else []
 
 
 def _sentence(error: ValidationError, document: dict[str, Any], schema: Mapping[str, Any]) -> str:
@@ -122,9 +140,8 @@ def _sentence(error: ValidationError, document: dict[str, Any], schema: Mapping[
     inner = path[2:] if where else path
     table = f"{'.'.join(map(str, inner))}: " if inner else ""
     if error.validator == "additionalProperties":
-        known = error.schema["properties"]
-        wrong = next(key for key in error.instance if key not in known)
-        return f"{where}{table}unknown key {_shown(wrong)}{_nearest(wrong, known)}"
+        wrong = _unknown_keys(error)[0]
+        return f"{where}{table}unknown key {shown(wrong)}{_nearest(wrong, error.schema['properties'])}"
     if error.validator == "required":
         missing = [key for key in error.validator_value if key not in error.instance]
         optional = [key for key in error.schema["properties"] if key not in error.validator_value]
@@ -133,6 +150,9 @@ def _sentence(error: ValidationError, document: dict[str, Any], schema: Mapping[
             f"{', '.join(error.validator_value)}" + (f" and may have {', '.join(optional)}" if optional else "")
         )
     depth, description = _described(schema, path)
+    if error.validator == "oneOf" or (depth < len(path) and "description" in error.schema):
+        depth, description = len(path), error.schema["description"]
+    depth = len(path) if error.validator == "enum" else depth
     value: Any = document
     for part in path[:depth]:
         value = value[part]
@@ -141,9 +161,11 @@ def _sentence(error: ValidationError, document: dict[str, Any], schema: Mapping[
         near = get_close_matches(str(value), error.validator_value, n=1)
         description = f"one of {', '.join(error.validator_value)}" + (f": did you mean {near[0]}?" if near else "")
     where = where if depth > 1 else ""
+    if error.validator == "oneOf":
+        return f"{where}{key} must be {description}"
     if isinstance(value, list) and len(path) > depth > 1:
-        return f"{where}{key} must be {description}; it holds {_shown(error.instance)}"
-    return f"{where}{key} = {_shown(value)} must be {description}"
+        return f"{where}{key} must be {description}; it holds {shown(error.instance)}"
+    return f"{where}{key} = {shown(value)} must be {description}"
 
 
 def _described(schema: Mapping[str, Any], path: Iterable[str | int]) -> tuple[int, str]:
@@ -151,7 +173,7 @@ def _described(schema: Mapping[str, Any], path: Iterable[str | int]) -> tuple[in
     found, part_of = (0, "otherwise"), schema
     for depth, part in enumerate(path, start=1):
         inner = part_of["items"] if isinstance(part, int) else part_of.get("properties", {}).get(part)
-        part_of = part_of["additionalProperties"] if inner is None else inner
+        part_of = part_of.get("additionalProperties", {}) if inner is None else inner
         if "$ref" in part_of:
             part_of = schema["$defs"][part_of["$ref"].rpartition("/")[2]] | {**part_of}
         if "description" in part_of:
@@ -165,7 +187,14 @@ def _nearest(name: str, known: Iterable[str]) -> str:
     return f": did you mean {near[0]}?" if near else f"; known are {', '.join(known)}"
 
 
-def _shown(value: object) -> str:
-    """Return a value as a sentence shows it: characters that cannot be printed escaped, and not too long."""
-    text = ascii(value).lower() if isinstance(value, bool) else ascii(value)
+def shown(value: object) -> str:
+    """Return a value as a sentence shows it: characters that cannot be printed escaped, and not too long.
+
+    Examples
+    --------
+    >>> shown(True), shown("2 GPa")
+    ('true', "'2 GPa'")
+    """
+    text = value.isoformat() if isinstance(value, date | time) else ascii(value)
+    text = text.lower() if isinstance(value, bool) else text
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."

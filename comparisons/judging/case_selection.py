@@ -8,7 +8,7 @@ from typing import Any
 
 from comparisons.data.validation import known_name
 from comparisons.problem import PARAMETERS, Problem
-from comparisons.problem.kinds import SECTIONS, kinds
+from comparisons.problem.kinds import KINDS
 from comparisons.problem.units import NotAValue, in_si
 
 __all__ = ["has_parameters", "in_si_units"]
@@ -30,9 +30,10 @@ def in_si_units(cases: Mapping[str, Any], where: str) -> dict[str, Any]:
     >>> in_si_units({"solid.kind": "coating", "solid.thickness": ["10 nm", "50 nm"], "n": [2, 2]}, "gate A")
     {'solid.kind': 'coating', 'solid.thickness': [1e-08, 5e-08], 'n': [2, 2]}
     """
-    words = {f"{section}.kind": list(kinds(section)) for section in SECTIONS}
-    of_kinds = ((section, key) for section in SECTIONS for kind in kinds(section).values() for key in kind.keys)
-    units = {f"{section}.{key.name}": key.dimension.unit or "" for section, key in of_kinds}
+    words = {f"{section}.kind": list(kinds) for section, kinds in KINDS.items()}
+    of_kinds = ((section, kind.keys) for section, kinds in KINDS.items() for kind in kinds.values())
+    forms = {f"{section}.{key}": form for section, keys in of_kinds for key, form in keys.items()}
+    units = {name: form.get("items", form).get("unit", "") for name, form in forms.items()}
     values: dict[str, Any] = {}
     for name, value in cases.items():
         key = _ENTRY.sub("", name)

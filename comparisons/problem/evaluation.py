@@ -47,7 +47,7 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     2.0
     """
     row = ALL_QUANTITIES[quantity]
-    if quantity in QUANTITIES and model.name not in REFERENCES and problem.has_other_solid_alone:
+    if quantity in QUANTITIES and model.name not in REFERENCES and _has_another_solid(problem):
         return _with_equivalent_solid(problem, model, quantity)
     _check(problem, model, quantity)
     found = row.evaluate(model, problem)
@@ -56,6 +56,11 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
         return row.in_units(found, problem.units)
     assert isinstance(found, Points)
     return row.in_units(found, problem.units)
+
+
+def _has_another_solid(problem: Problem) -> bool:
+    """Whether only the solid keeps it from being the problem of three numbers."""
+    return not problem.has_power_law and problem.has_of_the_paper("punch", "law")
 
 
 def _with_equivalent_solid(problem: Problem, model: Model, quantity: str) -> Result:
@@ -92,7 +97,7 @@ def _check(problem: Problem, model: Model, quantity: str) -> None:
 def dimensionless_result(problem: Problem, quantity: str, result: Result) -> tuple[float, float, str] | None:
     """Return value, u_num and unit of a result in SI in the units of the paper; None where these are not defined."""
     row = QUANTITIES[quantity]
-    if problem.is_dimensionless or row.scale == "number" or not problem.has_power_punch:
+    if problem.is_dimensionless or row.scale == "number" or not problem.has_of_the_paper("punch"):
         return None
     unit = problem.units[row.scale]
     return result.value / unit, result.u_num / unit, row.unit

@@ -1,111 +1,85 @@
 """The one table of kinds: what a problem file may state, and what each solver makes of it.
 
-A row has the keys of a kind with their dimensions, and a function that builds the kind from the classes of a solver.
-Both solvers have the same names and arguments, so that one function serves both.  The form of a file, its JSON schema
-(`comparisons.problem.schema`), the variation of keys and the uncertainties follow from this table.
+A row has a formula, the keys of a kind, and the class of that name in both solvers, which takes their values in this
+order, or a function that builds it.  A key has the JSON schema of its value; besides the words of JSON schema it has
+`unit` (in SI), `uncertain` (false where no uncertainty is admissible), and of a column `rising` (what to do with a
+value that is not above the one before it) and `optional`.  The schema of a file (`comparisons.problem.schema`), the
+check of a file, the variation of keys, the uncertainties, `fscm-bench list kinds` and the tables of the documentation
+follow from this table.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+import operator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from comparisons.problem.columns import Column
 from comparisons.problem.punch_shapes import RoundedFlat, SmoothedProfile
 
 if TYPE_CHECKING:
     from comparisons.problem.problem import Section
 
-__all__ = ["KINDS", "SECTIONS", "Dimension", "Key", "Kind", "kind_of", "kinds"]
+__all__ = ["KINDS", "SECTIONS", "Form", "Kind", "is_admissible", "kind_rows", "limits_of"]
 
 #: The sections of a file, all required, and what they describe.
 SECTIONS = {"solid": "the half-space", "punch": "the rigid punch", "law": "the surface law"}
 
+#: JSON schema of a value.
+Form = dict[str, Any]
 
-@dataclass(frozen=True, slots=True)
-class Dimension:
-    """What a value is, and its limits in SI.
+#: Limits in a JSON schema, in SI, and the comparison that holds.
+_LIMITS: dict[str, Callable[[float, float], bool]] = {
+    "exclusiveMinimum": operator.gt,
+    "minimum": operator.ge,
+    "maximum": operator.le,
+    "exclusiveMaximum": operator.lt,
+}
 
-    Attributes
-    ----------
-    name, description : str
-    unit : str or None
-        In SI; None for a plain number.
-    example : str or None
-        A value with a unit.
-    above, at_least, at_most, below : float or None
-        Limits; those of `above` and `below` are not admissible themselves.
-    is_text : bool
-        Whether it is a text and no number.
-    may_be_uncertain : bool
-        Whether the value may have an uncertainty.
-    """
-
-    name: str
-    description: str
-    unit: str | None = None
-    example: str | None = None
-    above: float | None = None
-    at_least: float | None = None
-    at_most: float | None = None
-    below: float | None = None
-    is_text: bool = False
-    may_be_uncertain: bool = True
-
-    @property
-    def limits(self) -> tuple[float, float]:
-        """Both ends of the admissible values."""
-        lows = [limit for limit in (self.at_least, self.above) if limit is not None]
-        highs = [limit for limit in (self.at_most, self.below) if limit is not None]
-        return (lows or [-math.inf])[0], (highs or [math.inf])[0]
+_NUMBER = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
+#: A plain number with an uncertainty.
+_UNCERTAIN = rf"^\s*({_NUMBER}\s*(\+-|\+/-|±)\s*{_NUMBER}\s*%?|\[\s*{_NUMBER}\s*,\s*{_NUMBER}\s*\])\s*$"
 
 
-MODULUS = Dimension("modulus", "a positive modulus", "Pa", "2 GPa", above=0)
-LENGTH = Dimension("length", "a positive length", "m", "100 nm", above=0)
-ANGLE = Dimension(
-    "angle",
+def _quantity(description: str, unit: str, example: str, **more: Any) -> Form:
+    description = f'{description}, as "{example}" or a plain number in {unit}'
+    return {"type": ["number", "string"], "description": description, "unit": unit, **more}
+
+
+def _number(description: str, **more: Any) -> Form:
+    return {"type": ["number", "string"], "description": description, "pattern": _UNCERTAIN, **more}
+
+
+def _list(form: Form) -> Form:
+    description = f"a list with {form['description']}, for each layer"
+    return {"type": "array", "minItems": 1, "description": description, "items": {**form, "uncertain": False}}
+
+
+MODULUS = _quantity("a positive modulus", "Pa", "2 GPa", exclusiveMinimum=0)
+LENGTH = _quantity("a positive length", "m", "100 nm", exclusiveMinimum=0)
+FROM_ZERO = _quantity("a length, 0 or more", "m", "20 nm", minimum=0)
+ANGLE = _quantity(
     "an angle between axis and flank, above 0 and below 90 degrees",
     "rad",
     "70 deg",
-    above=0,
-    below=math.pi / 2.0,
+    exclusiveMinimum=0,
+    exclusiveMaximum=math.pi / 2.0,
 )
-TRANSITION = Dimension("transition", "a length, 0 or more", "m", "20 nm", at_least=0)
-ENERGY_PER_AREA = Dimension("energy_per_area", "a positive energy per area", "J/m^2", "50 mJ/m^2", above=0)
-SHAPE_PARAMETER = Dimension("shape_parameter", "positive, a length to the power n - 1", "m^(n-1)", "1 um", above=0)
-EXPONENT = Dimension("exponent", "a plain number from 0 to 1", at_least=0, at_most=1)
-OFFSET_EXPONENT = Dimension("offset_exponent", "a plain number from 0 to below 1", at_least=0, below=1)
-RATIO = Dimension("ratio", "a plain number from 0 to 0.5", at_least=0, at_most=0.5)
-SHAPE_INDEX = Dimension("shape_index", "a plain number above 0 and at most 300", above=0, at_most=300)
-POSITIVE = Dimension("positive", "a positive plain number", above=0)
-POWER = Dimension("power", "a plain number above 1", above=1)
-FILE = Dimension("file", "the name of a CSV file in the folder of the problem file", is_text=True)
-STANDARD_ERROR = Dimension(
-    "standard_error", "a positive length without an uncertainty", "m", "1 nm", above=0, may_be_uncertain=False
-)
-
-
-@dataclass(frozen=True, slots=True)
-class Key:
-    """A key of a kind.
-
-    Attributes
-    ----------
-    name : str
-    dimension : Dimension
-    required : bool
-    is_list : bool
-        Whether its value is a list of one value or more, each without an uncertainty.
-    """
-
-    name: str
-    dimension: Dimension
-    required: bool = True
-    is_list: bool = False
+ENERGY_PER_AREA = _quantity("a positive energy per area", "J/m^2", "50 mJ/m^2", exclusiveMinimum=0)
+SHAPE_PARAMETER = _quantity("positive, a length to the power n - 1", "m^(n-1)", "1 um^2", exclusiveMinimum=0)
+EXPONENT = _number("a plain number from 0 to 1", minimum=0, maximum=1)
+OFFSET_EXPONENT = _number("a plain number from 0 to below 1", minimum=0, exclusiveMaximum=1)
+RATIO = _number("a plain number from 0 to 0.5", minimum=0, maximum=0.5)
+SHAPE_INDEX = _number("a plain number above 0 and at most 300", exclusiveMinimum=0, maximum=300)
+POSITIVE = _number("a positive plain number", exclusiveMinimum=0)
+POWER = _number("a plain number above 1", exclusiveMinimum=1)
+FILE: Form = {
+    "type": "string",
+    "description": "the name of a CSV file in the folder of the problem file",
+    "minLength": 1,
+}
 
 
 @dataclass(frozen=True)
@@ -114,42 +88,39 @@ class Kind:
 
     Attributes
     ----------
-    name : str
-    keys : tuple of Key
-    build : callable
-        (solver, section) -> the solid, punch or law by the classes of a solver, `fscm` or `fem_reference`, in SI.
+    formula : str
+        What the kind is, for people.
+    keys : mapping of str to Form
+    builds : str or callable
+        Name of the class in `fscm` and in `fem_reference`, or (solver, section) -> solid, punch or law in SI.
+    optional : tuple of str
+        Keys that a file may leave out.
     choices : tuple of tuple of str
-        Optional keys of which one group is needed, complete.
-    columns, fewest_rows
+        Groups of keys of which a file has one.
+    columns : mapping of str to Form
         Of the table that the key `file` names.
     is_of_the_paper : bool
         Whether the problem of three numbers n, k and mu has it.
-    lengths : str or None
-        Of lists: which key is shorter by one than the others.
     """
 
-    name: str
-    keys: tuple[Key, ...]
-    build: Callable[[ModuleType, Section], Any]
+    formula: str
+    keys: Mapping[str, Form]
+    builds: str | Callable[[ModuleType, Section], Any]
+    optional: tuple[str, ...] = ()
     choices: tuple[tuple[str, ...], ...] = ()
-    columns: Mapping[str, Column] = field(default_factory=dict)
-    fewest_rows: int = 0
+    columns: Mapping[str, Form] = field(default_factory=dict)
     is_of_the_paper: bool = False
-    lengths: str | None = None
-
-    @cached_property
-    def by_name(self) -> dict[str, Key]:
-        """The keys by their names."""
-        return {key.name: key for key in self.keys}
 
     @property
     def required(self) -> list[str]:
         """Names of the keys that every file of this kind has."""
-        return [key.name for key in self.keys if key.required]
+        return [key for key in self.keys if key not in (*self.optional, *sum(self.choices, ()))]
 
-
-def _optional(name: str, dimension: Dimension) -> Key:
-    return Key(name, dimension, required=False)
+    def build(self, solver: ModuleType, section: Section) -> Any:
+        """Return the solid, punch or law by the classes of a solver, `fscm` or `fem_reference`, in SI."""
+        if isinstance(self.builds, str):
+            return getattr(solver, self.builds)(*(section[key] for key in self.keys))
+        return self.builds(solver, section)
 
 
 def _coating(solver: ModuleType, solid: Section) -> Any:
@@ -159,6 +130,8 @@ def _coating(solver: ModuleType, solid: Section) -> Any:
 
 
 def _tabulated_modulus(solver: ModuleType, solid: Section) -> Any:
+    if ("nu" in solid.columns) == ("nu" in solid.values):
+        raise ValueError("nu is needed once, as a column of the table or as a key of the section")
     return solver.TabulatedModulus(solid.columns["z"], solid.columns["E"], solid.columns.get("nu", solid.get("nu")))
 
 
@@ -179,150 +152,167 @@ def _tabulated_law(solver: ModuleType, law: Section) -> Any:
     return solver.TabulatedLaw(gaps, tractions, z0, exponent)
 
 
-_SOLIDS = (
-    Kind(
-        "power-law",
-        (Key("E0", MODULUS), Key("c0", LENGTH), Key("k", EXPONENT), Key("nu", RATIO)),
-        lambda solver, solid: solver.PowerLaw(solid["E0"], solid["c0"], solid["k"], solid["nu"]),
+_SOLIDS = {
+    "homogeneous": Kind("E", {"E": MODULUS, "nu": RATIO}, "Homogeneous", is_of_the_paper=True),
+    "power-law": Kind(
+        "E0 (z/c0)^k",
+        {"E0": MODULUS, "c0": LENGTH, "k": EXPONENT, "nu": RATIO},
+        "PowerLaw",
         is_of_the_paper=True,
     ),
-    Kind(
-        "homogeneous",
-        (Key("E", MODULUS), Key("nu", RATIO)),
-        lambda solver, solid: solver.Homogeneous(solid["E"], solid["nu"]),
-        is_of_the_paper=True,
+    "offset-power-law": Kind(
+        "E0 ((z + z_s)/c0)^k",
+        {"E0": MODULUS, "c0": LENGTH, "k": OFFSET_EXPONENT, "z_s": LENGTH, "nu": RATIO},
+        "OffsetPowerLaw",
     ),
-    Kind(
-        "offset-power-law",
-        (
-            Key("E0", MODULUS),
-            Key("c0", LENGTH),
-            Key("k", OFFSET_EXPONENT),
-            Key("z_s", LENGTH),
-            Key("nu", RATIO),
-        ),
-        lambda solver, solid: solver.OffsetPowerLaw(*(solid[key] for key in ("E0", "c0", "k", "z_s", "nu"))),
+    "exponential": Kind(
+        "E_depth + (E_surface - E_depth) exp(-z/length)",
+        {"E_surface": MODULUS, "E_depth": MODULUS, "length": LENGTH, "nu": RATIO},
+        "Exponential",
     ),
-    Kind(
-        "exponential",
-        (Key("E_surface", MODULUS), Key("E_depth", MODULUS), Key("length", LENGTH), Key("nu", RATIO)),
-        lambda solver, solid: solver.Exponential(*(solid[key] for key in ("E_surface", "E_depth", "length", "nu"))),
-    ),
-    Kind(
-        "coating",
-        (
-            Key("E_coating", MODULUS),
-            Key("E_substrate", MODULUS),
-            Key("thickness", LENGTH),
-            Key("transition", TRANSITION),
-            _optional("nu", RATIO),
-            _optional("nu_coating", RATIO),
-            _optional("nu_substrate", RATIO),
-        ),
+    "coating": Kind(
+        "E_substrate + (E_coating - E_substrate) (1 - tanh((z - thickness)/transition))/2; transition 0 is sharp",
+        {
+            "E_coating": MODULUS,
+            "E_substrate": MODULUS,
+            "thickness": LENGTH,
+            "transition": FROM_ZERO,
+            "nu": RATIO,
+            "nu_coating": RATIO,
+            "nu_substrate": RATIO,
+        },
         _coating,
         choices=(("nu",), ("nu_coating", "nu_substrate")),
     ),
-    Kind(
-        "layers",
-        (
-            Key("E", MODULUS, is_list=True),
-            Key("nu", RATIO, is_list=True),
-            Key("thickness", LENGTH, is_list=True),
-        ),
-        lambda solver, solid: solver.Layers(solid["E"], solid["nu"], solid["thickness"]),
-        lengths="thickness",
+    "layers": Kind(
+        "E of each layer, from the surface downwards, and of the substrate, which is one entry more; sharp interfaces",
+        {"E": _list(MODULUS), "nu": _list(RATIO), "thickness": _list(LENGTH)},
+        "Layers",
     ),
-    Kind(
-        "table",
-        (Key("file", FILE), _optional("nu", RATIO)),
+    "table": Kind(
+        "monotone interpolation of the rows, constant beyond them",
+        {"file": FILE, "nu": RATIO},
         _tabulated_modulus,
+        optional=("nu",),
         columns={
-            "z": Column("m", low=0.0, rising=True, twice="a step: use the kind layers, which has sharp interfaces"),
-            "E": Column("Pa", low=0.0, open=True),
-            "nu": Column("1", low=0.0, high=0.5, optional=True),
+            "z": {**FROM_ZERO, "rising": "sort the rows by z; a step of the modulus is the kind layers"},
+            "E": MODULUS,
+            "nu": {**RATIO, "optional": True},
         },
-        fewest_rows=2,
     ),
-)
+}
 
-_PUNCHES = (
-    Kind(
-        "sphere",
-        (Key("R", LENGTH),),
+_PUNCHES = {
+    "sphere": Kind(
+        "r^2/(2 R), the paraboloid",
+        {"R": LENGTH},
         lambda solver, punch: solver.PowerPunch(2.0, punch["R"]),
         is_of_the_paper=True,
     ),
-    Kind("ball", (Key("R", LENGTH),), lambda solver, punch: solver.Ball(punch["R"])),
-    Kind(
-        "cone",
-        (Key("half_angle", ANGLE),),
+    "ball": Kind("R - sqrt(R^2 - r^2), the true sphere", {"R": LENGTH}, "Ball"),
+    "cone": Kind(
+        "r/tan(half_angle)",
+        {"half_angle": ANGLE},
         lambda solver, punch: solver.PowerPunch(1.0, math.tan(punch["half_angle"])),
         is_of_the_paper=True,
     ),
-    Kind(
-        "power-law",
-        (Key("n", SHAPE_INDEX), Key("Q", SHAPE_PARAMETER)),
-        lambda solver, punch: solver.PowerPunch(punch["n"], punch["Q"]),
-        is_of_the_paper=True,
-    ),
-    Kind(
-        "rounded-cone",
-        (Key("R", LENGTH), Key("slope", POSITIVE)),
+    "power-law": Kind("r^n/(n Q)", {"n": SHAPE_INDEX, "Q": SHAPE_PARAMETER}, "PowerPunch", is_of_the_paper=True),
+    "rounded-cone": Kind(
+        "slope (sqrt(r^2 + c^2) - c), c = R slope, with the radius of curvature R of the tip",
+        {"R": LENGTH, "slope": POSITIVE},
         lambda solver, punch: solver.RoundedCone(punch["R"] * punch["slope"], punch["slope"]),
     ),
-    Kind(
-        "rounded-flat",
-        (Key("flat_radius", LENGTH), Key("R", LENGTH)),
+    "rounded-flat": Kind(
+        "(r - flat_radius)^2/(2 R) outside of the flat end",
+        {"flat_radius": LENGTH, "R": LENGTH},
         lambda solver, punch: RoundedFlat(punch["flat_radius"], punch["R"]),
     ),
-    Kind(
-        "table",
-        (Key("file", FILE), _optional("growth", POSITIVE), _optional("smoothing", STANDARD_ERROR)),
+    "table": Kind(
+        "straight lines between the rows, and beyond the last one its height times (r/r_last)^growth, growth 2 if not "
+        "stated",
+        {
+            "file": FILE,
+            "growth": POSITIVE,
+            "smoothing": _quantity("a positive length", "m", "1 nm", exclusiveMinimum=0, uncertain=False),
+        },
         _profile,
-        columns={"r": Column("m", low=0.0, rising=True), "height": Column("m")},
-        fewest_rows=2,
+        optional=("growth", "smoothing"),
+        columns={
+            "r": {**FROM_ZERO, "rising": "sort the rows by r"},
+            "height": _quantity("a length", "m", "1 nm"),
+        },
     ),
-)
-
-_LAWS = (
-    Kind(
-        "lennard-jones-9-3",
-        (Key("work_of_adhesion", ENERGY_PER_AREA), Key("z0", LENGTH)),
-        lambda solver, law: solver.LennardJones(law["work_of_adhesion"], law["z0"]),
-        is_of_the_paper=True,
-    ),
-    Kind(
-        "mie",
-        (Key("work_of_adhesion", ENERGY_PER_AREA), Key("z0", LENGTH), Key("m", POWER), Key("n", POWER)),
-        lambda solver, law: solver.Mie(law["work_of_adhesion"], law["z0"], law["m"], law["n"]),
-    ),
-    Kind(
-        "table",
-        (Key("file", FILE), _optional("z0", LENGTH), _optional("tail_exponent", POWER)),
-        _tabulated_law,
-        columns={"gap": Column("m", rising=True), "traction": Column("Pa")},
-        fewest_rows=10,
-    ),
-)
-
-#: The kinds of each section, by name.
-KINDS: dict[str, dict[str, Kind]] = {
-    section: {kind.name: kind for kind in rows}
-    for section, rows in (("solid", _SOLIDS), ("punch", _PUNCHES), ("law", _LAWS))
 }
 
+_LAWS = {
+    "lennard-jones-9-3": Kind(
+        "(8 w/(3 z0)) ((1 + H/z0)^-9 - (1 + H/z0)^-3), w = work_of_adhesion",
+        {"work_of_adhesion": ENERGY_PER_AREA, "z0": LENGTH},
+        "LennardJones",
+        is_of_the_paper=True,
+    ),
+    "mie": Kind(
+        "the same with the exponents m of the repulsion and n of the attraction, 1 < n < m",
+        {"work_of_adhesion": ENERGY_PER_AREA, "z0": LENGTH, "m": POWER, "n": POWER},
+        "Mie",
+    ),
+    "table": Kind(
+        "a smooth curve through ten rows or more, a wall below and a power beyond; compression is positive",
+        {"file": FILE, "z0": LENGTH, "tail_exponent": POWER},
+        _tabulated_law,
+        optional=("z0", "tail_exponent"),
+        columns={
+            "gap": {**_quantity("a length", "m", "1 nm"), "rising": "sort the rows by gap"},
+            "traction": _quantity("a traction", "Pa", "1 MPa"),
+        },
+    ),
+}
 
-def kinds(section: str) -> dict[str, Kind]:
-    """Return the kinds of a section.
+#: The kinds of each section, by name.
+KINDS: dict[str, dict[str, Kind]] = {"solid": _SOLIDS, "punch": _PUNCHES, "law": _LAWS}
+
+
+def is_admissible(form: Form, value: float) -> bool:
+    """Whether a value in SI is within the limits of a form.
 
     Examples
     --------
-    >>> list(kinds("law"))
-    ['lennard-jones-9-3', 'mie', 'table']
+    >>> is_admissible(RATIO, 0.5), is_admissible(MODULUS, 0.0)
+    (True, False)
     """
-    return KINDS[section]
+    return all(holds(value, form[limit]) for limit, holds in _LIMITS.items() if limit in form)
 
 
-def kind_of(section: str, name: str) -> Kind:
-    """Return one row of the table."""
-    return KINDS[section][name]
+def limits_of(form: Form) -> tuple[float, float]:
+    """Return both ends of the admissible values.
+
+    Examples
+    --------
+    >>> limits_of(MODULUS), limits_of(RATIO)
+    ((0, inf), (0, 0.5))
+    """
+    low = form.get("minimum", form.get("exclusiveMinimum", -math.inf))
+    return low, form.get("maximum", form.get("exclusiveMaximum", math.inf))
+
+
+def kind_rows() -> Iterator[dict[str, str]]:
+    """Yield the rows of the table for people: section, kind, formula, keys and columns with their units.
+
+    Examples
+    --------
+    >>> next(row["keys"] for row in kind_rows() if row["kind"] == "rounded-cone")
+    'R [m], slope'
+    """
+    for section, kinds in KINDS.items():
+        for name, kind in kinds.items():
+            groups = [" and ".join(_named(kind.keys, choice)) for choice in kind.choices]
+            keys = [*_named(kind.keys, kind.required), *([" or ".join(groups)] if groups else [])]
+            keys += [f"perhaps {key}" for key in _named(kind.keys, kind.optional)]
+            columns = ", ".join(_named(kind.columns, kind.columns))
+            row = {"kind": name, "section": section, "formula": kind.formula, "keys": ", ".join(keys)}
+            yield row | {"columns": columns}
+
+
+def _named(forms: Mapping[str, Form], names: Any) -> list[str]:
+    units = {name: forms[name].get("items", forms[name]).get("unit") for name in names}
+    return [f"{name} [{unit}]" if unit else name for name, unit in units.items()]

@@ -16,7 +16,7 @@ from typing import Any
 import fscm
 from comparisons.model import NotApplicable
 from comparisons.numerics.number_text import case_text
-from comparisons.problem.kinds import SECTIONS, kind_of
+from comparisons.problem.kinds import KINDS, SECTIONS
 from comparisons.problem.uncertain import Uncertainty
 
 __all__ = ["PARAMETERS", "Problem", "Section", "split_name"]
@@ -208,28 +208,19 @@ class Problem:
         sections = self._sections.items()
         return {(name, key): each for name, section in sections for key, each in section.uncertain.items()}
 
-    def _is_of_the_paper(self, *names: str) -> bool:
-        return all(kind_of(name, self._sections[name].kind).is_of_the_paper for name in names)
+    def has_of_the_paper(self, *names: str) -> bool:
+        """Whether the problem of three numbers n, k and mu has the kinds of these sections."""
+        return all(KINDS[name][self._sections[name].kind].is_of_the_paper for name in names)
 
     @property
     def is_of_the_paper(self) -> bool:
         """Whether it is the problem of three numbers n, k and mu, which every model takes."""
-        return self._is_of_the_paper(*SECTIONS)
-
-    @property
-    def has_power_punch(self) -> bool:
-        """Whether the punch is r^n / (n Q), so that the units of the paper are defined."""
-        return self._is_of_the_paper("punch")
+        return self.has_of_the_paper(*SECTIONS)
 
     @property
     def has_power_law(self) -> bool:
         """Whether the solid is E0 (z/c0)^k."""
-        return self._is_of_the_paper("solid")
-
-    @property
-    def has_other_solid_alone(self) -> bool:
-        """Whether only the solid keeps it from being the problem of three numbers."""
-        return not self.has_power_law and self._is_of_the_paper("punch", "law")
+        return self.has_of_the_paper("solid")
 
     @property
     def n(self) -> float:
@@ -252,7 +243,7 @@ class Problem:
         return self.solid.get("nu") if self.is_of_the_paper else None
 
     def _number(self, name: str) -> float:
-        if not self._is_of_the_paper("solid", "punch"):
+        if not self.has_of_the_paper("solid", "punch"):
             raise NotApplicable(
                 f"{self.label} has no {name}: its solid is of the kind {self.solid.kind} and its punch of the kind "
                 f"{self.punch.kind}; n, k and mu are those of power laws"
@@ -273,7 +264,8 @@ class Problem:
         ValueError
             If it is outside of what the solver admits.
         """
-        return solver.Problem(*(kind_of(name, part.kind).build(solver, part) for name, part in self._sections.items()))
+        sections = self._sections.items()
+        return solver.Problem(*(KINDS[name][section.kind].build(solver, section) for name, section in sections))
 
     @property
     def posed(self) -> fscm.Problem:

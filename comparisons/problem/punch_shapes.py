@@ -17,6 +17,9 @@ __all__ = ["RoundedFlat", "SmoothedProfile"]
 
 Array = NDArray[np.float64]
 
+#: Rows that a smoothed profile needs: a cubic spline has four coefficients.
+_FEWEST = 8
+
 
 @dataclass(frozen=True, slots=True)
 class RoundedFlat:
@@ -97,6 +100,10 @@ class SmoothedProfile:
 
     def __post_init__(self) -> None:
         r, f = np.array(self.radii), np.array(self.heights)
+        if len(r) < _FEWEST:
+            raise ValueError(f"a smooth profile has {len(r)} rows; it needs at least {_FEWEST}")
+        if r[0] != 0.0:
+            raise ValueError(f"the first radius is {r[0]:g} m and not 0; subtract the position of the apex")
         # In units of the last point, where the equations of the spline are well scaled.
         weights = np.full(len(r), abs(f[-1]) / self.smoothing)
         curve = scipy.interpolate.UnivariateSpline((r / r[-1]) ** 2, f / abs(f[-1]), w=weights, k=3, s=len(r))

@@ -6,26 +6,33 @@ import os
 import re
 import sys
 from collections.abc import Mapping
-from difflib import get_close_matches
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+import fscm
+from comparisons.data.contained_paths import path_inside
 from comparisons.data.input_files import read_text
 from comparisons.data.toml_text import parse
+from comparisons.data.validation import shown, validated, validator_of
 from comparisons.problem.columns import read_columns
-from comparisons.problem.consistency import check_consistency
-from comparisons.problem.form import SECTIONS, checked_section
-from comparisons.problem.kinds import kind_of
+from comparisons.problem.form import values_in_si
+from comparisons.problem.kinds import KINDS, SECTIONS
 from comparisons.problem.problem import Problem, Section
-from comparisons.problem.source import Source, shown
+from comparisons.problem.schema import schema
+from comparisons.problem.source import Source
+from fscm.punch import unit_of_radii
 
 __all__ = ["document_of", "load_problem", "problem_of"]
 
-#: Rows that a smoothed profile needs: a cubic spline has four coefficients.
-_FEWEST_SMOOTHED = 8
-
 #: A whole number that Python does not read.
 _MANY_DIGITS = re.compile(rf"\d{{{sys.int_info.default_max_str_digits + 1},}}")
+
+#: Largest and smallest admissible ratio of the radius of the punch to the range of the law.  A lens of 10 m
+#: and a range of 0.2 nm give 5e10; a tip with a radius far below an atom has no meaning.
+_RATIOS = 1e-3, 1e12
+
+_validator = lru_cache(lambda: validator_of(schema()))
 
 
 def load_problem(path: str | os.PathLike[str]) -> Problem:
@@ -58,18 +65,16 @@ def load_problem(path: str | os.PathLike[str]) -> Problem:
 def document_of(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Source]:
     """Return the sections of a problem file as they are written, and its text.
 
-    Parameters
-    ----------
-    path : str or path
-
     Raises
     ------
     ValueError
         As `load_problem`, if the file cannot be read or is not TOML.
     """
-    path = Path(path)
-    source = Source(path, read_text(path, "the problem file"))
-    return _document(source), source
+    source = Source(Path(path), read_text(Path(path), "the problem file"))
+    if digits := _MANY_DIGITS.search(source.text):
+        line = source.text.count("\n", 0, digits.start()) + 1
+        raise ValueError(f"{path}, line {line}: {shown(digits[0])} has too many digits; write a power of ten, as 1e9")
+    return parse(source.text, str(path)), source
 
 
 def problem_of(document: Mapping[str, Any], source: Source) -> Problem:
@@ -80,66 +85,58 @@ def problem_of(document: Mapping[str, Any], source: Source) -> Problem:
     ValueError
         As `load_problem`.
     """
-    path = source.path
-    for name in document:
-        if name not in SECTIONS:
-            near = get_close_matches(name, SECTIONS, n=1)
-            remedy = f"did you mean {near[0]}?" if near else f"the sections are {', '.join(SECTIONS)}"
-            raise source.refusal(name, None, f"is unknown; {remedy}")
-    for name in SECTIONS:
-        if name not in document:
-            raise ValueError(f"{path}: the section [{name}] is missing; a problem file has {', '.join(SECTIONS)}")
-    solid, punch, law = (_section(document, name, source) for name in SECTIONS)
-    problem = Problem(solid, punch, law, name=path.name, path=path)
-    check_consistency(problem, source)
+    validated(document, _validator(), str(source.path), source.place)
+    solid, punch, law = (_section(name, document[name], source) for name in SECTIONS)
+    problem = Problem(solid, punch, law, name=source.path.name, path=source.path)
+    _check_scales(problem, source)
     return problem
 
 
-def _document(source: Source) -> dict[str, Any]:
+def _section(name: str, table: Mapping[str, Any], source: Source) -> Section:
+    values, uncertain = values_in_si(name, table, source)
+    kind = KINDS[name][table["kind"]]
+    columns: dict[str, tuple[float, ...]] = {}
+    if kind.columns:
+        try:
+            path = path_inside(source.path.parent, values["file"])
+        except ValueError:
+            path = None
+        # False for a name that is too long, too.
+        if path is None or not os.path.isfile(path):
+            sentence = f"file = {shown(values['file'])} is not in the folder of {source.path.name}"
+            raise source.refusal(f"{name}.{sentence}; put the table there and check its name", name, "file")
+        columns = read_columns(path, kind.columns)
+    section = Section(table["kind"], values, columns, uncertain)
     try:
-        return parse(source.text, str(source.path))
+        kind.build(fscm, section)
     except ValueError as error:
-        # tomllib has the line at the end of its sentence, in brackets.
-        if digits := _MANY_DIGITS.search(source.text):
-            line = source.text.count("\n", 0, digits.start()) + 1
-            raise ValueError(
-                f"{source.path}, line {line}: {shown(digits[0])} has too many digits; write a power of ten, as 1e9"
-            ) from None
-        found = re.search(r" \(at line (\d+), column \d+\)$", str(error))
-        if found is None:
-            raise
-        reason = str(error)[: found.start()].partition(": ")[2]
-        text = source.text.splitlines()[int(found[1]) - 1].strip()
-        raise ValueError(
-            f"{source.path}, line {found[1]}: {shown(text)} is not TOML ({reason}); "
-            "write key = value, and text in quotes"
-        ) from None
+        raise source.refusal(f"{name}: {error}; correct the values", name, "file" if columns else None) from None
+    return section
 
 
-def _section(document: Mapping[str, Any], name: str, source: Source) -> Section:
-    values, uncertain = checked_section(document, name, source)
-    kind = values.pop("kind")
-    row = kind_of(name, kind)
-    if not row.columns:
-        return Section(kind, values, uncertain=uncertain)
-    columns, fewest = row.columns, row.fewest_rows
-    path = source.table(name, values["file"])
-    # False for a name that is too long, too.
-    if not os.path.isfile(path):
-        raise source.refusal(
-            name, "file", f"file = {shown(values['file'])} is not in the folder of {source.path.name}; check the name"
-        )
-    found = read_columns(path, columns, _FEWEST_SMOOTHED if "smoothing" in values else fewest)
-    if name == "solid" and ("nu" in found) == ("nu" in values):
-        has = "both have" if "nu" in found else "have no"
-        raise source.refusal(name, None, f"the table and the section {has} nu; give it in one of the two")
-    if name == "punch":
-        first = found["r"][0], found["height"][0]
-        if first[0] != 0.0 or (first[1] != 0.0 and "smoothing" not in values):
-            raise ValueError(
-                f"{path}: the first row is ({first[0]:g} m, {first[1]:g} m) and not the apex (0, 0); "
-                "subtract the position of the apex"
+def _check_scales(problem: Problem, source: Source) -> None:
+    """Refuse a problem whose scales do not fit together, or whose profile ends inside the contact."""
+    try:
+        posed = problem.build(fscm)
+        z0 = posed.law.z0
+        n, Q = unit_of_radii(posed.punch, z0)
+        # Q of a cone is a slope: it has no scale.
+        radius = Q ** (1.0 / (n - 1.0)) if n > 1.0 else z0
+        mu, reach = problem.posed.mu, problem.units["displacement"]
+    except (ValueError, OverflowError) as error:
+        raise ValueError(f"{source.path}: {error}; check the values and their units") from None
+    low, high = _RATIOS
+    if not low <= radius / z0 <= high:
+        key = next((key for key in ("R", "Q", "file") if key in problem.punch.values), None)
+        sentence = f"the length {radius:.3g} m of the punch is {radius / z0:.1e} times the range {z0:.3g} m of the law"
+        raise source.refusal(f"{sentence}, outside [{low:g}, {high:g}]; check the units of both", "punch", key)
+    if problem.punch.kind == "table":
+        # At pull-off the height of the shape at the contact edge is about mu z0 (1.2 times that for a sphere, by JKR),
+        # and the law reaches further by its own range.
+        height = problem.punch.columns["height"][-1] - problem.punch.columns["height"][0]
+        needed = (1.0 + mu) * reach
+        if height < needed:
+            sentence = f"the profile {problem.punch['file']} ends at the height {height:.3g} m inside the contact"
+            raise source.refusal(
+                f"{sentence}, which reaches about {needed:.3g} m; measure it further out", "punch", "file"
             )
-        if not found["height"][-1] > found["height"][0]:
-            raise ValueError(f"{path}: the last height is not above the first one; a punch rises to the outside")
-    return Section(kind, values, found, uncertain)

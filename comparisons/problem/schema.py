@@ -1,26 +1,13 @@
-"""The form of a problem file as a JSON schema, from the table of kinds.
-
-`python -m comparisons.problem.schema` writes `comparisons/data/problem.schema.json`.
-"""
+"""The JSON schema of a problem file, from the table of kinds; `python -m comparisons.problem.schema` prints it."""
 
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import Any
 
-from comparisons.problem.kinds import KINDS, SECTIONS, Dimension, Key, Kind
+from comparisons.problem.kinds import KINDS, SECTIONS, Kind
 
-__all__ = ["FILE", "schema", "schema_text"]
-
-#: The file that is written.
-FILE = Path(__file__).resolve().parent.parent / "data" / "problem.schema.json"
-
-_NUMBER = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
-#: A plain number with an uncertainty.
-_UNCERTAIN = rf"^\s*({_NUMBER}\s*(\+-|\+/-|±)\s*{_NUMBER}\s*%?|\[\s*{_NUMBER}\s*,\s*{_NUMBER}\s*\])\s*$"
-
-_LIMITS = {"minimum": "at_least", "exclusiveMinimum": "above", "maximum": "at_most", "exclusiveMaximum": "below"}
+__all__ = ["schema"]
 
 
 def schema() -> dict[str, Any]:
@@ -28,62 +15,51 @@ def schema() -> dict[str, Any]:
 
     Examples
     --------
-    >>> schema()["$defs"]["ratio"]["maximum"]
-    0.5
+    >>> list(schema()["properties"])
+    ['solid', 'punch', 'law']
     """
-    rows = [kind for section in KINDS.values() for kind in section.values()]
-    dimensions = {key.dimension.name: _dimension(key.dimension) for kind in rows for key in kind.keys}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "A problem file",
+        "title": "a problem file",
         "type": "object",
         "required": list(SECTIONS),
         "additionalProperties": False,
-        "properties": {
-            section: {"description": text, "oneOf": [_kind(section, kind) for kind in KINDS[section].values()]}
-            for section, text in SECTIONS.items()
-        },
-        "$defs": dimensions,
+        "properties": {section: _section(section, kinds) for section, kinds in KINDS.items()},
     }
 
 
-def _kind(section: str, kind: Kind) -> dict[str, Any]:
-    form: dict[str, Any] = {
-        "title": f"{section} {kind.name}",
+def _section(section: str, kinds: dict[str, Kind]) -> dict[str, Any]:
+    return {
         "type": "object",
-        "properties": {"kind": {"const": kind.name}, **{key.name: _key(key) for key in kind.keys}},
+        "title": f"{SECTIONS[section]}, of one of the kinds {', '.join(kinds)},",
+        "description": f"one section, [{section}] in single brackets, with a kind and its keys",
+        "required": ["kind"],
+        "properties": {"kind": {"enum": list(kinds)}},
+        "allOf": [
+            {"if": {"properties": {"kind": {"const": name}}, "required": ["kind"]}, "then": _kind(section, name, kind)}
+            for name, kind in kinds.items()
+        ],
+    }
+
+
+def _kind(section: str, name: str, kind: Kind) -> dict[str, Any]:
+    form: dict[str, Any] = {
+        "title": f"a {section} of the kind {name}",
+        "properties": {"kind": True, **kind.keys},
         "required": ["kind", *kind.required],
         "additionalProperties": False,
     }
     if kind.choices:
-        form["oneOf"] = [{"required": list(choice)} for choice in kind.choices]
+        form["oneOf"] = [_alone(choice, kind.choices) for choice in kind.choices]
+        form["description"] = f"a {name} with {' or else '.join(map(' and '.join, kind.choices))}"
     return form
 
 
-def _key(key: Key) -> dict[str, Any]:
-    value = {"$ref": f"#/$defs/{key.dimension.name}"}
-    return {"type": "array", "minItems": 1, "items": value} if key.is_list else value
-
-
-def _dimension(dimension: Dimension) -> dict[str, Any]:
-    form: dict[str, Any] = {"description": dimension.description}
-    if dimension.is_text:
-        return {**form, "type": "string", "minLength": 1}
-    form["type"] = ["number", "string"]
-    if dimension.unit:
-        form |= {"unit": dimension.unit, "example": dimension.example}
-    else:
-        form["pattern"] = _UNCERTAIN
-    if not dimension.may_be_uncertain:
-        form["uncertain"] = False
-    limits = {keyword: getattr(dimension, name) for keyword, name in _LIMITS.items()}
-    return form | {keyword: limit for keyword, limit in limits.items() if limit is not None}
-
-
-def schema_text() -> str:
-    """Return the content of the file."""
-    return json.dumps(schema(), indent=2, ensure_ascii=False) + "\n"
+def _alone(choice: tuple[str, ...], choices: tuple[tuple[str, ...], ...]) -> dict[str, Any]:
+    """All keys of a choice, and none of another one."""
+    others = {key: False for group in choices if group != choice for key in group}
+    return {"required": list(choice), "properties": others}
 
 
 if __name__ == "__main__":
-    FILE.write_text(schema_text(), encoding="utf-8")
+    print(json.dumps(schema(), indent=2, ensure_ascii=False))

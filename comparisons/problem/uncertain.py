@@ -5,16 +5,15 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from comparisons.problem.units import NotAValue, in_si
+from comparisons.problem.units import NUMBER, NotAValue, in_si
 
 __all__ = ["Uncertainty", "is_uncertain", "uncertain_in_si"]
 
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _SIGN = re.compile(r"\+/-|\+-|±")
-_INTERVAL = re.compile(rf"\s*\[\s*({_NUMBER})\s*,\s*({_NUMBER})\s*\]\s*(.*?)\s*")
+_INTERVAL = re.compile(rf"\s*\[\s*({NUMBER})\s*,\s*({NUMBER})\s*\]\s*(.*?)\s*")
 _BRACKETS = re.compile(r"\s*\(([^()]*)\)\s*(.+?)\s*")
-_PERCENT = re.compile(rf"\s*({_NUMBER})\s*%\s*")
-_PLAIN = re.compile(rf"\s*{_NUMBER}\s*")
+_PERCENT = re.compile(rf"\s*({NUMBER})\s*%\s*")
+_PLAIN = re.compile(rf"\s*{NUMBER}\s*")
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,31 +77,26 @@ def uncertain_in_si(text: str, target: str, power: float = 1.0) -> tuple[float, 
     >>> value, uncertainty.size
     (2000000000.0, 100000000.0)
     """
-    interval = _INTERVAL.fullmatch(text)
-    if interval:
+    if interval := _INTERVAL.fullmatch(text):
         low, high = (_si(f"{number} {interval[3]}", target, power) for number in interval.groups()[:2])
         if not low < high:
             raise NotAValue("has an interval whose first end is not below the second")
         # The middle of 1.8 and 2.2 is 2 to all digits.
         return float(f"{0.5 * (low + high):.15g}"), Uncertainty(0.5 * (high - low), True, text)
-    first, *rest = _SIGN.split(text)
-    if len(rest) != 1:
-        raise NotAValue("is no value +- standard deviation and no [interval] with a unit behind it")
-    second = rest[0]
     brackets = _BRACKETS.fullmatch(text)
     if brackets and _SIGN.search(brackets[1]):
-        first, second = (f"{number} {brackets[2]}" for number in _SIGN.split(brackets[1]))
-    percent = _PERCENT.fullmatch(second)
-    if not percent and _PLAIN.fullmatch(first) and not _PLAIN.fullmatch(second):
-        # One unit behind both numbers.
-        first += re.sub(rf"^\s*{_NUMBER}", "", second)
-    value = _si(first, target, power)
-    if percent:
-        size = abs(value) * float(percent[1]) / 100.0
-    elif target and _PLAIN.fullmatch(second):
-        raise NotAValue("has a standard deviation without a unit")
+        texts = [f"{number} {brackets[2]}" for number in _SIGN.split(brackets[1])]
     else:
-        size = _si(second, target, power)
+        texts = _SIGN.split(text)
+    if len(texts) != 2:
+        raise NotAValue("is no value +- standard deviation and no [interval] with a unit behind it")
+    mean, deviation = texts
+    percent = _PERCENT.fullmatch(deviation)
+    if not percent and _PLAIN.fullmatch(mean) and not _PLAIN.fullmatch(deviation):
+        # One unit behind both numbers.
+        mean += re.sub(rf"^\s*{NUMBER}", "", deviation)
+    value = _si(mean, target, power)
+    size = abs(value) * float(percent[1]) / 100.0 if percent else _si(deviation, target, power)
     if not size > 0.0:
         raise NotAValue("has a standard deviation that is not above 0")
     return value, Uncertainty(size, False, text)
@@ -114,4 +108,4 @@ def _si(text: str, target: str, power: float) -> float:
         return in_si(text.strip(), target, power)
     if not _PLAIN.fullmatch(text):
         raise NotAValue("is no plain number with an uncertainty, as 0.3 +- 0.02 or [0.25, 0.35]")
-    return in_si(float(text), target)
+    return float(text)

@@ -7,16 +7,17 @@ import re
 from functools import lru_cache
 from typing import Any
 
+from comparisons.data.validation import shown
 from comparisons.numerics.number_text import short
-from comparisons.problem.source import shortened
 
-__all__ = ["NotAValue", "check_size", "in_si", "prefixed_unit", "si_text", "unit_factor"]
+__all__ = ["NUMBER", "NotAValue", "check_size", "in_si", "prefixed_unit", "si_text", "unit_factor"]
 
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+#: A decimal number in a text.
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _NAME = r"[A-Za-zµμΩÅ°]+(?:\s*(?:\^|\*\*)\s*\(?[+-]?\d{1,2}(?:\.\d{1,4})?\)?)?"
 #: A product of powers of units, and nothing else: pint would also calculate.
 _UNIT = re.compile(rf"(?:1\s*/\s*)?{_NAME}(?:\s*[*/·]\s*{_NAME}|\s+{_NAME})*")
-_VALUE = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*")
+_VALUE = re.compile(rf"\s*({NUMBER})\s*(.*?)\s*")
 
 #: Prefixes by which text shows a number, and their powers of ten: moduli of 1e9 Pa, energies of contacts of 1e-18 J.
 _PREFIXES = tuple(zip(range(9, -24, -3), ("G", "M", "k", "", "m", "µ", "n", "p", "f", "a", "z"), strict=True))
@@ -27,9 +28,6 @@ LARGEST_SIZE = 1e20
 
 #: Relative error of a few multiplications.
 _ROUNDING = 1e-14
-
-#: Names of dimensions, by their unit in SI.
-_KINDS = {"Pa": "a modulus or pressure", "m": "a length", "J/m^2": "an energy per area", "rad": "an angle"}
 
 
 class NotAValue(Exception):
@@ -58,23 +56,21 @@ def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
     >>> unit_factor("GPa", "Pa"), round(unit_factor("um^2", "m", 2.0) * 1e12, 12)
     (1000000000.0, 1.0)
     """
+    if unit.startswith(","):
+        raise NotAValue("has a comma in place of a decimal point")
     if not _UNIT.fullmatch(unit):
-        if unit.startswith(","):
-            raise NotAValue("has a comma in place of a decimal point")
-        raise NotAValue(f"has the unit {shortened(repr(unit))}, which is no product of units")
+        raise NotAValue(f"has the unit {shown(unit)}, which is no product of units")
     registry = _registry()
     aim = registry.Unit(target) ** power
     try:
-        found = registry.Unit(unit.replace("·", "*"))
-        # An angle has no dimension, nor has a percentage: their root units differ.
-        if registry.get_root_units(found)[1] != registry.get_root_units(aim)[1]:
-            kind = _KINDS.get(target, target) if power == 1.0 else f"{target}^({power:g})"
-            raise NotAValue(f"has the unit {unit}, which is not that of {kind}")
-        factor = float(registry.Quantity(1.0, found).to(aim).magnitude)
-    except NotAValue:
-        raise
+        given = registry.Unit(unit.replace("·", "*"))
     except Exception:  # pint has several for what it does not know, and the tokens of Python others
-        raise NotAValue(f"has the unknown unit {shortened(repr(unit))}") from None
+        raise NotAValue(f"has the unknown unit {shown(unit)}") from None
+    # An angle has no dimension, nor has a percentage: their root units differ.
+    if registry.get_root_units(given)[1] != registry.get_root_units(aim)[1]:
+        target_unit = target if power == 1.0 else f"{target}^({power:g})"
+        raise NotAValue(f"has the unit {unit}, which is not one of {target_unit}")
+    factor = float(registry.Quantity(1.0, given).to(aim).magnitude)
     # pint multiplies factors one after the other: a power of ten has lost its last digit.
     ten = float(f"1e{round(math.log10(factor))}")
     return ten if abs(factor / ten - 1.0) < _ROUNDING else factor

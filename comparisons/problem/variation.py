@@ -13,20 +13,20 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.problem.form import SECTIONS, unit_of
+from comparisons.data.validation import known_name, shown
+from comparisons.problem.kinds import KINDS, SECTIONS
 from comparisons.problem.problem import Problem
 from comparisons.problem.reading import document_of, problem_of
-from comparisons.problem.source import shown
+from comparisons.problem.units import NUMBER
 
 __all__ = ["Variation", "parse_variation", "parse_variations", "problems_of"]
 
 #: Most problems of one variation, and most values of a range.
 _MOST = 100_000
 
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-_RANGE = re.compile(rf"\s*({_NUMBER})\s*:\s*({_NUMBER})\s*:\s*(\d+)\s*(.*?)\s*")
-_PLAIN = re.compile(rf"\s*{_NUMBER}\s*")
-_UNIT = re.compile(rf"\s*{_NUMBER}\s*(.*?)\s*")
+_RANGE = re.compile(rf"\s*({NUMBER})\s*:\s*({NUMBER})\s*:\s*(\d+)\s*(.*?)\s*")
+_PLAIN = re.compile(rf"\s*{NUMBER}\s*")
+_UNIT = re.compile(rf"\s*{NUMBER}\s*(.*?)\s*")
 
 _FORM = 'write SECTION.KEY=VALUES, as "solid.thickness=5 nm, 10 nm" or "law.work_of_adhesion=20:100:5 mJ/m^2"'
 
@@ -117,8 +117,7 @@ def parse_variation(text: str) -> Variation:
 
 
 def _check_key(section: str, key: str, where: str) -> None:
-    if section not in SECTIONS:
-        raise ValueError(f"{where}: unknown section {shown(section)}; it is one of {', '.join(SECTIONS)}")
+    known_name("section", section, SECTIONS, where)
     if key == "kind":
         raise ValueError(f"{where}: a kind is not varied, since its keys differ; write one file for each")
 
@@ -189,6 +188,6 @@ def _change(section: dict[str, Any], variation: Variation, value: float | str) -
 
 
 def _column(problem: Problem, variation: Variation) -> str:
-    name = variation.key.partition(".")[0]
-    unit = unit_of(variation.section, getattr(problem, variation.section).kind, name)
+    form = KINDS[variation.section][getattr(problem, variation.section).kind].keys[variation.key.partition(".")[0]]
+    unit = form.get("items", form).get("unit")
     return f"{variation.name} [{unit}]" if unit else variation.name

@@ -16,6 +16,7 @@ from comparisons.judging.gates import gates_text, load_gates
 from comparisons.numerics.number_text import limits_text
 from comparisons.output.terminal import records
 from comparisons.problem import PARAMETERS
+from comparisons.problem.kinds import kind_rows
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS, create
 from comparisons.runs.cases import TIERS, grids
@@ -26,7 +27,7 @@ __all__ = ["call"]
 EXAMPLES = ("fscm-bench list models", "fscm-bench list gates --format json")
 
 OPTIONS = (
-    option("what", choices=("models", "quantities", "cases", "gates"), help="what is listed"),
+    option("what", choices=("models", "quantities", "cases", "gates", "kinds"), help="what is listed"),
     option(
         "--format",
         choices=("text", "csv", "json"),
@@ -39,7 +40,8 @@ OPTIONS = (
 def call(args: argparse.Namespace) -> int:
     """Print the table; return the exit status."""
     exact = args.format != "text"
-    table = {"models": _models, "quantities": _quantities, "cases": _cases, "gates": _gates}[args.what](exact)
+    tables = {"models": _models, "quantities": _quantities, "cases": _cases, "gates": _gates, "kinds": _kinds}
+    table = tables[args.what](exact)
     if args.format == "json":
         # JSON has no infinity and no NaN: what is missing or has no limit is null.
         content = table.astype(object).where(table.notna() & ~table.isin([np.inf, -np.inf]), None)
@@ -80,6 +82,10 @@ def _cases(exact: bool) -> pd.DataFrame:
         | {"reference": grid.reference, "models": ", ".join(grid.models), "cases": len(grid.cases)}
         for grid in standing
     )
+
+
+def _kinds(exact: bool) -> pd.DataFrame:
+    return pd.DataFrame(kind_rows())
 
 
 def _gates(exact: bool) -> pd.DataFrame:

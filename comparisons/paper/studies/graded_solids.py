@@ -32,7 +32,7 @@ from comparisons.problem import Problem as AnyProblem
 from comparisons.problem import Section
 from comparisons.problem.elastic_energy import energy_spectrum
 from comparisons.problem.equivalent_solid import least_wrong, power_law_of
-from comparisons.problem.kinds import kind_of
+from comparisons.problem.kinds import KINDS
 from fscm import LennardJones, NoSuchEvent, NotConverged, PowerLaw, PowerPunch, Problem, solve_together
 
 __all__ = ["SERIES", "by_elements", "by_fscm", "case_of", "equivalent_of", "number_of", "of_power_law"]
@@ -170,7 +170,7 @@ def by_fscm(kind: str, parameter: float) -> Json:
     (1.42152, True)
     """
     section = case_of(kind, parameter).section
-    problem = Problem(kind_of("solid", section.kind).build(fscm, section), _PUNCH, _LAW)
+    problem = Problem(KINDS["solid"][section.kind].build(fscm, section), _PUNCH, _LAW)
     return _solved(problem.dimensionless)
 
 
@@ -216,7 +216,7 @@ def by_elements(event: str, kind: str, parameter: float) -> Json:
     """
     case, scales = case_of(kind, parameter), _scaled(0.0, 1.0)[1]
     problem = fem_reference.Problem(
-        kind_of("solid", case.section.kind).build(fem_reference, case.section),
+        KINDS["solid"][case.section.kind].build(fem_reference, case.section),
         fem_reference.PowerPunch(n=_N, Q=SCALES["Q"]),
         fem_reference.LennardJones(work_of_adhesion=SCALES["work_of_adhesion"], z0=SCALES["z0"]),
     )

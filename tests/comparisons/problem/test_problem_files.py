@@ -14,13 +14,10 @@ import fem_reference
 import fscm
 from comparisons.cli.main import main
 from comparisons.model import Result
-from comparisons.problem.evaluation import evaluated
-from comparisons.problem.kinds import kinds
 from comparisons.problem.punch_shapes import RoundedFlat, SmoothedProfile
 from comparisons.problem.reading import load_problem
-from comparisons.problem.schema import FILE, schema, schema_text
+from comparisons.problem.schema import schema
 from comparisons.quantities import QUANTITIES
-from comparisons.registry import create
 from comparisons.runs.tasks import evaluate
 from tests.fem_reference.solved_together import COARSEST, pull_off_on_the_coarsest_mesh
 
@@ -75,11 +72,6 @@ def written(tmp_path):
         return load_problem(tmp_path / "mine.toml")
 
     return write
-
-
-@pytest.mark.parametrize("section", SECTIONS)
-def test_every_kind_of_the_schema_is_tested(section):
-    assert list(SECTIONS[section]) == list(kinds(section))
 
 
 @pytest.mark.parametrize(("solid", "punch", "law"), [*product(*SECTIONS.values())])
@@ -232,13 +224,6 @@ def test_what_the_finite_elements_do_not_take_is_not_applicable(written, tmp_pat
     assert "nu = 0.5" in value.reason
 
 
-def test_a_curve_is_in_si(written):
-    found = written(solid="power-law", punch="sphere", law="lennard-jones-9-3")
-    points = evaluated(found, create("jkr"), "force_curve")
-    assert math.isclose(-min(points.y), 1.65 * math.pi * 1e-7 * 0.05, rel_tol=1e-3)
-    assert 1e-11 < max(points.x) < 1e-7
-
-
 def test_the_json_is_the_contract(capsys):
     file = EXAMPLES / "graded_pad.toml"
     command = ["solve", "--model", "jkr", "--quantity", "pull_off_force", "--problem", str(file)]
@@ -267,26 +252,6 @@ def test_the_csv_of_a_curve_names_the_units(capsys):
     header, first, *_ = capsys.readouterr().out.splitlines()
     assert header.startswith("model,displacement [m],load [N]")
     assert first.startswith("jkr,")
-
-
-def test_the_parameters_of_a_case_or_a_file_are_required(capsys):
-    assert main(["solve", "--model", "jkr", "--quantity", "pull_off_force", "--n", "2"]) == 2
-    error = capsys.readouterr().err
-    assert "required: --k, --mu" in error
-    assert "--problem FILE" in error
-
-
-def test_the_committed_schema_is_that_of_the_table():
-    assert FILE.read_text(encoding="utf-8") == schema_text()
-
-
-def test_the_page_names_every_kind_with_its_keys():
-    page = (EXAMPLES.parents[1] / "problem_files.md").read_text(encoding="utf-8")
-    for section in SECTIONS:
-        rows = page.partition(f"## [{section}]")[2].partition("\n## ")[0].splitlines()
-        for name, kind in kinds(section).items():
-            (row,) = [row for row in rows if row.startswith(f"| `{name}` |")]
-            assert [key for key in kind.by_name if f"`{key}`" not in row] == []
 
 
 def test_the_schema_takes_the_examples():

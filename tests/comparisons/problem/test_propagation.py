@@ -6,15 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from jsonschema import Draft202012Validator
 
 from comparisons import evaluate
 from comparisons.cli.main import main
 from comparisons.description.uncertainty import uncertainty
 from comparisons.problem.reading import load_problem
-from comparisons.problem.schema import schema
 from comparisons.problem.uncertain import is_uncertain, uncertain_in_si
-from comparisons.problem.units import NotAValue
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
 
@@ -94,40 +91,6 @@ def test_forms(text, value, size):
     assert math.isclose(found, value, rel_tol=1e-15)
     assert math.isclose(uncertainty.size, size, rel_tol=1e-12)
     assert uncertainty.is_interval == text.startswith("[")
-
-
-@pytest.mark.parametrize(
-    ("text", "sentence"),
-    [
-        ("2 GPa +- 0.1", "a standard deviation without a unit"),
-        ("2 +- 5 %", "has no unit"),
-        ("2 GPa +- 0 GPa", "not above 0"),
-        ("2 GPa +- -5 %", "not above 0"),
-        ("2 GPa +- 1 nm", "unit nm, which is not that of a modulus"),
-        ("[2.2, 1.8] GPa", "first end is not below the second"),
-        ("[1.8, 2.2]", "has no unit"),
-        ("[1.8] GPa", "no value +- standard deviation and no"),
-        ("2 +- 1 +- 1 GPa", "no value +- standard deviation and no"),
-        ("(2) GPa +- 1 GPa", "no number with a unit"),
-        ("2 GPa +- x", "no number with a unit"),
-    ],
-)
-def test_bad_forms(text, sentence):
-    with pytest.raises(NotAValue, match=sentence.replace("+", r"\+")):
-        uncertain_in_si(text, "Pa")
-
-
-def test_the_schema_takes_uncertain_numbers():
-    validator = Draft202012Validator(schema())
-    solid = {"kind": "power-law", "E0": "1 GPa +- 5 %", "c0": 1e-7, "k": "0.3 +- 0.02", "nu": "[0.2, 0.4]"}
-    document = {
-        "solid": solid,
-        "punch": {"kind": "sphere", "R": "[90, 110] nm"},
-        "law": {"kind": "lennard-jones-9-3", "work_of_adhesion": 0.05, "z0": 4e-10},
-    }
-    assert not list(validator.iter_errors(document))
-    solid["k"] = "0.3"
-    assert list(validator.iter_errors(document))
 
 
 def test_the_value_is_that_without_uncertainty(tmp_path):

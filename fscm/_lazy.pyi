@@ -1,11 +1,9 @@
-"""Public names, each from its module; `__init__.py` loads a module when one of its names is first used."""
+"""Public names besides solids, punches and laws; `__init__.py` loads a module when one of its names is first used."""
 
 from ._kernel import Phi as Phi, Psi as Psi, ring_response as ring_response
 from ._meshes import ACCURACIES as ACCURACIES
 from ._sensitivity import SENSITIVE as SENSITIVE, ValueSensitivity as ValueSensitivity, sensitivity as sensitivity
 from .analysis import EVENTS as EVENTS, Analysis as Analysis
-from .custom_punch import CustomPunch as CustomPunch
-from .custom_solid import CustomSolid as CustomSolid
 from .errors import (
     AccuracyWarning as AccuracyWarning,
     NoSuchEvent as NoSuchEvent,
@@ -18,27 +16,9 @@ from .experiment import (
     load_controlled_retreat as load_controlled_retreat,
 )
 from .interpolation.atlas import ATLAS_QUANTITIES as ATLAS_QUANTITIES, AtlasValue as AtlasValue, atlas as atlas
-from .laws import LennardJones as LennardJones, Mie as Mie, SurfaceLaw as SurfaceLaw
-from .layers import Layers as Layers
-from .measured_punch import MeasuredPunch as MeasuredPunch
 from .path import EquilibriumPath as EquilibriumPath, trace as trace
 from .problem import Problem as Problem
-from .punch import (
-    Ball as Ball,
-    PowerPunch as PowerPunch,
-    PowerSum as PowerSum,
-    PunchShape as PunchShape,
-    RoundedCone as RoundedCone,
-)
 from .solution import Solution as Solution
-from .solids import (
-    Coating as Coating,
-    Exponential as Exponential,
-    GradedHalfSpace as GradedHalfSpace,
-    Homogeneous as Homogeneous,
-    OffsetPowerLaw as OffsetPowerLaw,
-    PowerLaw as PowerLaw,
-)
 from .solver import QUANTITIES as QUANTITIES, solve as solve, solve_together as solve_together
 from .stability import Stability as Stability
 from .states import (
@@ -47,5 +27,3 @@ from .states import (
     equilibria as equilibria,
     profile as profile,
 )
-from .tabulated_law import TabulatedLaw as TabulatedLaw
-from .tabulated_modulus import TabulatedModulus as TabulatedModulus

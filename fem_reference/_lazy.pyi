@@ -1,0 +1,21 @@
+"""Public names besides solids, punches and laws; `__init__.py` loads a module when one of its names is first used."""
+
+from .accuracy import ACCURACIES as ACCURACIES
+from .errors import (
+    AccuracyWarning as AccuracyWarning,
+    NoSuchEvent as NoSuchEvent,
+    NotConverged as NotConverged,
+)
+from .modulus import Interface as Interface
+from .problem import Problem as Problem
+from .quantities import CRITICAL_MODULUS as CRITICAL_MODULUS, LOSSES as LOSSES, QUANTITIES as QUANTITIES
+from .result import Solution as Solution
+from .solution import solve as solve, solve_together as solve_together
+from .states import (
+    EVENTS as EVENTS,
+    EquilibriumPath as EquilibriumPath,
+    RadialField as RadialField,
+    event_state as event_state,
+    profile as profile,
+    trace as trace,
+)
