@@ -50,16 +50,11 @@ def completion_script(parser: argparse.ArgumentParser, shell: str) -> str:
 
 def _preamble() -> dict[str, str]:
     models, quantities = " ".join(MODELS), " ".join(ALL_QUANTITIES)
-    return {
-        "bash": (
-            f'{_MODELS}() {{ compgen -W "{models}" -- "$1"; compgen -f -- "$1"; }}\n'
-            f'{_QUANTITIES}() {{ compgen -W "{quantities}" -- "$1"; }}\n'
-        ),
-        "zsh": (
-            f"{_MODELS}() {{ _alternative 'models:model:({models})' 'files:file:_files' }}\n"
-            f"{_QUANTITIES}() {{ _values quantity {quantities} }}\n"
-        ),
-    }
+    bash = f'{_MODELS}() {{ compgen -W "{models}" -- "$1"; compgen -f -- "$1"; }}\n'
+    bash += f'{_QUANTITIES}() {{ compgen -W "{quantities}" -- "$1"; }}\n'
+    zsh = f"{_MODELS}() {{ _alternative 'models:model:({models})' 'files:file:_files' }}\n"
+    zsh += f"{_QUANTITIES}() {{ _values quantity {quantities} }}\n"
+    return {"bash": bash, "zsh": zsh}
 
 
 def _complete(parser: argparse.ArgumentParser) -> None:

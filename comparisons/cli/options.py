@@ -4,49 +4,38 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from comparisons.problem import PARAMETERS, Problem
 from comparisons.runs.workers import usable_cores
 
-__all__ = [
-    "CASE",
-    "CASE_OR_FILE",
-    "JOBS",
-    "MODEL_SPEC",
-    "OUT",
-    "QUIET",
-    "RETRY_FAILED",
-    "VERBOSE",
-    "Option",
-    "file",
-    "number",
-    "option",
-    "problem_of",
-    "several",
-]
-
-
-class Option(NamedTuple):
-    """An option of a command: the arguments of `argparse.ArgumentParser.add_argument`."""
-
-    names: tuple[str, ...]
-    settings: dict[str, Any]
+#: An option of a command: names and settings as of `argparse.ArgumentParser.add_argument`.
+Option = tuple[tuple[str, ...], dict[str, Any]]
 
 
 def option(*names: str, **settings: Any) -> Option:
     """Declare an option."""
-    return Option(names, settings)
+    return names, settings
 
 
 def file(*names: str, metavar: str = "FILE", **settings: Any) -> Option:
     """Declare an option that is a path; completion takes a metavar that starts with DIR for a folder."""
-    return Option(names, {"metavar": metavar, "type": Path, **settings})
+    return names, {"metavar": metavar, "type": Path, **settings}
 
 
 def several(*names: str, metavar: str, **settings: Any) -> Option:
     """Declare an option with one value or more, which may be repeated."""
-    return Option(names, {"metavar": metavar, "nargs": "+", "action": "extend", **settings})
+    return names, {"metavar": metavar, "nargs": "+", "action": "extend", **settings}
+
+
+def numbers(*names: str, **settings: Any) -> Option:
+    """Declare an option with one number or more."""
+    return names, {"metavar": "X", "type": number, "nargs": "+", **settings}
+
+
+def output_format(*names: str, help: str = "(default: text)") -> Option:
+    """Declare the option --format with text and other forms."""
+    return option("--format", choices=("text", *names), default="text", help=help)
 
 
 def number(text: str) -> float:
@@ -88,12 +77,9 @@ OUT = file("--out", metavar="DIR", help="folder for the results (default: result
 QUIET = option("--quiet", action="store_true", help="print nothing but warnings and failures")
 #: Prints all rows.
 VERBOSE = option("--verbose", action="store_true", help="print every row, not a summary")
+_AGAIN = "compute stored failures again (those of external models always are)"
 #: Computes stored failures again.
-RETRY_FAILED = option(
-    "--retry-failed",
-    action="store_true",
-    help="compute stored failures again (those of external models always are)",
-)
+RETRY_FAILED = option("--retry-failed", action="store_true", help=_AGAIN)
 
 
 def problem_of(args: argparse.Namespace) -> Problem:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from comparisons.console.exit_status import writing_stdout
 from comparisons.console.folding import hanging
 from comparisons.console.printable import printable
+from comparisons.console.progress import log
 from comparisons.console.safe_console import SafeConsole
+from comparisons.runs.atomic_files import atomic
 
-__all__ = ["output", "print_lines"]
+__all__ = ["output", "print_lines", "write_page"]
 
 #: Columns of a table when stdout is no terminal: the same text in every log and file.
 _WIDTH = 80
@@ -35,3 +38,10 @@ def print_lines(lines: Iterable[str]) -> None:
         width = output().width
         lines = [folded for line in lines for folded in hanging(line, width)]
     print(printable("\n".join(lines)))
+
+
+def write_page(text: str, path: Path, name: str) -> None:
+    """Write a page and say where it is."""
+    with atomic(path) as page:
+        page.write(text.encode())
+    log(f"the {name} is {path}")

@@ -45,8 +45,8 @@ def column(table: str, name: str) -> Column | None:
     """
     by_file = _tables().get(table)
     layers = [by_file["table"][table].get("column", {}), by_file.get("column", {})] if by_file else []
-    found = next((layer[name] for layer in [*layers, _contents()[0]["column"]] if name in layer), None)
-    return Column(**found) if found else _varied(name)
+    described = next((layer[name] for layer in [*layers, _contents()[0]["column"]] if name in layer), None)
+    return Column(**described) if described else _varied(name)
 
 
 def _varied(name: str) -> Column | None:
@@ -66,8 +66,8 @@ def title(table: str) -> str | None:
     >>> title("results")
     'One row for each model, quantity and case'
     """
-    found = _tables().get(table)
-    return str(found["table"][table]["title"]) if found else None
+    content = _tables().get(table)
+    return str(content["table"][table]["title"]) if content else None
 
 
 @lru_cache(maxsize=1)

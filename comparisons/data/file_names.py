@@ -4,40 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-__all__ = [
-    "AGREEMENT",
-    "BASELINE_FOLDER",
-    "BENCH",
-    "BENCH_SUMMARY",
-    "COMPARISON",
-    "COMPARISON_FILES",
-    "CURVES",
-    "DATA_PACKAGE",
-    "FIGURES",
-    "GATES",
-    "GATES_TEXT",
-    "GRID_TEXT",
-    "INPUTS",
-    "JUNIT",
-    "KAPPA",
-    "KAPPA_FIGURE",
-    "LARGEST_KAPPA",
-    "RECORD",
-    "REFERENCES",
-    "REPORT",
-    "RESULTS",
-    "RUN_FILES",
-    "STORE",
-    "SUMMARY",
-    "TABLES",
-    "VERDICTS",
-    "VERDICTS_LATEX",
-    "VERDICTS_MARKDOWN",
-    "VERDICT_FILES",
-    "VERDICT_TABLES",
-    "is_of_verdicts",
-]
-
 #: Type, unit and meaning of every column of the tables of a folder.
 DATA_PACKAGE = "datapackage.json"
 

@@ -67,7 +67,7 @@ def read_statements(text: str, source: str = _FILE) -> list[PaperStatement]:
     Raises
     ------
     ValueError
-        If a key or value is not admissible, or two statements have one id; the sentence names it.
+        If a key or value is not admissible; the sentence names it.
 
     Examples
     --------
@@ -77,12 +77,7 @@ def read_statements(text: str, source: str = _FILE) -> list[PaperStatement]:
     """
     document = parse(text, source)
     validated(document, "paper_statements", source)
-    statements = [PaperStatement(**{**table, "own": _own(table)}) for table in document["statement"]]
-    ids = [statement.id for statement in statements]
-    for id in ids:
-        if ids.count(id) > 1:
-            raise ValueError(f"{source}: two statements have the id {id!r}; an id must be unique")
-    return statements
+    return [PaperStatement(**{**table, "own": _own(table)}) for table in document["statement"]]
 
 
 def _own(table: Mapping[str, Any]) -> dict[str, tuple[float, ...]]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import tomllib
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from decimal import Decimal
 from importlib.resources import files
 
@@ -55,20 +55,6 @@ class PaperValue:
     index: int = 0
     exact: float | None = None
 
-    def __eq__(self, other: object) -> bool:
-        """Whether all is equal; no case equals no case.
-
-        From Python 3.13 on a dataclass with a NaN is not equal to itself.
-        """
-        return isinstance(other, PaperValue) and self._compared == other._compared
-
-    def __hash__(self) -> int:
-        return hash(self._compared)
-
-    @property
-    def _compared(self) -> tuple[object, ...]:
-        return tuple(None if part != part else part for part in astuple(self))
-
     @property
     def value(self) -> float:
         """The number itself, in its unit."""
@@ -100,10 +86,10 @@ class PaperValue:
             return "agrees" if abs(computed - self.exact) <= u + _ROUNDING * abs(self.exact) else "differs"
         low, high = Decimal(computed) - Decimal(u), Decimal(computed) + Decimal(u)
         stated = Decimal(self.text)
-        found = {_of_digits(value, stated) for value in (low, high)}
+        verdicts = {_of_digits(value, stated) for value in (low, high)}
         if low <= stated <= high:
-            found.add("agrees")
-        return found.pop() if len(found) == 1 else "undecided"
+            verdicts.add("agrees")
+        return verdicts.pop() if len(verdicts) == 1 else "undecided"
 
 
 def _of_digits(value: Decimal, stated: Decimal) -> str:

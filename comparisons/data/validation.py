@@ -132,7 +132,7 @@ def _unknown_keys(error: ValidationError) -> list[str]:
     return [key for key in error.instance if key not in error.schema["properties"]] if unknown else []
 
 
-def _sentence(error: ValidationError, document: dict[str, Any], schema: Mapping[str, Any]) -> str:
+def _sentence(error: ValidationError, document: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
     path = list(error.absolute_path)
     where = ""
     if len(path) > 1 and isinstance(path[1], int) and isinstance(document[path[0]][path[1]], Mapping):
@@ -170,15 +170,15 @@ def _sentence(error: ValidationError, document: dict[str, Any], schema: Mapping[
 
 def _described(schema: Mapping[str, Any], path: Iterable[str | int]) -> tuple[int, str]:
     """Return the length of the longest part of a path whose schema has a description, and this description."""
-    found, part_of = (0, "otherwise"), schema
+    deepest, form = (0, "otherwise"), schema
     for depth, part in enumerate(path, start=1):
-        inner = part_of["items"] if isinstance(part, int) else part_of.get("properties", {}).get(part)
-        part_of = part_of.get("additionalProperties", {}) if inner is None else inner
-        if "$ref" in part_of:
-            part_of = schema["$defs"][part_of["$ref"].rpartition("/")[2]] | {**part_of}
-        if "description" in part_of:
-            found = depth, part_of["description"]
-    return found
+        inner = form["items"] if isinstance(part, int) else form.get("properties", {}).get(part)
+        form = form.get("additionalProperties", {}) if inner is None else inner
+        if "$ref" in form:
+            form = schema["$defs"][form["$ref"].rpartition("/")[2]] | {**form}
+        if "description" in form:
+            deepest = depth, form["description"]
+    return deepest
 
 
 def _nearest(name: str, known: Iterable[str]) -> str:

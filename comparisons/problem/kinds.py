@@ -291,8 +291,9 @@ def limits_of(form: Form) -> tuple[float, float]:
     >>> limits_of(MODULUS), limits_of(RATIO)
     ((0, inf), (0, 0.5))
     """
-    low = form.get("minimum", form.get("exclusiveMinimum", -math.inf))
-    return low, form.get("maximum", form.get("exclusiveMaximum", math.inf))
+    low: float = form.get("minimum", form.get("exclusiveMinimum", -math.inf))
+    high: float = form.get("maximum", form.get("exclusiveMaximum", math.inf))
+    return low, high
 
 
 def kind_rows() -> Iterator[dict[str, str]]:

@@ -55,21 +55,31 @@ class Variation:
     text: str
 
     @classmethod
-    def of_values(cls, name: str, values: Sequence[float | str]) -> Variation:
+    def of_values(cls, name: str, values: Sequence[float | str], text: str = "") -> Variation:
         """Return the variation of a key, as "solid.thickness", to values as in a problem file.
+
+        Parameters
+        ----------
+        name : str
+        values : sequence of float or str
+        text : str
+            As it was written, for the sentences; by default the name.
 
         Raises
         ------
         ValueError
             One sentence.
         """
-        section, dot, key = name.partition(".")
-        if not (dot and key):
-            raise ValueError(f'vary has the key {shown(name)}; write SECTION.KEY, as "solid.thickness"')
-        _check_key(section, key, f"vary {shown(name)}")
-        if len(set(map(str, values))) < len(values):
-            raise ValueError(f"vary {shown(name)} has one value twice; give each value once")
-        return cls(section, key, tuple(values), name)
+        section, _, key = (part.strip() for part in name.partition("."))
+        where = f"--vary {shown(text)}" if text else f"vary {shown(name)}"
+        if not key:
+            raise ValueError(f'{where} names no key; write SECTION.KEY, as "solid.thickness"')
+        known_name("section", section, SECTIONS, where)
+        if key == "kind":
+            raise ValueError(f"{where}: a kind is not varied, since its keys differ; write one file for each")
+        if "" in values or len(set(map(str, values))) < len(values):
+            raise ValueError(f"{where} has an empty value or one value twice; give each value once")
+        return cls(section, key, tuple(values), text or name)
 
     @property
     def name(self) -> str:
@@ -95,31 +105,21 @@ def parse_variation(text: str) -> Variation:
     >>> parse_variation("law.work_of_adhesion=20:100:5 mJ/m^2").values[:2]
     ('20 mJ/m^2', '40 mJ/m^2')
     """
-    name, equals, listed = text.partition("=")
-    section, dot, key = (part.strip() for part in name.partition("."))
-    if not (equals and dot and key and listed.strip()):
+    name, _, listed = text.partition("=")
+    if not listed.strip():
         raise ValueError(f"--vary {shown(text)} names no key with values; {_FORM}")
-    _check_key(section, key, f"--vary {shown(text)}")
     if match := _RANGE.fullmatch(listed):
         count = int(match[3])
         if not 2 <= count <= _MOST:
             raise ValueError(f"--vary {shown(text)}: {count} values are outside 2 to {_MOST}; a range has both ends")
         # Twelve digits: 20:100:5 is 20, 40, 60 and not 60.000000000000007.
-        numbers = [f"{value:.12g}" for value in np.linspace(float(match[1]), float(match[2]), count)]
-        values = [_value(number, match[4]) for number in numbers]
+        texts = [f"{value:.12g}" for value in np.linspace(float(match[1]), float(match[2]), count)]
+        unit = match[4]
     else:
-        parts = [part.strip() for part in listed.split(",")]
-        last = _UNIT.fullmatch(parts[-1])
-        values = [_value(part, last[1] if last else "") for part in parts]
-    if "" in values or len(set(values)) < len(values):
-        raise ValueError(f"--vary {shown(text)} has an empty value or one value twice; give each value once")
-    return Variation(section, key, tuple(values), text)
-
-
-def _check_key(section: str, key: str, where: str) -> None:
-    known_name("section", section, SECTIONS, where)
-    if key == "kind":
-        raise ValueError(f"{where}: a kind is not varied, since its keys differ; write one file for each")
+        texts = [part.strip() for part in listed.split(",")]
+        last = _UNIT.fullmatch(texts[-1])
+        unit = last[1] if last else ""
+    return Variation.of_values(name, [_value(value, unit) for value in texts], text)
 
 
 def _value(part: str, unit: str) -> float | str:
@@ -130,21 +130,19 @@ def _value(part: str, unit: str) -> float | str:
 
 def parse_variations(texts: Sequence[str]) -> list[Variation]:
     """Read several variations, as `parse_variation`; `ValueError` if one key is there twice."""
-    chosen = [parse_variation(text) for text in texts]
-    names = [variation.name for variation in chosen]
-    twice = [name for name in names if names.count(name) > 1]
-    if twice:
-        raise ValueError(f"--vary {twice[0]} is there twice; give all values of a key in one --vary")
-    return chosen
+    variations = {variation.name: variation for variation in map(parse_variation, texts)}
+    if len(variations) < len(texts):
+        raise ValueError(f"--vary {', '.join(variations)}: a key is there twice; give all its values in one --vary")
+    return list(variations.values())
 
 
-def problems_of(path: Path, chosen: Sequence[Variation], name: str = "") -> Iterator[Problem]:
+def problems_of(path: Path, variations: Sequence[Variation], name: str = "") -> Iterator[Problem]:
     """Yield the problem of a file for every combination of values.
 
     Parameters
     ----------
     path : Path
-    chosen : sequence of Variation
+    variations : sequence of Variation
     name : str
         Of the file, for the names of the problems; by default that of the path.
 
@@ -153,20 +151,20 @@ def problems_of(path: Path, chosen: Sequence[Variation], name: str = "") -> Iter
     ValueError
         One sentence, if the file or one of the problems is not admissible, or there are too many.
     """
-    if (count := prod(len(variation.values) for variation in chosen)) > _MOST:
+    if (count := prod(len(variation.values) for variation in variations)) > _MOST:
         raise ValueError(f"the values have {count} combinations, more than {_MOST}; give fewer values")
     document, source = document_of(path)
     problem_of(document, source)
-    for values in product(*(variation.values for variation in chosen)):
+    for values in product(*(variation.values for variation in variations)):
         changed = deepcopy(document)
-        for variation, value in zip(chosen, values, strict=True):
+        for variation, value in zip(variations, values, strict=True):
             _change(changed[variation.section], variation, value)
-        texts = tuple(f"{each.name}={value}" for each, value in zip(chosen, values, strict=True))
+        texts = tuple(f"{each.name}={value}" for each, value in zip(variations, values, strict=True))
         try:
             problem = problem_of(changed, source)
         except ValueError as error:
             raise ValueError(f"{', '.join(texts)}: {error}" if texts else str(error)) from None
-        parameters = {_column(problem, each): problem[each.name] for each in chosen}
+        parameters = {_column(problem, each): problem[each.name] for each in variations}
         yield problem.varied(name or path.name, texts, parameters)
 
 

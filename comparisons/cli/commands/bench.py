@@ -12,16 +12,12 @@ from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note
 
-__all__ = ["call"]
-
 EXAMPLES = ("fscm-bench bench --only work-precision",)
 
+_PARTS = "; ".join(f"{part.name}, {part.title}" for part in PARTS.values())
+
 OPTIONS = (
-    several(
-        "--only",
-        metavar="PART",
-        help="only these parts (default: all): " + "; ".join(f"{part.name}, {part.title}" for part in PARTS.values()),
-    ),
+    several("--only", metavar="PART", help=f"only these parts (default: all): {_PARTS}"),
     option("--full", action="store_true", help="measure the largest sizes, too (half an hour)"),
     file(
         "--out",

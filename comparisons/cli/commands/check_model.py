@@ -13,17 +13,11 @@ from comparisons.external.evaluations import SKIPPED
 from comparisons.external.model_source import load_model
 from comparisons.registry import MODELS
 
-__all__ = ["call"]
-
 EXAMPLES = ("fscm-bench check-model my_model.py:MyModel",)
 
-OPTIONS = (
-    option(
-        "spec",
-        metavar="SPEC",
-        help="name of an installed model, FILE.py:CLASS, ./PROGRAM, or a folder with a model.toml",
-    ),
-)
+_SPEC = "name of an installed model, FILE.py:CLASS, ./PROGRAM, or a folder with a model.toml"
+
+OPTIONS = (option("spec", metavar="SPEC", help=_SPEC),)
 
 #: Columns of the status, the longest of which is "not checked".
 _STATUS = len(SKIPPED)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from comparisons.cli.options import file, option
+from comparisons.cli.options import file, output_format
 from comparisons.console.exit_status import OK
 from comparisons.console.printable import printable
 from comparisons.data.file_names import KAPPA, RECORD
@@ -15,22 +15,14 @@ from comparisons.output.citation import as_bibtex, as_text, methods, works
 from comparisons.runs.environment import version_text
 from comparisons.runs.record import check_files, read_record
 
-__all__ = ["call"]
-
 EXAMPLES = ("fscm-bench cite", "fscm-bench cite --format bibtex results/runs/TIME")
 
+_FOLDER = "folder of a finished run, sweep or comparison: the versions and models that it used, too"
+
 OPTIONS = (
-    file(
-        "folder",
-        metavar="DIR",
-        nargs="?",
-        help="folder of a finished run, sweep or comparison: the versions and models that it used, too",
-    ),
-    option(
-        "--format",
-        choices=("text", "bibtex"),
-        default="text",
-        help="text has a paragraph for the section Methods and the list of references (default: text)",
+    file("folder", metavar="DIR", nargs="?", help=_FOLDER),
+    output_format(
+        "bibtex", help="text has a paragraph for the section Methods and the list of references (default: text)"
     ),
 )
 

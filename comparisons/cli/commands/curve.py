@@ -21,23 +21,16 @@ from comparisons.registry import create, identify
 from comparisons.runs.atomic_files import atomic, writable_file
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["call"]
-
 EXAMPLES = (
     "fscm-bench curve --model fscm jkr --n 2 --k 0.4 --mu 3 --plot curve.png --csv curve.csv",
     "fscm-bench curve --model fscm fem --problem pad.toml --plot pad.png",
 )
 
+_QUANTITY = f"what to draw: {', '.join(CURVES)} (default: force_curve)"
 
 OPTIONS = (
     several("--model", metavar="SPEC", required=True, help=MODEL_SPEC),
-    option(
-        "--quantity",
-        metavar="NAME",
-        choices=tuple(CURVES),
-        default="force_curve",
-        help=f"what to draw: {', '.join(CURVES)} (default: force_curve)",
-    ),
+    option("--quantity", metavar="NAME", choices=tuple(CURVES), default="force_curve", help=_QUANTITY),
     *CASE_OR_FILE,
     file("--csv", help="write the points here; by default, and with -, to stdout"),
     file("--plot", help="draw the curves here (.png, .pdf or .svg)"),
@@ -52,10 +45,8 @@ def call(args: argparse.Namespace) -> int:
     models = {name: create(external[name].spec if name in external else name, problem.nu) for name in names}
     to_stdout = args.csv == Path("-") or not (args.csv or args.plot)
     file_of_points = None if to_stdout else args.csv
-    if file_of_points:
-        writable_file(file_of_points)
-    if args.plot:
-        writable_file(picture_path(args.plot))
+    for path in filter(None, (file_of_points, args.plot and picture_path(args.plot))):
+        writable_file(path)
     if file_of_points and args.plot and file_of_points.resolve() == args.plot.resolve():
         raise ValueError(f"--csv and --plot are both {args.plot}: one would replace the other; give two files")
     points_of_models, status = _evaluated(models, args.quantity, problem)

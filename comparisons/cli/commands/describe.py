@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 
-from comparisons.cli.options import file, option
+from comparisons.cli.options import file, option, output_format
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
@@ -16,19 +16,15 @@ from comparisons.description.profile_sensitivity import profile_sensitivity
 from comparisons.description.uncertainty import uncertainty
 from comparisons.problem import Problem
 
-__all__ = ["call"]
-
 EXAMPLES = ("fscm-bench describe pad.toml", "fscm-bench describe pad.toml --uncertain")
+
+_UNCERTAIN = "what the standard deviations and intervals of the file mean for the pull-off force"
 
 OPTIONS = (
     file("file", help="a problem file, see docs/problem_files.md"),
-    option(
-        "--uncertain",
-        action="store_true",
-        help="what the standard deviations and intervals of the file mean for the pull-off force",
-    ),
+    option("--uncertain", action="store_true", help=_UNCERTAIN),
     option("--quantity", metavar="NAME", help="another value at an event, with --uncertain"),
-    option("--format", choices=("text", "json"), default="text", help="(default: %(default)s)"),
+    output_format("json"),
 )
 
 

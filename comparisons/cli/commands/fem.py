@@ -20,23 +20,17 @@ from comparisons.runs.atomic_files import writable_file, writing
 from fem_reference import export
 from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, solver_table
 
-__all__ = ["call"]
-
 EXAMPLES = (
     "fscm-bench fem --n 2 --k 0.4 --mu 1 --vtu body.vtu --plot body.png",
     "fscm-bench fem --verify",
 )
 
+_EVENT = f"the event whose state is shown: {', '.join(fem_reference.EVENTS)} (default: %(default)s)"
+
 OPTIONS = (
     *CASE,
     option("--nu", type=number, default=0.3, help="Poisson's ratio, in [0, 0.5) (default: %(default)s)"),
-    option(
-        "--event",
-        default="pull_off",
-        metavar="EVENT",
-        choices=fem_reference.EVENTS,
-        help=f"the event whose state is shown: {', '.join(fem_reference.EVENTS)} (default: %(default)s)",
-    ),
+    option("--event", default="pull_off", metavar="EVENT", choices=fem_reference.EVENTS, help=_EVENT),
     file("--vtu", help="write mesh, displacement and stresses here"),
     file("--plot", help="draw the deformed body here"),
     option("--verify", action="store_true", help="print the checks against exact solutions"),

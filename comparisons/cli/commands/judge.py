@@ -11,8 +11,6 @@ from comparisons.console.progress import note
 from comparisons.output.markdown import to_step_summary
 from comparisons.pipeline.judgement import judge_folder
 
-__all__ = ["call"]
-
 EXAMPLES = ("fscm-bench judge results/mine --verbose",)
 
 OPTIONS = (

@@ -5,12 +5,10 @@ from __future__ import annotations
 import argparse
 
 from comparisons.cli.options import file, option
+from comparisons.cli.screen import write_page
 from comparisons.console.exit_status import OK
-from comparisons.console.progress import log
 from comparisons.pipeline.leaderboard import leaderboard
-from comparisons.runs.atomic_files import atomic, writable_file
-
-__all__ = ["call"]
+from comparisons.runs.atomic_files import writable_file
 
 EXAMPLES = ("fscm-bench leaderboard results/mine results/other --out leaderboard.html",)
 
@@ -26,8 +24,5 @@ def call(args: argparse.Namespace) -> int:
     path = writable_file(args.out)
     if path.suffix.lower() not in (".html", ".htm"):
         raise ValueError(f"--out {path} must end in .html: the leaderboard is a page for a browser")
-    text = leaderboard(args.folders, args.mixed)
-    with atomic(path) as page:
-        page.write(text.encode())
-    log(f"the leaderboard is {path}")
+    write_page(leaderboard(args.folders, args.mixed), path, "leaderboard")
     return OK

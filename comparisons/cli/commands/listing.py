@@ -1,4 +1,4 @@
-"""``fscm-bench list``: the models, quantities, cases or gates, as text, CSV or JSON."""
+"""``fscm-bench list``: the models, quantities, cases, gates or kinds, as text, CSV or JSON."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import json
 import numpy as np
 import pandas as pd
 
-from comparisons.cli.options import option
+from comparisons.cli.options import option, output_format
 from comparisons.cli.screen import output
 from comparisons.console.exit_status import OK
 from comparisons.external.model_source import installed
@@ -22,26 +22,18 @@ from comparisons.registry import MODELS, create
 from comparisons.runs.cases import TIERS, grids
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["call"]
-
 EXAMPLES = ("fscm-bench list models", "fscm-bench list gates --format json")
 
 OPTIONS = (
     option("what", choices=("models", "quantities", "cases", "gates", "kinds"), help="what is listed"),
-    option(
-        "--format",
-        choices=("text", "csv", "json"),
-        default="text",
-        help="csv and json have every digit, and one row for each case of a grid (default: text)",
-    ),
+    output_format("csv", "json", help="csv and json have every digit, one row for each case of a grid (default: text)"),
 )
 
 
 def call(args: argparse.Namespace) -> int:
     """Print the table; return the exit status."""
     exact = args.format != "text"
-    tables = {"models": _models, "quantities": _quantities, "cases": _cases, "gates": _gates, "kinds": _kinds}
-    table = tables[args.what](exact)
+    table = _TABLES[args.what](exact)
     if args.format == "json":
         # JSON has no infinity and no NaN: what is missing or has no limit is null.
         content = table.astype(object).where(table.notna() & ~table.isin([np.inf, -np.inf]), None)
@@ -98,3 +90,6 @@ def _gates(exact: bool) -> pd.DataFrame:
         | ({"lower": float(gate.lower), "upper": float(gate.upper)} if exact else {})
         for gate in load_gates(gates_text())
     )
+
+
+_TABLES = {"models": _models, "quantities": _quantities, "cases": _cases, "gates": _gates, "kinds": _kinds}

@@ -8,8 +8,6 @@ from comparisons.cli.commands.sweep import show
 from comparisons.cli.options import QUIET, file
 from comparisons.pipeline.merge import merge
 
-__all__ = ["call"]
-
 EXAMPLES = ("fscm-bench merge results/shard1 results/shard2 --out results/sweep",)
 
 OPTIONS = (

@@ -11,8 +11,6 @@ from comparisons.console.progress import log
 from comparisons.external.template import write_template
 from comparisons.registry import MODELS
 
-__all__ = ["call"]
-
 EXAMPLES = ("fscm-bench new-model my-model",)
 
 OPTIONS = (file("folder", metavar="DIR", help="new folder; the model gets its name, e.g. my-model"),)

@@ -13,8 +13,6 @@ from comparisons.console.progress import log
 from comparisons.paper.registry import NAMES
 from comparisons.pipeline.figures import make_figures
 
-__all__ = ["call"]
-
 EXAMPLES = ("fscm-bench paper --figure 16 --out results/paper",)
 
 OPTIONS = (

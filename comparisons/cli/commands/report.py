@@ -6,16 +6,14 @@ import argparse
 from pathlib import Path
 
 from comparisons.cli.options import file
+from comparisons.cli.screen import write_page
 from comparisons.console.exit_status import OK
-from comparisons.console.progress import log
 from comparisons.data.file_names import RECORD, REPORT, RUN_FILES, STORE
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
-from comparisons.runs.atomic_files import atomic, writable_file
+from comparisons.runs.atomic_files import writable_file
 from comparisons.runs.record import read_record
-
-__all__ = ["call"]
 
 EXAMPLES = ("fscm-bench report results/mine --out report.html",)
 
@@ -29,10 +27,7 @@ def call(args: argparse.Namespace) -> int:
     """Read, lay out and write; return the exit status."""
     page = make_page(read_folder(args.folder))
     path = _page_path(args.folder, args.out)
-    text = render(page)
-    with atomic(path) as written:
-        written.write(text.encode())
-    log(f"the report is {path}")
+    write_page(render(page), path, "report")
     return OK
 
 

@@ -6,24 +6,16 @@ import argparse
 from shlex import quote
 
 from comparisons.cli.options import JOBS, OUT, QUIET, RETRY_FAILED, VERBOSE, file, option, several
+from comparisons.cli.run_screen import print_end
 from comparisons.cli.screen import output, print_lines
 from comparisons.cli.verdict_screen import STATUS, print_verdicts
 from comparisons.console.exit_status import FAILED
-from comparisons.console.progress import log, note
+from comparisons.console.progress import note
+from comparisons.output import run_summary
 from comparisons.output.markdown import to_step_summary
-from comparisons.output.run_summary import (
-    computations_sentence,
-    every_error,
-    failure_lines,
-    largest_errors,
-    largest_table,
-    paper_sentence,
-)
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
 from comparisons.runs.cases import TIERS
-
-__all__ = ["call"]
 
 EXAMPLES = (
     "fscm-bench run",
@@ -31,18 +23,14 @@ EXAMPLES = (
     "fscm-bench run --cases pads.toml --gates pad_gates.toml --out results/pads",
 )
 
+_FRESH = "judge each model of --model in N fresh cases of its own domain, too"
+
 OPTIONS = (
     option("--tier", choices=TIERS, help=f"how much to compute (default: {TIERS[0]})"),
     file("--cases", help="in place of the standing cases: [[grid]] tables as of a sweep, judged by --gates"),
     several("--model", metavar="SPEC", help="compare these models instead of those each grid names"),
     file("--gates", help="judge by these gates instead of the standing ones"),
-    option(
-        "--random",
-        metavar="N",
-        type=int,
-        default=0,
-        help="judge each model of --model in N fresh cases of its own domain, too",
-    ),
+    option("--random", metavar="N", type=int, default=0, help=_FRESH),
     option("--seed", metavar="S", type=int, help="seed of the fresh cases (default: a new one)"),
     JOBS,
     OUT,
@@ -57,9 +45,7 @@ def call(args: argparse.Namespace) -> int:
     if args.cases is not None and args.gates is None:
         raise ValueError("--cases FILE needs --gates FILE; fscm-bench sweep FILE computes cases without gates")
     if args.cases is not None and args.tier is not None:
-        raise ValueError(
-            f"--tier {args.tier} is of the standing cases, and --cases FILE states others; give one of them"
-        )
+        raise ValueError(f"--tier {args.tier} is of the standing cases; give it, or --cases FILE")
     to_step_summary("")
     finished = run(
         args.cases or args.tier or TIERS[0],
@@ -77,28 +63,26 @@ def call(args: argparse.Namespace) -> int:
         _print_errors(finished, verbose=args.verbose, with_paper=args.gates is None)
     if judgement is not None:
         print_verdicts(judgement, verbose=args.verbose, quiet=args.quiet)
-    for line in failure_lines(finished.failures):
-        log(line)
-    note(f"results are in {finished.folder}")
+    status = print_end(finished)
     if judgement is None:
         return FAILED
     if not judgement.verdicts.empty:
         note(f"next: fscm-bench report {quote(str(finished.folder))}")
     # Last: a disk that is full here loses nothing.
     to_step_summary(judgement.markdown)
-    return FAILED if finished.failures else STATUS[judgement.verdict]
+    return status or STATUS[judgement.verdict]
 
 
 def _print_errors(finished: FinishedRun, *, verbose: bool, with_paper: bool) -> None:
     """Print the largest errors, or the error of every case."""
     tables, console = finished.tables, output()
     if verbose:
-        for table in every_error(tables.results, tables.kappa, tables.largest):
+        for table in run_summary.every_error(tables.results, tables.kappa, tables.largest):
             console.print(table)
         return
-    if (largest := largest_table(tables.largest)) is not None:
+    if (largest := run_summary.largest_table(tables.largest)) is not None:
         console.print(largest)
     if "problem" in tables.kappa:
-        console.print(largest_errors(tables.kappa[tables.kappa["problem"].fillna("") != ""]))
-    sentences = [computations_sentence(finished.counts), paper_sentence(tables.largest) if with_paper else ""]
-    print_lines(filter(None, sentences))
+        console.print(run_summary.largest_errors(tables.kappa[tables.kappa["problem"].fillna("") != ""]))
+    of_paper = run_summary.paper_sentence(tables.largest) if with_paper else ""
+    print_lines(filter(None, [run_summary.computations_sentence(finished.counts), of_paper]))

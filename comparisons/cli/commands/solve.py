@@ -6,7 +6,7 @@ import argparse
 import json
 from typing import Any
 
-from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, option, problem_of
+from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, option, output_format, problem_of
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
@@ -17,25 +17,17 @@ from comparisons.quantities import QUANTITIES
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["call"]
-
 EXAMPLES = (
     "fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1",
     "fscm-bench solve --model jkr --quantity jump_out_gap --n 2 --k 0 --mu 2 --format json",
     "fscm-bench solve --model fscm --quantity pull_off_force --problem pad.toml",
 )
 
-
 OPTIONS = (
     option("--model", metavar="SPEC", required=True, help=MODEL_SPEC),
     option("--quantity", metavar="NAME", required=True, help="see: fscm-bench list quantities"),
     *CASE_OR_FILE,
-    option(
-        "--format",
-        choices=("text", "json", "csv"),
-        default="text",
-        help="json and csv have every digit (default: %(default)s)",
-    ),
+    output_format("json", "csv", help="json and csv have every digit (default: text)"),
 )
 
 

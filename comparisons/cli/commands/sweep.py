@@ -5,17 +5,14 @@ from __future__ import annotations
 import argparse
 
 from comparisons.cli.options import JOBS, OUT, QUIET, RETRY_FAILED, file, option, several
+from comparisons.cli.run_screen import print_end
 from comparisons.cli.screen import output
-from comparisons.console.exit_status import FAILED, OK
-from comparisons.console.progress import log, note
-from comparisons.output.run_summary import failure_lines, summary_tables, values_of_problems
+from comparisons.output.run_summary import summary_tables, values_of_problems
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.pipeline.run import run
 from comparisons.registry import identify
 from comparisons.runs.workers import BACKENDS
-
-__all__ = ["call", "show"]
 
 EXAMPLES = (
     "fscm-bench sweep my_cases.toml --model jkr md-improved --out results/sweep",
@@ -39,9 +36,7 @@ OPTIONS = (
     ),
     JOBS,
     option("--backend", choices=BACKENDS, default=BACKENDS[0], help="where it is computed (default: %(default)s)"),
-    option(
-        "--scheduler", metavar="ADDRESS", help="scheduler of a Dask cluster (default: one is started on this machine)"
-    ),
+    option("--scheduler", metavar="ADDRESS", help="scheduler of a Dask cluster (default: one started on this machine)"),
     option("--shard", metavar="i/N", help="compute the i-th of N parts, to be put together by fscm-bench merge"),
     OUT,
     RETRY_FAILED,
@@ -89,11 +84,7 @@ def show(finished: FinishedRun, *, with_summary: bool) -> int:
     """Print the summary of a sweep and its failures; return the exit status."""
     if with_summary:
         console, tables = output(), finished.tables
-        for table in values_of_problems(tables.results):
+        values = values_of_problems(tables.results)
+        for table in [*values, *summary_tables(tables.results, tables.curves, tables.kappa)]:
             console.print(table)
-        for table in summary_tables(tables.results, tables.curves, tables.kappa):
-            console.print(table)
-    for line in failure_lines(finished.failures):
-        log(line)
-    note(f"results are in {finished.folder}")
-    return FAILED if finished.failures else OK
+    return print_end(finished)

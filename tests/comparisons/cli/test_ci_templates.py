@@ -10,43 +10,12 @@ from pathlib import Path
 import pytest
 import yaml
 
-from comparisons.cli.main import main
+from comparisons.cli.main import _parser, main
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT
 
 ROOT = Path(__file__).resolve().parents[3]
 ACTION = ROOT / ".github" / "actions" / "fscm-bench" / "action.yml"
 GITLAB = ROOT / "docs" / "ci" / "gitlab.yml"
-
-MODEL = """
-from comparisons import NotApplicable, Result
-
-
-class Mine:
-    name, version, citation, domain = "mine", "1", "none", "n = 2"
-
-    def evaluate(self, problem, quantity):
-        if quantity != "pull_off_force" or problem.n != 2:
-            raise NotApplicable("it is for the pull-off force at n = 2")
-        return Result((3 + problem.k) / 2, u_num=1e-15)
-"""
-
-GATES = """
-[[gate]]
-id = "STIFF"
-requirement = "The pull-off force at mu = 3 and 5 is within 5 %."
-quantity = "pull_off_force"
-candidate = "mine"
-reference = "fscm"
-cases = { n = [2, 2], k = [0.4, 0.4], mu = [3, 5] }
-metric = "rel"
-lower = -0.05
-upper = 0.05
-max_reference_uncertainty = 1e-4
-basis = "derived"
-grounds = "a test"
-min_cases = 2
-tier = "quick"
-"""
 
 
 @pytest.fixture(scope="module")
@@ -89,16 +58,6 @@ def examples():
     return of_github[0], of_gitlab[0]
 
 
-def test_the_examples_of_the_page_use_what_there_is(examples, action, job):
-    """The next test has the whole of their keys."""
-    of_github, of_gitlab = map(yaml.safe_load, examples)
-    *_, judge = of_github["jobs"]["judge"]["steps"]
-    required = {name for name, value in action["inputs"].items() if value.get("required")}
-    assert required <= judge["with"].keys() <= action["inputs"].keys()
-    assert of_gitlab["judge"]["extends"] == ".fscm-bench"
-    assert of_gitlab["judge"]["variables"].keys() <= job["variables"].keys()
-
-
 def step(action, name):
     (match,) = [ci_step for ci_step in action["runs"]["steps"] if ci_step["name"] == name]
     return match
@@ -135,30 +94,6 @@ def defaults(action, **inputs):
     return inputs_by_default | {name.replace("_", "-"): value for name, value in inputs.items()}
 
 
-def test_the_action_is_whole(action):
-    assert action["runs"]["using"] == "composite"
-    assert {name for name, value in action["inputs"].items() if value.get("required")} == {"model"}
-    for ci_step in action["runs"]["steps"]:
-        assert ("run" in ci_step) != ("uses" in ci_step)
-        # A composite action has no default shell.
-        assert ci_step.get("shell") == ("bash" if "run" in ci_step else None)
-        # An input is no part of a script: it comes as a variable, which no shell takes for a command.
-        assert "${{" not in ci_step.get("run", "")
-    named = set(re.findall(r"inputs\.([\w-]+)", ACTION.read_text(encoding="utf-8")))
-    assert named == action["inputs"].keys()
-
-
-def test_every_version_is_pinned(action, job, tmp_path):
-    assert main(["new-model", str(tmp_path / "my-model")]) == 0
-    (written,) = tmp_path.rglob("*.yml")
-    author = yaml.safe_load(written.read_text())["jobs"]["judge"]
-    used = [ci_step["uses"] for ci_step in [*action["runs"]["steps"], *author["steps"]] if "uses" in ci_step]
-    assert len(used) == 7
-    assert "latest" not in author["runs-on"]
-    assert [name for name in used if not re.fullmatch(r"actions/[a-z-]+@[0-9a-f]{40}", name)] == []
-    assert re.fullmatch(r"python:3\.\d+\.\d+-slim-\w+", job["image"])
-
-
 def wheel(folder, version="9.9"):
     """An empty wheel of this name."""
     info = f"fscm_bench-{version}.dist-info"
@@ -171,38 +106,14 @@ def wheel(folder, version="9.9"):
         archive.writestr(f"{info}/RECORD", "")
 
 
-@pytest.mark.parametrize("system", ["github", pytest.param("gitlab", marks=pytest.mark.heavy)])
-def test_it_installs_from_wheels_without_a_network(action, job, tmp_path, system):
+def test_it_installs_from_wheels_without_a_network(action, tmp_path):
     wheel(tmp_path)
-    offline = {
-        "PIP_TARGET": str(tmp_path / "target"),
-        "PIP_NO_CACHE_DIR": "1",
-        "no_proxy": "",
-        "https_proxy": "http://0.0.0.0:9",
-    }
-    if system == "github":
-        install = step(action, "Install fscm-bench")
-        variables = environment(install, defaults(action, wheels=str(tmp_path)), tmp_path)
-        done = shell(install["run"], tmp_path, variables | offline)
-    else:
-        variables = job["variables"] | {"FSCM_BENCH_WHEELS": str(tmp_path)}
-        done = shell("\n".join(job["before_script"]), tmp_path, variables | offline)
+    offline = {"PIP_TARGET": str(tmp_path / "target"), "PIP_NO_CACHE_DIR": "1", "https_proxy": "http://0.0.0.0:9"}
+    install = step(action, "Install fscm-bench")
+    variables = environment(install, defaults(action, wheels=str(tmp_path)), tmp_path)
+    done = shell(install["run"], tmp_path, variables | offline | {"no_proxy": ""})
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "target" / "installed_offline.py").exists()
-
-
-def test_without_wheels_the_action_installs_its_own_repository(action, tmp_path):
-    program = stub(tmp_path, "python", 'echo "$@"')
-    install = step(action, "Install fscm-bench")
-    for inputs, expected in (
-        ({}, f"-m pip install {ACTION.parent}/../../.."),
-        ({"package": "a.whl"}, "-m pip install a.whl"),
-    ):
-        done = shell(
-            install["run"], tmp_path, environment(install, defaults(action, **inputs), tmp_path), program.parent
-        )
-        assert done.stdout.splitlines() == [expected, "-m pip install fscm-bench[report]"]
-    assert (ACTION.parent / "../../.." / "pyproject.toml").exists()
 
 
 def test_nothing_is_installed_by_its_bare_name(job, tmp_path):
@@ -246,25 +157,12 @@ def test_the_job_ends_with_the_status_of_the_run(action, job, tmp_path, status):
     assert ("::error::inconclusive" in done.stdout) == (status == INCONCLUSIVE)
     variables = job["variables"] | {"FSCM_BENCH_MODEL": "a b"}
     assert shell("\n".join(job["script"]), tmp_path, variables, program.parent).returncode == status
-    assert (tmp_path / "calls.txt").read_text().splitlines() == [
+    calls = (tmp_path / "calls.txt").read_text().splitlines()
+    for call in calls:
+        _parser(call.split()[:1]).parse_args(call.replace("my gates", "gates").split())
+    assert calls == [
         "run --tier quick --model a b --gates my gates.toml --random 20 --seed 17 --out fscm-bench-results",
         "check-model a",
         "check-model b",
         "run --tier quick --model a b --random 20 --seed 18 --out fscm-bench-results",
     ]
-
-
-@pytest.mark.heavy
-def test_the_steps_judge_a_model_and_write_the_report(action, tmp_path):
-    (tmp_path / "mine.py").write_text(MODEL)
-    (tmp_path / "gates.toml").write_text(GATES)
-    # The program of this environment, whatever is installed where.
-    program = stub(tmp_path, "fscm-bench", f'PYTHONPATH="{ROOT}" exec "{sys.executable}" -m comparisons "$@"')
-    inputs = defaults(action, model="mine.py:Mine", gates="gates.toml")
-    for name in ("Judge", "Write the report"):
-        ci_step = step(action, name)
-        done = shell(ci_step["run"], tmp_path, environment(ci_step, inputs, tmp_path), program.parent)
-        assert done.returncode == 0, done.stderr
-    written = {path.name for path in (tmp_path / "fscm-bench-results").iterdir()}
-    assert {"run.json", "junit.xml", "report.html"} <= written
-    assert (tmp_path / "output.txt").read_text() == "status=0\n"

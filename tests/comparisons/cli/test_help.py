@@ -1,19 +1,14 @@
 """Help, version, completion and the name of the program."""
 
-import os
-import pty
 import re
-import select
 import shlex
 import shutil
-import signal
 import subprocess
 import sys
 
 import pytest
 
 from comparisons.cli.main import _COMMANDS, _parser, main
-from comparisons.runs import environment
 
 
 @pytest.mark.parametrize("command", ["", *_COMMANDS])
@@ -70,68 +65,8 @@ def test_bash_completes_with_the_script(script):
         assert done.stdout.split() == [word]
 
 
-#: Shell -> its arguments, and what a user has in the file of settings.
-INTERACTIVE = {
-    "zsh": (
-        ["-f", "-i"],
-        ["unsetopt zle_bracketed_paste", "autoload -Uz compinit && compinit -u -D", 'eval "$(cat {})"'],
-    ),
-    "tcsh": (["-f"], ["source {}"]),
-}
-#: So many seconds without a character mean that the shell waits: a failure, not a measurement.
-PATIENCE = 60.0
-
-
-def read_until(terminal, text):
-    screen = ""
-    while text not in screen:
-        ready, _, _ = select.select([terminal], [], [], PATIENCE)
-        assert ready, f"{text!r} is not in {screen!r}"
-        screen += os.read(terminal, 4096).decode(errors="replace")
-
-
-@pytest.mark.parametrize("script", INTERACTIVE, indirect=True)
-def test_the_tab_key_on_a_terminal(script, request):
-    shell = request.node.callspec.params["script"]
-    arguments, settings = INTERACTIVE[shell]
-    process, terminal = pty.fork()
-    if process == 0:
-        os.chdir(script.parent)
-        variables = {"PATH": "/usr/bin:/bin", "TERM": "xterm", "HOME": str(script.parent)}
-        os.execve(shutil.which(shell), [shell, *arguments], variables)
-    try:
-        for number, line in enumerate(settings):
-            # The shell prints the word without the quotes, so that its echo of the line is not taken for its output.
-            os.write(terminal, f"{line.format(script)}\necho done''{number}\n".encode())
-            read_until(terminal, f"done{number}")
-        for typed, word in COMPLETED.items():
-            os.write(terminal, f"{typed}\t".encode())
-            read_until(terminal, word.removeprefix(typed.rpartition(" ")[2]))
-            # Ctrl-U: an empty line.
-            os.write(terminal, b"\x15")
-    finally:
-        os.kill(process, signal.SIGKILL)
-        os.waitpid(process, 0)
-        os.close(terminal)
-
-
 def test_python_m_comparisons_calls_itself_so():
     for arguments, status in (["dance"], 2), (["list", "-h"], 0):
         done = subprocess.run([sys.executable, "-m", "comparisons", *arguments], capture_output=True, text=True)
         assert done.returncode == status
         assert "python -m comparisons" in done.stdout + done.stderr
-
-
-@pytest.mark.parametrize(
-    ("installed", "text"),
-    [
-        ({"commit": None, "dirty": None}, "1.2"),
-        ({"commit": "0123456789abcdef", "dirty": False}, "1.2 (commit 0123456789ab)"),
-        ({"commit": "0123456789abcdef", "dirty": True}, "1.2 (commit 0123456789ab, with changes)"),
-    ],
-)
-def test_the_version_states_the_commit_that_pip_recorded(capsys, monkeypatch, installed, text):
-    monkeypatch.setattr(environment, "package_version", lambda: "1.2")
-    monkeypatch.setattr(environment, "_commit", lambda: installed)
-    assert main(["--version"]) == 0
-    assert capsys.readouterr().out == f"fscm-bench {text}\n"

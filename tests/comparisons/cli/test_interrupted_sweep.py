@@ -1,9 +1,7 @@
 """Sweeps that are killed, that fill the disk, or whose store is damaged: one command completes the same tables."""
 
 import json
-import os
 import random
-import signal
 import subprocess
 import sys
 import time
@@ -112,28 +110,6 @@ def test_the_command_is_killed(grid, undisturbed, tmp_path, kills):
         stored, before = len(rows(tmp_path)), stored
         assert stored >= max(before, 1)
     complete(grid, tmp_path, undisturbed)
-
-
-@needs_proc
-@pytest.mark.heavy
-@pytest.mark.parametrize("kills", [1, 10])
-def test_workers_are_killed(grid, undisturbed, tmp_path, kills):
-    rng = random.Random(SEED)
-    killed = 0
-    with start(grid, tmp_path) as process:
-        for end in sorted(0.8 * rng.random() for _ in range(kills)):
-            if wait_for(process, tmp_path, end) and (children := workers(process)):
-                os.kill(rng.choice(children), signal.SIGKILL)
-                killed += 1
-        _, message = process.communicate()
-    assert killed > 0
-    # A task that was killed twice has failed, and the next command computes it again.
-    assert process.returncode == (4 if "ended twice" in message else 0)
-    if process.returncode == 0:
-        assert tables(tmp_path) == undisturbed
-        complete(grid, tmp_path, undisturbed)
-    assert main(["sweep", str(grid), "--jobs", "1", "--out", str(tmp_path), "--quiet"]) == 0
-    assert tables(tmp_path) == undisturbed
 
 
 def test_a_task_whose_process_ended_twice_is_computed_by_the_next_command(grid, undisturbed, tmp_path, monkeypatch):

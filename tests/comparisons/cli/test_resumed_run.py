@@ -8,7 +8,6 @@ import pytest
 
 from comparisons.data.file_names import STORE
 from comparisons.runs import computation as computing
-from comparisons.runs import store
 from comparisons.runs.computation import compute
 from comparisons.runs.frames import read_table
 from comparisons.runs.record import read_record
@@ -81,14 +80,3 @@ def test_a_row_that_is_damaged_is_computed_again(small_grid, tmp_path, capsys):
     assert "is damaged" in message
     assert "1 computations on 1 processes, 11 are stored" in message
     assert (tmp_path / "results.csv").read_bytes() == intact
-
-
-def test_results_with_another_numpy_are_refused_and_it_is_said_which(small_grid, tmp_path, monkeypatch, capsys):
-    assert run(tmp_path) == 0
-    now = store.fingerprint()
-    monkeypatch.setattr(store, "fingerprint", lambda: now.replace("NumPy ", "NumPy 0."))
-    capsys.readouterr()
-    assert run(tmp_path) == 2
-    message = capsys.readouterr().err
-    assert message.count("\n") == 1
-    assert "another version of the code, of NumPy or of SciPy (NumPy " in message

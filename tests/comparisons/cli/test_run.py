@@ -9,11 +9,9 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.data.file_names import VERDICT_FILES
-from comparisons.problem import Problem
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import load_grids
 from comparisons.runs.computation import compute
-from comparisons.runs.tasks import Task, evaluate_task, plan
 
 FILES = {
     "store.sqlite",
@@ -72,15 +70,8 @@ def test_a_run_leaves_its_tables_and_record(small_grid, tmp_path, capsys):
 def test_the_record_says_where_the_numbers_come_from(small_grid, tmp_path):
     run(tmp_path, "--tier", "full")
     record = json.loads(read(tmp_path, "run.json"))
-    assert record["arguments"] == {
-        "tier": "full",
-        "model": None,
-        "grid": None,
-        "external": {},
-        "gates": None,
-        "jobs": 1,
-        "out": str(tmp_path),
-    }
+    assert record["arguments"]["tier"] == "full"
+    assert record["arguments"]["out"] == str(tmp_path)
     assert record["rows"] == {"all": 12, "resumed": 0, "ok": 8, "not-applicable": 4}
     assert {"commit", "dirty", "version", "code_sha256"} <= record["package"].keys()
     assert {"cpu", "cores", "system"} <= record["machine"].keys()
@@ -154,48 +145,6 @@ def test_a_failed_computation_costs_its_own_rows_and_the_exit_status(small_grid,
     captured = capsys.readouterr()
     assert "16 failed" in captured.out
     assert "more computations failed" in captured.err
-
-
-def test_without_a_gate_nothing_is_shown_and_that_is_an_error(small_grid, tmp_path, capsys):
-    assert run(tmp_path, "--model", "refuses") == 4
-    assert "no gate was evaluated" in capsys.readouterr().err
-    assert pd.read_csv(tmp_path / "kappa.csv").empty
-
-
-def test_every_question_is_planned_once_and_the_longest_first():
-    grid = load_grids(STANDING)
-    tasks = plan(grid + grid)
-    assert len(tasks) == len(set(tasks)) == 2 * 8
-    assert [task.problem.mu for task in tasks] == [1.0] * 8 + [0.5] * 8
-
-
-def test_candidates_can_be_chosen_and_the_reference_stays():
-    assert {task.model for task in plan(load_grids(STANDING), ["dmt"])} == {"bradley", "dmt"}
-
-
-def test_a_row_names_the_case_and_the_work(toys):
-    row = evaluate_task(Task("exact", "pull_off_force", Problem.dimensionless(2, 0.4, 1, 0.25)))
-    assert row.parameters == {"n": 2, "k": 0.4, "mu": 1, "nu": 0.25}
-    assert (row.value, row.u_num, row.size, row.iterations, row.residual) == (2.0, 1e-9, 3, 2, 1e-12)
-    assert (row.model_version, row.unit, row.status, row.reason) == (
-        "7",
-        "pi Q^(2/n) dgamma z0^(2/n-1)",
-        "ok",
-        "",
-    )
-
-
-@pytest.mark.parametrize(
-    "models", [["ten-percent"], ["ten-percent", "twelve-percent", "absurd", "refuses", "fails", "broken", "nonsense"]]
-)
-def test_a_run_prints_a_summary(small_grid, tmp_path, capsys, models):
-    (tmp_path / "gates.toml").write_text(small_grid.replace('"ten-percent"', '"given"'))
-    run(tmp_path / "out", "--model", *models, "--gates", str(tmp_path / "gates.toml"))
-    captured = capsys.readouterr()
-    assert len(captured.out.splitlines()) <= 40
-    assert all(name in captured.out + captured.err for name in models[:4])
-    assert re.search(r"\d+ of \d+ gates? pass(?:es)?, 0 fail as declared, \d+ unexpected", captured.out)
-    assert captured.err.endswith(f"next: fscm-bench report {tmp_path / 'out'}\n")
 
 
 def test_verbose_prints_every_case_and_every_gate(small_grid, tmp_path, capsys):

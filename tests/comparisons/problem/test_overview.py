@@ -43,30 +43,6 @@ def test_a_power_law_has_errors_of_closed_forms(capsys):
     assert "JKR" in found["regime"]
 
 
-PDMS = """
-[solid]
-kind = "homogeneous"
-E = "2 MPa"
-nu = 0.5
-[punch]
-kind = "sphere"
-R = "10 um"
-[law]
-kind = "lennard-jones-9-3"
-work_of_adhesion = "50 mJ/m^2"
-z0 = "0.4 nm"
-"""
-
-
-def test_the_simplest_model_within_the_tolerance_is_recommended_and_not_the_luckiest(tmp_path, capsys):
-    (tmp_path / "pdms.toml").write_text(PDMS)
-    found = json.loads(described(capsys, tmp_path / "pdms.toml", "--format", "json"))
-    assert found["tabor_number"] > 300
-    jkr = next(row["error"] for row in found["errors"] if row["model"] == "jkr")
-    assert abs(found["errors"][0]["error"]) < abs(jkr) < 0.01
-    assert found["recommended"] == {"1 %": "jkr", "5 %": "jkr"}
-
-
 @pytest.mark.parametrize(
     ("errors", "simplest"),
     [
@@ -111,23 +87,3 @@ def test_a_tabor_number_is_printed_where_its_modulus_is_that_of_the_contact(coat
     else:
         assert equivalent["surface_compliance_deviation"] < 0.1
         assert len(of_equivalent) > 5
-
-
-def test_another_solid_has_the_force_of_the_integral_equation(capsys):
-    text = described(capsys, EXAMPLES / "coated_solid.toml")
-    assert "Tabor number 1.143, with the equivalent power law" in text
-    assert "pull-off force 26.94617" in text
-    assert "recommended for 1 %: fscm" in text
-
-
-def test_the_page_shows_the_example_and_what_is_printed(capsys):
-    page = (EXAMPLES.parents[1] / "problem_files.md").read_text(encoding="utf-8")
-    example = (EXAMPLES / "coated_solid.toml").read_text(encoding="utf-8")
-    assert example.partition("\n")[2] in page
-    path = str(EXAMPLES / "coated_solid.toml")
-    assert main(["solve", "--model", "fscm", "--quantity", "pull_off_force", "--problem", path]) == 0
-    heading, force, scaled = capsys.readouterr().out.splitlines()
-    assert heading in page
-    # The digits in brackets, a bound, may differ between machines.
-    assert force.partition("(")[0] in page
-    assert scaled.partition("(")[0] in page

@@ -19,7 +19,6 @@ from comparisons.problem.reading import load_problem
 from comparisons.problem.schema import schema
 from comparisons.quantities import QUANTITIES
 from comparisons.runs.tasks import evaluate
-from tests.fem_reference.solved_together import COARSEST, pull_off_on_the_coarsest_mesh
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
 
@@ -123,16 +122,6 @@ def test_a_value_and_its_bound_are_in_the_same_unit(written, quantity):
         assert math.isclose(value.dimensionless_u_num, 2.0, rel_tol=1e-14)
 
 
-def test_a_model_is_not_evaluated_outside_its_domain(written):
-    found = written(solid="power-law", punch="sphere", law="lennard-jones-9-3")
-    for n, status in (([2, 3], "ok"), ([5, 6], "not-applicable")):
-        table = {"quantities": ["pull_off_force"], "n": n}
-        model = SimpleNamespace(
-            name="mine", version="1", applies_to=table, evaluate=lambda problem, name: Result(6.0, 2.0)
-        )
-        assert evaluate(model, "pull_off_force", found).status == status
-
-
 def test_the_bound_of_the_finite_elements_is_that_of_their_solution(written, monkeypatch):
     found = written(solid="coating", punch="sphere", law="lennard-jones-9-3")
     family = (4, 6, 7), (2e-9,) * 3, {"mesh": 5e-12}
@@ -160,22 +149,6 @@ def test_a_homogeneous_solid_and_a_cone_are_power_laws(written, tmp_path, model)
     assert value.dimensionless_value is not None
 
 
-def test_the_force_of_a_rigid_cone_grows_with_the_square_of_the_tangent(written, tmp_path):
-    """The radius where the gap has a value is z tan(half_angle)."""
-    found = written(solid="homogeneous", punch="cone", law="lennard-jones-9-3")
-    cones = [found.with_value("punch", "half_angle", math.radians(angle)) for angle in (45, 60)]
-    forces = [evaluate("bradley", "pull_off_force", cone).value for cone in cones]
-    assert math.isclose(forces[1] / forces[0], 3.0, rel_tol=1e-12)
-
-
-def on_the_coarsest_mesh(problem, quantity):
-    """The pull-off force without its bound, for which the finite elements need many meshes."""
-    assert quantity == "pull_off_force"
-    force = -pull_off_on_the_coarsest_mesh(problem).load
-    parts = {"mesh": COARSEST * force}
-    return fem_reference.Solution(force, COARSEST * force, 1, 1, 0.0, 0.1, (4, 6, 7), (force,) * 3, parts)
-
-
 def assert_both_references_agree(found, share):
     values = [evaluate(model, "pull_off_force", found) for model in ("fscm", "fem")]
     assert [value.status for value in values] == ["ok", "ok"]
@@ -187,11 +160,6 @@ def assert_both_references_agree(found, share):
 @pytest.mark.heavy
 def test_a_coated_solid_by_both_references():
     assert_both_references_agree(load_problem(EXAMPLES / "coated_solid.toml"), FEW_DIGITS)
-
-
-def test_a_coated_solid_by_both_references_on_the_coarsest_mesh(monkeypatch):
-    monkeypatch.setattr(fem_reference, "solve", on_the_coarsest_mesh)
-    assert_both_references_agree(load_problem(EXAMPLES / "coated_solid.toml"), COARSEST)
 
 
 def test_what_a_coated_solid_does_not_have_is_not_applicable():
@@ -244,14 +212,6 @@ def test_the_json_is_the_contract(capsys):
     assert content["value"] is None
     assert content["status"] == "not-applicable"
     assert content["reason"]
-
-
-def test_the_csv_of_a_curve_names_the_units(capsys):
-    command = ["curve", "--model", "jkr", "bradley", "--problem", str(EXAMPLES / "graded_pad.toml")]
-    assert main(command) == 0
-    header, first, *_ = capsys.readouterr().out.splitlines()
-    assert header.startswith("model,displacement [m],load [N]")
-    assert first.startswith("jkr,")
 
 
 def test_the_schema_takes_the_examples():

@@ -82,18 +82,8 @@ def counted(problem, monkeypatch, failing=None):
     return module.profile_sensitivity(problem, row("fscm", value=1.0, u_num=0.0))
 
 
-def test_only_other_choices_are_computed(written, monkeypatch):
-    found = counted(written("growth = 3"), monkeypatch)
-    assert [(each["key"], each["value"], each["change"]) for each in found] == [("growth", 1.5, 1.0)]
-
-
 def test_a_failure_is_stated(written, monkeypatch):
     found = counted(written('smoothing = "0.05 nm"'), monkeypatch, failing=3.0)
     assert [each["status"] for each in found] == ["ok", "ok", "ok", "failed"]
     assert profile_lines(found)[-1] == "    growth 3: failed: not admissible"
     assert found[-1]["change"] is None
-
-
-def test_without_a_force_there_are_no_changes(written):
-    failed = row("fscm", value=None, u_num=None, status="failed")
-    assert module.profile_sensitivity(written(""), failed) == []
