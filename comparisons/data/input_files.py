@@ -71,13 +71,13 @@ def check_regular(path: Path, status: os.stat_result, largest: int) -> None:
         raise ValueError(f"{path} has {status.st_size} bytes, more than {largest}; give a smaller file")
 
 
-def read_text(path: Path, what: str, largest: int = LARGEST_TEXT) -> str:
+def read_text(path: Path, name: str, largest: int = LARGEST_TEXT) -> str:
     r"""Return the text of a file in UTF-8, with ``\n`` at the end of each line and without a byte order mark.
 
     Parameters
     ----------
     path : Path
-    what : str
+    name : str
         What the file is, for the sentence that refuses it.
     largest : int
         As of `read_bytes`.
@@ -94,7 +94,7 @@ def read_text(path: Path, what: str, largest: int = LARGEST_TEXT) -> str:
     ValueError: no_such_file.toml: the problem file cannot be read (No such file or directory); check the name
     """
     if str(path) == "-":
-        raise ValueError(f"-: {what} is not read from the standard input; give the name of a file")
+        raise ValueError(f"-: {name} is not read from the standard input; give the name of a file")
     try:
         text = read_bytes(path, largest).decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -103,5 +103,5 @@ def read_text(path: Path, what: str, largest: int = LARGEST_TEXT) -> str:
             f"{path}, line {line}: the byte 0x{error.object[error.start]:02x} is not UTF-8; save the file as UTF-8"
         ) from None
     except OSError as error:
-        raise ValueError(f"{path}: {what} cannot be read ({error.strerror}); check the name") from None
+        raise ValueError(f"{path}: {name} cannot be read ({error.strerror}); check the name") from None
     return text.replace("\r\n", "\n").replace("\r", "\n")

@@ -37,7 +37,7 @@ def validated(
     document: Mapping[str, Any],
     schema: str | Validator,
     source: str,
-    place: Callable[..., str] | None = None,
+    locate: Callable[..., str] | None = None,
 ) -> None:
     """Refuse tables that do not fit a schema.
 
@@ -49,7 +49,7 @@ def validated(
         Name of ``<schema>.schema.json`` in this folder, or as `validator_of` returns it.
     source : str
         What was read, for the sentence.
-    place : callable, optional
+    locate : callable, optional
         Names of table and key -> what was read with the line, in place of `source`.
 
     Raises
@@ -66,7 +66,7 @@ def validated(
     validator = _shipped_validator(schema) if isinstance(schema, str) else schema
     errors = sorted(validator.iter_errors(document), key=_position)
     if errors:
-        where = place(*errors[0].absolute_path, *_unknown_keys(errors[0])) if place else source
+        where = locate(*errors[0].absolute_path, *_unknown_keys(errors[0])) if locate else source
         raise ValueError(f"{where}: {_sentence(errors[0], document, validator.schema)}")
 
 
@@ -84,7 +84,7 @@ def label(kind: str, table: object, number: int) -> str:
     return f"{kind} {id}" if isinstance(id, str) and _NAME.fullmatch(id) else f"{kind} {number} (id = {shown(id)})"
 
 
-def known_name(what: str, name: str, known: Iterable[str], where: str) -> None:
+def known_name(noun: str, name: str, known_names: Iterable[str], where: str) -> None:
     """Refuse a name that is not known.
 
     Raises
@@ -98,9 +98,9 @@ def known_name(what: str, name: str, known: Iterable[str], where: str) -> None:
     Traceback (most recent call last):
     ValueError: grid a: unknown model 'jrk': did you mean jkr?
     """
-    known = list(known)
-    if name not in known:
-        raise ValueError(f"{where}: unknown {what} {shown(name)}{_nearest(name, known)}")
+    names = list(known_names)
+    if name not in names:
+        raise ValueError(f"{where}: unknown {noun} {shown(name)}{_nearest(name, names)}")
 
 
 @lru_cache
@@ -122,7 +122,7 @@ def validator_of(schema: Mapping[str, Any]) -> Validator:
 
 def _position(error: ValidationError) -> tuple[list[tuple[int, str]], int]:
     """Position in the file, tables before what is in them."""
-    path = [(part, "") if isinstance(part, int) else (-1, part) for part in error.absolute_path]
+    path = [(step, "") if isinstance(step, int) else (-1, step) for step in error.absolute_path]
     order = _ORDER.index(error.validator) if error.validator in _ORDER else len(_ORDER)
     return (path if order == len(_ORDER) else path[:2]), order
 
@@ -154,12 +154,14 @@ def _sentence(error: ValidationError, document: Mapping[str, Any], schema: Mappi
         depth, description = len(path), error.schema["description"]
     depth = len(path) if error.validator == "enum" else depth
     value: Any = document
-    for part in path[:depth]:
-        value = value[part]
-    key = ".".join(str(part) for part in path[2 if where else 0 : depth])
+    for step in path[:depth]:
+        value = value[step]
+    key = ".".join(str(step) for step in path[2 if where else 0 : depth])
     if error.validator == "enum":
-        near = get_close_matches(str(value), error.validator_value, n=1)
-        description = f"one of {', '.join(error.validator_value)}" + (f": did you mean {near[0]}?" if near else "")
+        nearest = get_close_matches(str(value), error.validator_value, n=1)
+        description = f"one of {', '.join(error.validator_value)}" + (
+            f": did you mean {nearest[0]}?" if nearest else ""
+        )
     where = where if depth > 1 else ""
     if error.validator == "oneOf":
         return f"{where}{key} must be {description}"
@@ -171,8 +173,8 @@ def _sentence(error: ValidationError, document: Mapping[str, Any], schema: Mappi
 def _described(schema: Mapping[str, Any], path: Iterable[str | int]) -> tuple[int, str]:
     """Return the length of the longest part of a path whose schema has a description, and this description."""
     deepest, form = (0, "otherwise"), schema
-    for depth, part in enumerate(path, start=1):
-        inner = form["items"] if isinstance(part, int) else form.get("properties", {}).get(part)
+    for depth, step in enumerate(path, start=1):
+        inner = form["items"] if isinstance(step, int) else form.get("properties", {}).get(step)
         form = form.get("additionalProperties", {}) if inner is None else inner
         if "$ref" in form:
             form = schema["$defs"][form["$ref"].rpartition("/")[2]] | {**form}
@@ -181,10 +183,9 @@ def _described(schema: Mapping[str, Any], path: Iterable[str | int]) -> tuple[in
     return deepest
 
 
-def _nearest(name: str, known: Iterable[str]) -> str:
-    known = list(known)
-    near = get_close_matches(name, known, n=1)
-    return f": did you mean {near[0]}?" if near else f"; known are {', '.join(known)}"
+def _nearest(name: str, names: Iterable[str]) -> str:
+    nearest = get_close_matches(name, names, n=1)
+    return f": did you mean {nearest[0]}?" if nearest else f"; known are {', '.join(names)}"
 
 
 def shown(value: object) -> str:

@@ -42,43 +42,45 @@ def read_columns(path: Path, columns: Mapping[str, Form]) -> dict[str, tuple[flo
     factors = _factors(f"{path}, line {number}", _cells(f"{path}, line {number}", heading), columns)
     values: dict[str, list[float]] = {name: [] for name in factors}
     for number, line in rows:
-        place = f"{path}, line {number}"
-        cells = _cells(place, line)
+        location = f"{path}, line {number}"
+        cells = _cells(location, line)
         if len(cells) != len(factors):
-            raise ValueError(f"{place}: {len(cells)} values for {len(factors)} columns; write one for each column")
+            raise ValueError(f"{location}: {len(cells)} values for {len(factors)} columns; write one for each column")
         for (name, factor), cell in zip(factors.items(), cells, strict=True):
             try:
                 values[name].append(_value(cell, factor, columns[name], values[name]))
             except NotAValue as error:
-                raise ValueError(f"{place}: {name} = {shown(cell.strip())} {error}") from None
+                raise ValueError(f"{location}: {name} = {shown(cell.strip())} {error}") from None
     return {name: tuple(column) for name, column in values.items()}
 
 
-def _cells(place: str, line: str) -> list[str]:
+def _cells(location: str, line: str) -> list[str]:
     try:
         return next(csv.reader([line]))
     except csv.Error as error:
-        raise ValueError(f"{place}: {shown(line)} is no row of CSV ({error}); write numbers between commas") from None
+        raise ValueError(
+            f"{location}: {shown(line)} is no row of CSV ({error}); write numbers between commas"
+        ) from None
 
 
-def _factors(place: str, headings: Sequence[str], columns: Mapping[str, Form]) -> dict[str, float]:
+def _factors(location: str, headings: Sequence[str], columns: Mapping[str, Form]) -> dict[str, float]:
     """The factor of the unit of each column, by its name."""
     factors: dict[str, float] = {}
     for heading in headings:
         match = _HEADING.fullmatch(heading)
         if not match:
-            raise ValueError(f"{place}: {shown(heading)} is no name of a column; the names are {', '.join(columns)}")
+            raise ValueError(f"{location}: {shown(heading)} is no name of a column; the names are {', '.join(columns)}")
         name, unit = match[1], match[2]
-        known_name("column", name, columns, place)
+        known_name("column", name, columns, location)
         if name in factors:
-            raise ValueError(f"{place}: the column {name} stands twice; name each column once")
+            raise ValueError(f"{location}: the column {name} stands twice; name each column once")
         try:
             factors[name] = unit_factor(unit, columns[name]["unit"]) if unit and "unit" in columns[name] else 1.0
         except NotAValue as error:
-            raise ValueError(f"{place}: the column {name} {error}; write one of {columns[name]['unit']}") from None
+            raise ValueError(f"{location}: the column {name} {error}; write one of {columns[name]['unit']}") from None
     for name, form in columns.items():
         if name not in factors and not form.get("optional"):
-            raise ValueError(f"{place}: the column {name} is missing; the names are {', '.join(columns)}")
+            raise ValueError(f"{location}: the column {name} is missing; the names are {', '.join(columns)}")
     return factors
 
 

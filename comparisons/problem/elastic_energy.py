@@ -100,8 +100,10 @@ def energy_spectrum(problem: Problem) -> EnergySpectrum:
     try:
         # The shares need few digits.
         field = fscm.profile(posed, "pull_off", "quick")
-        first, second = (float(np.sum(np.abs(_moments(field.radius, field.pressure, power)))) for power in (1, 2))
-        xi = np.geomspace(_LOWEST, _HIGHEST, count) / (second / first)
+        first_moment, second_moment = (
+            float(np.sum(np.abs(_moments(field.radius, field.pressure, power)))) for power in (1, 2)
+        )
+        xi = np.geomspace(_LOWEST, _HIGHEST, count) / (second_moment / first_moment)
         values = compliance(posed.graded, xi)
     except fscm.NoSuchEvent as reason:
         raise NotApplicable(str(reason)) from reason

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import cast
 
 from comparisons.domain import declared_domain
 from comparisons.model import Model, NotApplicable, Result
 from comparisons.problem.problem import Problem
-from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, Points, ScalarQuantity
+from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, Points
 
 __all__ = ["REFERENCES", "SOLVERS", "dimensionless_result", "evaluated", "unit_of"]
 
@@ -50,12 +51,7 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     if quantity in QUANTITIES and model.name not in REFERENCES and _has_another_solid(problem):
         return _with_equivalent_solid(problem, model, quantity)
     _check(problem, model, quantity)
-    found = row.evaluate(model, problem)
-    if isinstance(row, ScalarQuantity):
-        assert isinstance(found, Result)
-        return row.in_units(found, problem.units)
-    assert isinstance(found, Points)
-    return row.in_units(found, problem.units)
+    return row.in_units(row.evaluate(model, problem), problem.units)  # type: ignore[arg-type]
 
 
 def _has_another_solid(problem: Problem) -> bool:
@@ -69,12 +65,10 @@ def _with_equivalent_solid(problem: Problem, model: Model, quantity: str) -> Res
     from comparisons.problem.equivalent_solid import equivalent_solids
 
     with_law, coarser = equivalent_solids(problem)
-    result, other = (evaluated(each, model, quantity) for each in (with_law, coarser))
-    assert isinstance(result, Result)
-    assert isinstance(other, Result)
+    result, of_coarser = (cast(Result, evaluated(with_solid, model, quantity)) for with_solid in (with_law, coarser))
     return replace(
         result,
-        u_num=result.u_num + abs(result.value - other.value),
+        u_num=result.u_num + abs(result.value - of_coarser.value),
         reason=f"with the equivalent power law of the {problem.solid.kind} solid, k = {with_law.solid['k']:.4f}",
     )
 

@@ -289,11 +289,11 @@ def limits_of(form: Form) -> tuple[float, float]:
     Examples
     --------
     >>> limits_of(MODULUS), limits_of(RATIO)
-    ((0, inf), (0, 0.5))
+    ((0.0, inf), (0.0, 0.5))
     """
-    low: float = form.get("minimum", form.get("exclusiveMinimum", -math.inf))
-    high: float = form.get("maximum", form.get("exclusiveMaximum", math.inf))
-    return low, high
+    lows = [float(form[limit]) for limit in ("minimum", "exclusiveMinimum") if limit in form]
+    highs = [float(form[limit]) for limit in ("maximum", "exclusiveMaximum") if limit in form]
+    return max(lows, default=-math.inf), min(highs, default=math.inf)
 
 
 def kind_rows() -> Iterator[dict[str, str]]:

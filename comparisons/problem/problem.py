@@ -102,7 +102,9 @@ class Problem:
 
     def __post_init__(self) -> None:
         if not self.is_dimensionless:
-            content = [[part.kind, dict(part.values), dict(part.columns)] for part in self._sections.values()]
+            content = [
+                [section.kind, dict(section.values), dict(section.columns)] for section in self._sections.values()
+            ]
             text = json.dumps(content, sort_keys=True, default=str)
             object.__setattr__(self, "digest", sha256(text.encode()).hexdigest())
 
@@ -206,7 +208,7 @@ class Problem:
     def uncertain(self) -> dict[tuple[str, str], Uncertainty]:
         """What is uncertain, by section and key."""
         sections = self._sections.items()
-        return {(name, key): each for name, section in sections for key, each in section.uncertain.items()}
+        return {(name, key): spread for name, section in sections for key, spread in section.uncertain.items()}
 
     def has_of_the_paper(self, *names: str) -> bool:
         """Whether the problem of three numbers n, k and mu has the kinds of these sections."""
@@ -303,8 +305,8 @@ class Problem:
 
     def with_value(self, section: str, key: str, value: float) -> Problem:
         """Return the problem with another value of a key, in SI."""
-        part = self._sections[section]
-        changed: dict[str, Any] = {section: replace(part, values={**part.values, key: value})}
+        changed_section = self._sections[section]
+        changed: dict[str, Any] = {section: replace(changed_section, values={**changed_section.values, key: value})}
         return replace(self, **changed)
 
     def varied(self, name: str, texts: Iterable[str], parameters: Mapping[str, float | str]) -> Problem:

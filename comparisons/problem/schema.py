@@ -57,8 +57,8 @@ def _kind(section: str, name: str, kind: Kind) -> dict[str, Any]:
 
 def _alone(choice: tuple[str, ...], choices: tuple[tuple[str, ...], ...]) -> dict[str, Any]:
     """All keys of a choice, and none of another one."""
-    others = {key: False for group in choices if group != choice for key in group}
-    return {"required": list(choice), "properties": others}
+    excluded = {key: False for group in choices if group != choice for key in group}
+    return {"required": list(choice), "properties": excluded}
 
 
 if __name__ == "__main__":

@@ -63,14 +63,14 @@ def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
     registry = _registry()
     aim = registry.Unit(target) ** power
     try:
-        given = registry.Unit(unit.replace("·", "*"))
+        source_unit = registry.Unit(unit.replace("·", "*"))
     except Exception:  # pint has several for what it does not know, and the tokens of Python others
         raise NotAValue(f"has the unknown unit {shown(unit)}") from None
     # An angle has no dimension, nor has a percentage: their root units differ.
-    if registry.get_root_units(given)[1] != registry.get_root_units(aim)[1]:
+    if registry.get_root_units(source_unit)[1] != registry.get_root_units(aim)[1]:
         target_unit = target if power == 1.0 else f"{target}^({power:g})"
         raise NotAValue(f"has the unit {unit}, which is not one of {target_unit}")
-    factor = float(registry.Quantity(1.0, given).to(aim).magnitude)
+    factor = float(registry.Quantity(1.0, source_unit).to(aim).magnitude)
     # pint multiplies factors one after the other: a power of ten has lost its last digit.
     ten = float(f"1e{round(math.log10(factor))}")
     return ten if abs(factor / ten - 1.0) < _ROUNDING else factor
@@ -105,9 +105,9 @@ def in_si(value: object, target: str, power: float = 1.0) -> float:
             raise NotAValue("has no unit")
         factor = unit_factor(match[2], target, power)
         # Division by 10^9 keeps all digits of 100 nm; the double of 1e-9 is no power of ten.
-        whole = round(1.0 / factor)
-        divides = abs(whole * factor - 1.0) < _ROUNDING
-        scaled = float(match[1]) / whole if divides else float(match[1]) * factor
+        inverse = round(1.0 / factor)
+        divides = abs(inverse * factor - 1.0) < _ROUNDING
+        scaled = float(match[1]) / inverse if divides else float(match[1]) * factor
     elif isinstance(value, int | float) and not isinstance(value, bool):
         scaled = float(value) if abs(value) < 1e300 else math.inf
     else:

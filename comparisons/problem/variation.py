@@ -70,7 +70,7 @@ class Variation:
         ValueError
             One sentence.
         """
-        section, _, key = (part.strip() for part in name.partition("."))
+        section, _, key = (word.strip() for word in name.partition("."))
         where = f"--vary {shown(text)}" if text else f"vary {shown(name)}"
         if not key:
             raise ValueError(f'{where} names no key; write SECTION.KEY, as "solid.thickness"')
@@ -116,16 +116,16 @@ def parse_variation(text: str) -> Variation:
         texts = [f"{value:.12g}" for value in np.linspace(float(match[1]), float(match[2]), count)]
         unit = match[4]
     else:
-        texts = [part.strip() for part in listed.split(",")]
-        last = _UNIT.fullmatch(texts[-1])
-        unit = last[1] if last else ""
+        texts = [value.strip() for value in listed.split(",")]
+        unit_of_last = _UNIT.fullmatch(texts[-1])
+        unit = unit_of_last[1] if unit_of_last else ""
     return Variation.of_values(name, [_value(value, unit) for value in texts], text)
 
 
-def _value(part: str, unit: str) -> float | str:
-    if not _PLAIN.fullmatch(part):
-        return part
-    return f"{part.strip()} {unit}" if unit else float(part)
+def _value(text: str, unit: str) -> float | str:
+    if not _PLAIN.fullmatch(text):
+        return text
+    return f"{text.strip()} {unit}" if unit else float(text)
 
 
 def parse_variations(texts: Sequence[str]) -> list[Variation]:
@@ -159,12 +159,12 @@ def problems_of(path: Path, variations: Sequence[Variation], name: str = "") -> 
         changed = deepcopy(document)
         for variation, value in zip(variations, values, strict=True):
             _change(changed[variation.section], variation, value)
-        texts = tuple(f"{each.name}={value}" for each, value in zip(variations, values, strict=True))
+        texts = tuple(f"{variation.name}={value}" for variation, value in zip(variations, values, strict=True))
         try:
             problem = problem_of(changed, source)
         except ValueError as error:
             raise ValueError(f"{', '.join(texts)}: {error}" if texts else str(error)) from None
-        parameters = {_column(problem, each): problem[each.name] for each in variations}
+        parameters = {_column(problem, variation): problem[variation.name] for variation in variations}
         yield problem.varied(name or path.name, texts, parameters)
 
 

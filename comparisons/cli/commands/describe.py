@@ -42,7 +42,7 @@ def call(args: argparse.Namespace) -> int:
         changes = profile_sensitivity(problem, force)
     if args.format == "json":
         parts = {"equivalent_power_law": equivalent, "profile_sensitivity": changes, "uncertainty": of_values}
-        print(json.dumps(described | {name: part for name, part in parts.items() if part}, allow_nan=False))
+        print(json.dumps(described | {name: content for name, content in parts.items() if content}, allow_nan=False))
     else:
         lines = text.overview_lines(problem, described, equivalent)
         lines += text.equivalent_lines(equivalent) if equivalent else []

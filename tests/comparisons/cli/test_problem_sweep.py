@@ -21,9 +21,9 @@ def sweep(out, *options, problem=PAD, vary=VARY):
     return main(["sweep", "--problem", str(problem), *vary, "--jobs", "1", "--out", str(out), *options])
 
 
-def refused(capsys, *options, **given):
+def refused(capsys, *options, **settings):
     """The sentence of a sweep that is refused."""
-    assert sweep("never", *options, **given) == 2
+    assert sweep("never", *options, **settings) == 2
     error = capsys.readouterr().err
     assert "Traceback" not in error
     assert error.count("\n") == 1
@@ -101,10 +101,10 @@ def test_the_folder_has_copies_of_the_problem_file_and_its_tables(tmp_path):
     record = read_record(tmp_path / "one" / "run.json")
     copies = ["inputs/tip.toml", "inputs/tips/a.csv", "inputs/a.csv"]
     assert {name for name in record["files"] if name.startswith("inputs")} == set(copies)
-    given = [problem / "tip.toml", problem / "tips" / "a.csv", problem / "a.csv"]
-    assert [(tmp_path / "one" / name).read_bytes() for name in copies] == [path.read_bytes() for path in given]
+    originals = [problem / "tip.toml", problem / "tips" / "a.csv", problem / "a.csv"]
+    assert [(tmp_path / "one" / name).read_bytes() for name in copies] == [path.read_bytes() for path in originals]
     # A merged folder needs the copies alone.
-    for path in given:
+    for path in originals:
         path.unlink()
     assert main(["merge", str(tmp_path / "one"), str(tmp_path / "two"), "--out", str(tmp_path / "all"), "--quiet"]) == 0
     assert read_table(tmp_path / "all" / "results.parquet")["status"].tolist() == ["not-applicable"] * 2

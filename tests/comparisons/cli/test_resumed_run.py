@@ -1,12 +1,9 @@
 """A run that is resumed: stored failures, and the parts of the computations in its record."""
 
-import sqlite3
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import closing
 
 import pytest
 
-from comparisons.data.file_names import STORE
 from comparisons.runs import computation as computing
 from comparisons.runs.computation import compute
 from comparisons.runs.frames import read_table
@@ -51,7 +48,7 @@ def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path
         assert run(tmp_path) == 4
     assert run(tmp_path) == 0
     record = read_record(tmp_path / "run.json")
-    interrupted, resumed = sorted(record["parts"], key=lambda part: part["computations"])
+    interrupted, resumed = sorted(record["parts"], key=lambda segment: segment["computations"])
     assert (interrupted["computations"], resumed["computations"]) == (5, 7)
     assert {name: interrupted[name] for name in other_machine} == other_machine
     assert {name: resumed[name] for name in this_machine} == this_machine
@@ -64,19 +61,3 @@ def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path
     for name in ("parts", "started"):
         assert again[name] == record[name]
     assert again["seconds"]["run"] == record["seconds"]["run"]
-
-
-def test_a_row_that_is_damaged_is_computed_again(small_grid, tmp_path, capsys):
-    assert run(tmp_path) == 0
-    intact = (tmp_path / "results.csv").read_bytes()
-    with closing(sqlite3.connect(tmp_path / STORE)) as database, database:
-        database.execute(
-            "UPDATE items SET content = replace(content, '\"value\": 2.2', '\"value\": 2.3') "
-            "WHERE key IN (SELECT max(key) FROM items)"
-        )
-    capsys.readouterr()
-    assert run(tmp_path) == 0
-    message = capsys.readouterr().err
-    assert "is damaged" in message
-    assert "1 computations on 1 processes, 11 are stored" in message
-    assert (tmp_path / "results.csv").read_bytes() == intact

@@ -34,9 +34,9 @@ def test_truncated_digits_are_distinguished_from_rounded_ones(text, computed):
     assert printed.verdict(printed.value + 1.01 * step, 1e-9) == "differs"
 
 
-@pytest.mark.parametrize("place", [-0.5, 0.5, 1.0])
-def test_across_a_border_nothing_is_decided(place):
-    assert PaperValue("", "", "", "3.5").verdict(3.5 + 0.1 * place, 1e-6) == "undecided"
+@pytest.mark.parametrize("steps", [-0.5, 0.5, 1.0])
+def test_across_a_border_nothing_is_decided(steps):
+    assert PaperValue("", "", "", "3.5").verdict(3.5 + 0.1 * steps, 1e-6) == "undecided"
 
 
 def test_a_bound_wider_than_every_digit_decides_nothing():

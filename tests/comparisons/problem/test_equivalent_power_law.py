@@ -49,21 +49,21 @@ def equivalent(problem):
 @pytest.mark.heavy
 def test_a_power_law_with_a_tiny_offset_is_itself():
     """What is left is the offset: it has a share (z_s/length)^(1-k) or less of the compliance."""
-    found = equivalent(on("offset-power-law", {"E0": 2e9, "c0": 1e-8, "k": 0.4, "z_s": 1e-12, "nu": 0.3}))
-    assert found["c0"] == 1e-8
-    assert found["k"] == found["free_k"] == pytest.approx(0.4, abs=3e-3)
-    assert found["E0"] == pytest.approx(2e9, rel=3e-3)
-    assert abs(found["pull_off_force"]["error"]) < 3e-4
-    assert found["compliance_deviation"] < 2e-3
+    law = equivalent(on("offset-power-law", {"E0": 2e9, "c0": 1e-8, "k": 0.4, "z_s": 1e-12, "nu": 0.3}))
+    assert law["c0"] == 1e-8
+    assert law["k"] == law["free_k"] == pytest.approx(0.4, abs=3e-3)
+    assert law["E0"] == pytest.approx(2e9, rel=3e-3)
+    assert abs(law["pull_off_force"]["error"]) < 3e-4
+    assert law["compliance_deviation"] < 2e-3
 
 
 @pytest.mark.heavy
 def test_a_thick_coating_is_a_homogeneous_solid():
     coating = {"E_coating": 1e9, "E_substrate": 10e9, "thickness": 1e-5, "transition": 0.0, "nu": 0.3}
-    found = equivalent(on("coating", coating))
-    assert found["k"] == pytest.approx(0.0, abs=2e-3)
-    assert found["E0"] == pytest.approx(1e9, rel=2e-3)
-    assert abs(found["pull_off_force"]["error"]) < 1e-3
+    law = equivalent(on("coating", coating))
+    assert law["k"] == pytest.approx(0.0, abs=2e-3)
+    assert law["E0"] == pytest.approx(1e9, rel=2e-3)
+    assert abs(law["pull_off_force"]["error"]) < 1e-3
 
 
 def test_a_fit_beyond_the_largest_exponent_stops_there():
@@ -79,47 +79,47 @@ def test_a_fit_beyond_the_largest_exponent_stops_there():
 def test_the_error_is_that_of_both_solids_in_the_solver():
     """Both problems are posed anew, from the numbers that are reported."""
     problem = load_problem(COATED)
-    found = equivalent(problem)
-    solid = fscm.PowerLaw(*(found[name] for name in ("E0", "c0", "k", "nu")))
+    law = equivalent(problem)
+    solid = fscm.PowerLaw(*(law[name] for name in ("E0", "c0", "k", "nu")))
     punch, law = fscm.PowerPunch(2, 1e-7), fscm.LennardJones(0.05, 4e-10)
     similar = fscm.Problem(solid, punch, law)
     coated = fscm.Problem(fscm.Coating(1e9, 10e9, 20e-9, 2e-9, 0.3), punch, law)
     loads = [fscm.solve(posed, "pull_off_force").value for posed in (similar, coated)]
-    of_law = found["pull_off_force"]
+    of_law = law["pull_off_force"]
     assert abs(loads[0] / loads[1] - 1.0 - of_law["error"]) <= of_law["error_u_num"] < 1e-5
 
 
 def test_closed_forms_have_the_power_law_and_their_error_is_that_against_the_solid_itself():
     problem = load_problem(COATED)
-    found = equivalent(problem)
+    law = equivalent(problem)
     force = evaluate("fscm", "pull_off_force", problem)
-    errors = {one["model"]: one for one in found["closed_forms"]}
+    errors = {row["model"]: row for row in law["closed_forms"]}
     # Forces that need no model: of rigid spheres 2 pi R w for every solid, and of soft ones (3 + k)/2 pi R w.
     pull = math.pi * 1e-7 * 0.05
-    for model, factor in (("bradley", 2.0), ("jkr", (3.0 + found["k"]) / 2.0)):
+    for model, factor in (("bradley", 2.0), ("jkr", (3.0 + law["k"]) / 2.0)):
         assert abs(factor * pull / force.value - 1.0 - errors[model]["error"]) <= errors[model]["u_num"] < 1e-7
-    sizes = [abs(one["error"]) for one in found["closed_forms"]]
+    sizes = [abs(row["error"]) for row in law["closed_forms"]]
     assert sizes == sorted(sizes)
     assert not {"fscm", "fem", "atlas"} & set(errors)
 
 
 def test_a_closed_form_has_the_value_of_the_equivalent_and_the_error_of_the_fit(monkeypatch):
     problem = load_problem(COATED)
-    found = evaluate("jkr", "pull_off_force", problem)
+    law = evaluate("jkr", "pull_off_force", problem)
     monkeypatch.setattr(elastic_energy, "_POINTS", 4 * elastic_energy._POINTS)
     fine, _ = equivalent_solids.__wrapped__(problem)
     force = (3.0 + fine.solid["k"]) / 2.0 * math.pi * 1e-7 * 0.05
-    assert abs(found.value - force) < found.u_num < 2e-3 * force
-    assert "equivalent power law" in found.reason
+    assert abs(law.value - force) < law.u_num < 2e-3 * force
+    assert "equivalent power law" in law.reason
     # A model that solves the equations of a power law is no reference for another solid.
     assert evaluate("atlas", "pull_off_force", problem).status == "not-applicable"
 
 
 def test_a_solid_that_no_power_law_stands_for():
     coating = {"E_coating": 1e10, "E_substrate": 1e7, "thickness": 10e-9, "transition": 0.0, "nu": 0.3}
-    found = evaluate("jkr", "pull_off_force", on("coating", coating))
-    assert (found.status, found.value) == ("not-applicable", None)
-    assert "no power law stands for" in found.reason
+    law = evaluate("jkr", "pull_off_force", on("coating", coating))
+    assert (law.status, law.value) == ("not-applicable", None)
+    assert "no power law stands for" in law.reason
 
 
 def test_the_energy_is_the_work_of_the_pressure():

@@ -25,22 +25,22 @@ def described(capsys, path, *options):
 
 
 def test_a_power_law_has_errors_of_closed_forms(capsys):
-    found = json.loads(described(capsys, EXAMPLES / "graded_pad.toml", "--format", "json"))
+    content = json.loads(described(capsys, EXAMPLES / "graded_pad.toml", "--format", "json"))
     solid, law = fscm.PowerLaw(2e9, 1e-6, 0.4, 0.3), fscm.LennardJones(0.05, 4e-10)
     pad = fscm.Problem(solid, fscm.PowerPunch(2.0, 2.5e-6), law)
-    assert math.isclose(found["tabor_number"], pad.mu, rel_tol=1e-12)
-    assert found["pull_off_force"]["model"] == "atlas"
+    assert math.isclose(content["tabor_number"], pad.mu, rel_tol=1e-12)
+    assert content["pull_off_force"]["model"] == "atlas"
     # The value of both references: 670.023314 nN.
-    assert math.isclose(found["pull_off_force"]["value"], 6.70023314e-7, rel_tol=1e-6)
-    errors = {row["model"]: row["error"] for row in found["errors"]}
-    force = found["pull_off_force"]["value"]
+    assert math.isclose(content["pull_off_force"]["value"], 6.70023314e-7, rel_tol=1e-6)
+    errors = {row["model"]: row["error"] for row in content["errors"]}
+    force = content["pull_off_force"]["value"]
     assert math.isclose(errors["jkr"], 1.7 * math.pi * 2.5e-6 * 0.05 / force - 1, rel_tol=1e-9)
     assert [abs(error) for error in errors.values()] == sorted(abs(error) for error in errors.values())
     assert not set(errors) & set(REFERENCES)
     # JKR is 0.4 % off, and simpler.
     assert abs(errors["md-improved"]) < abs(errors["jkr"]) < 0.01
-    assert found["recommended"] == {"1 %": "jkr", "5 %": "jkr"}
-    assert "JKR" in found["regime"]
+    assert content["recommended"] == {"1 %": "jkr", "5 %": "jkr"}
+    assert "JKR" in content["regime"]
 
 
 @pytest.mark.parametrize(

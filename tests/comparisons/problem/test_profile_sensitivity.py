@@ -53,18 +53,18 @@ def force(problem):
 def test_the_changes_are_those_of_other_files(written, capsys):
     path = written('smoothing = "0.05 nm"').path
     assert main(["describe", str(path), "--format", "json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    changes = found["profile_sensitivity"]
-    assert [(each["key"], each["value"]) for each in changes] == [
+    content = json.loads(capsys.readouterr().out)
+    changes = content["profile_sensitivity"]
+    assert [(change["key"], change["value"]) for change in changes] == [
         ("smoothing", pytest.approx(2.5e-11)),
         ("smoothing", pytest.approx(1e-10)),
         ("growth", 1.5),
         ("growth", 3.0),
     ]
-    others = ['smoothing = "0.025 nm"', 'smoothing = "0.05 nm"\ngrowth = 3']
-    for keys, change in zip(others, (changes[0], changes[3]), strict=True):
-        other = force(written(keys))
-        expected = other.value / found["pull_off_force"]["value"] - 1.0
+    changed_keys = ['smoothing = "0.025 nm"', 'smoothing = "0.05 nm"\ngrowth = 3']
+    for keys, change in zip(changed_keys, (changes[0], changes[3]), strict=True):
+        with_keys = force(written(keys))
+        expected = with_keys.value / content["pull_off_force"]["value"] - 1.0
         assert abs(change["change"] - expected) <= change["u_num"] + 1e-12
     # More attraction far away with a profile that is lower there.
     assert changes[2]["change"] > 0.0 > changes[3]["change"]
@@ -83,7 +83,7 @@ def counted(problem, monkeypatch, failing=None):
 
 
 def test_a_failure_is_stated(written, monkeypatch):
-    found = counted(written('smoothing = "0.05 nm"'), monkeypatch, failing=3.0)
-    assert [each["status"] for each in found] == ["ok", "ok", "ok", "failed"]
-    assert profile_lines(found)[-1] == "    growth 3: failed: not admissible"
-    assert found[-1]["change"] is None
+    content = counted(written('smoothing = "0.05 nm"'), monkeypatch, failing=3.0)
+    assert [change["status"] for change in content] == ["ok", "ok", "ok", "failed"]
+    assert profile_lines(content)[-1] == "    growth 3: failed: not admissible"
+    assert content[-1]["change"] is None
