@@ -76,7 +76,7 @@ def test_every_name_of_the_reference_has_a_text(api, reference):
     """A docstring; for data the comment before them or the title of a figure, but not the name of their type."""
     text = "\n".join(reference.values())
     data = [name.rpartition(".") for name in re.findall(r"^\.\. py:data:: (\S+)$", text, re.M)]
-    assert len(data) >= 200
+    assert len(data) >= 100
     silent = [f"{module}.{name}" for module, _, name in data if not api.comment(module, name)]
     documented_objects = [
         name.rpartition(".") for name in re.findall(r"^\.\. auto(?:class|function):: (\S+)$", text, re.M)

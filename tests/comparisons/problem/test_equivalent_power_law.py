@@ -79,13 +79,13 @@ def test_a_fit_beyond_the_largest_exponent_stops_there():
 def test_the_error_is_that_of_both_solids_in_the_solver():
     """Both problems are posed anew, from the numbers that are reported."""
     problem = load_problem(COATED)
-    law = equivalent(problem)
-    solid = fscm.PowerLaw(*(law[name] for name in ("E0", "c0", "k", "nu")))
+    power_law = equivalent(problem)
+    solid = fscm.PowerLaw(*(power_law[name] for name in ("E0", "c0", "k", "nu")))
     punch, law = fscm.PowerPunch(2, 1e-7), fscm.LennardJones(0.05, 4e-10)
     similar = fscm.Problem(solid, punch, law)
     coated = fscm.Problem(fscm.Coating(1e9, 10e9, 20e-9, 2e-9, 0.3), punch, law)
     loads = [fscm.solve(posed, "pull_off_force").value for posed in (similar, coated)]
-    of_law = law["pull_off_force"]
+    of_law = power_law["pull_off_force"]
     assert abs(loads[0] / loads[1] - 1.0 - of_law["error"]) <= of_law["error_u_num"] < 1e-5
 
 
