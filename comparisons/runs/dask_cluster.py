@@ -126,13 +126,7 @@ def _in_worker(function: Callable[[Item], Output], item: Item) -> Output:
 
 @lru_cache(maxsize=1)
 def _prepare() -> None:
-    """Limit the linear algebra of a worker to one thread, and refuse a worker that computes two items at once.
-
-    Raises
-    ------
-    ValueError
-        If the worker has more than one thread.
-    """
+    """Limit the linear algebra of a worker to one thread; `ValueError` if it computes two items at once."""
     from distributed import get_worker
 
     worker = get_worker()

@@ -61,15 +61,15 @@ class Row:
     problem: str
     digest: str
     parameters: Mapping[str, float | str]
-    value: float | None
-    u_num: float | None
     unit: str
     status: str
-    reason: str
-    size: int | None
-    iterations: int | None
-    residual: float | None
-    seconds: float
+    reason: str = ""
+    value: float | None = None
+    u_num: float | None = None
+    size: int | None = None
+    iterations: int | None = None
+    residual: float | None = None
+    seconds: float = 0.0
     observed_order: float | None = None
     points: tuple[list[float], list[float], float] | None = None
     dimensionless_value: float | None = None

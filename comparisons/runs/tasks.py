@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from itertools import groupby
 from traceback import extract_tb
 from typing import Any
@@ -136,55 +136,44 @@ def evaluate(model: str | Model, quantity: str, problem: Problem) -> Row:
         # Some need Poisson's ratio.
         model = create(model, problem.nu)
     started = time.perf_counter()
-    status, reason, result = "ok", "", None
     try:
-        result = evaluated(problem, model, quantity)
+        outcome = {"status": "ok"} | _fields(problem, quantity, evaluated(problem, model, quantity))
     except NotApplicable as refusal:
-        status, reason = "not-applicable", str(refusal)
+        outcome = {"status": "not-applicable", "reason": str(refusal)}
     except ComputationFailed as failure:
-        status, reason = "failed", str(failure)
+        outcome = {"status": "failed", "reason": str(failure)}
     except ValueError:
         raise
     except Exception as error:
         # A defect of the model: its row names the function, and the other models are computed.
         function = extract_tb(error.__traceback__)[-1].name
-        status, reason = "failed", f"{type(error).__name__} in {function}: {error}"
-    return _row(model, quantity, problem, started, status=status, reason=reason, result=result)
+        outcome = {"status": "failed", "reason": f"{type(error).__name__} in {function}: {error}"}
+    return _row(model, quantity, problem, started, **outcome)
 
 
-def _row(
-    model: Model | ExternalIdentity,
-    quantity: str,
-    problem: Problem,
-    started: float,
-    *,
-    status: str,
-    reason: str = "",
-    result: Result | Points | None = None,
-) -> Row:
-    points = result if isinstance(result, Points) else None
-    number = result if isinstance(result, Result) else None
-    scaled = dimensionless_result(problem, quantity, number) if number else None
-    return Row(
-        model=model.name,
-        model_version=model.version,
-        quantity=quantity,
-        problem=problem.name,
-        digest=problem.digest,
-        parameters=dict(problem.parameters),
-        value=number.value if number else None,
-        u_num=number.u_num if number else None,
-        unit=unit_of(problem, quantity),
-        status=status,
-        reason=number.reason if number else reason,
-        size=number.size if number else None,
-        iterations=number.iterations if number else None,
-        residual=number.residual if number else None,
-        seconds=(number and number.seconds) or time.perf_counter() - started,
-        observed_order=number.observed_order if number else None,
-        points=(points.x, points.y, points.u_distance) if points else None,
-        **(dict(zip(DIMENSIONLESS, scaled, strict=True)) if scaled else {}),  # type: ignore[arg-type]
-    )
+def _fields(problem: Problem, quantity: str, result: Result | Points) -> dict[str, Any]:
+    """Return the entries of a row that a result has; those of `Result` have the same names."""
+    if isinstance(result, Points):
+        return {"points": (result.x, result.y, result.u_distance)}
+    fields = asdict(result)
+    if not result.seconds:
+        del fields["seconds"]
+    scaled = dimensionless_result(problem, quantity, result)
+    return fields | (dict(zip(DIMENSIONLESS, scaled, strict=True)) if scaled else {})
+
+
+def _row(model: Model | ExternalIdentity, quantity: str, problem: Problem, started: float, **outcome: Any) -> Row:
+    """Return a row; its time is that since it was started, unless the model states one."""
+    about = {
+        "model": model.name,
+        "model_version": model.version,
+        "quantity": quantity,
+        "problem": problem.name,
+        "digest": problem.digest,
+        "parameters": dict(problem.parameters),
+        "unit": unit_of(problem, quantity),
+    }
+    return Row(**about | {"seconds": time.perf_counter() - started} | outcome)
 
 
 def evaluate_task(task: Task) -> Row:

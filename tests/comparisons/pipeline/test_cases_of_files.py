@@ -1,4 +1,4 @@
-"""Cases of problem files: computed, judged by gates, resumed, sharded and compared as cases of n, k and mu are."""
+"""Cases of problem files: computed, judged by gates, resumed and compared as cases of n, k and mu are."""
 
 import json
 import math
@@ -160,20 +160,9 @@ def test_stored_results_count_only_for_the_content_of_the_file(run, tmp_path):
     assert verdicts(tmp_path)["value"].iloc[0] == pytest.approx(2 * FORCE)
 
 
-def test_shards_of_a_sweep_are_merged_and_a_comparison_has_the_problems(run, tmp_path):
-    def command(name, *arguments):
-        return main([*arguments, "--jobs", "1", "--quiet", "--out", str(tmp_path / name)])
-
-    grid = str(tmp_path / "cases.toml")
-    assert command("whole", "sweep", grid) == 0
-    for number in ("1", "2"):
-        assert command(number, "sweep", grid, "--shard", f"{number}/2") == 0
-    folders = [str(tmp_path / number) for number in ("1", "2")]
-    assert main(["merge", *folders, "--quiet", "--out", str(tmp_path / "merged")]) == 0
-    whole, merged = ((tmp_path / name / "results.csv").read_bytes() for name in ("whole", "merged"))
-    assert whole == merged
-    assert (tmp_path / "merged" / "inputs" / "pad.toml").read_text() == PAD
-    assert command("compared", "compare", "jkr", "--grid", grid) == 0
+def test_a_comparison_has_the_problems(run, tmp_path):
+    command = ["compare", "jkr", "--grid", str(tmp_path / "cases.toml"), "--jobs", "1", "--quiet"]
+    assert main([*command, "--out", str(tmp_path / "compared")]) == 0
     table = pd.read_csv(tmp_path / "compared" / "comparison.csv")
     assert table["kappa"].to_numpy() == pytest.approx(-0.25, abs=1e-9)
     assert table["problem"].isna().sum() == 1
@@ -231,10 +220,3 @@ def test_stored_results_of_an_external_model_are_evaluated_again(run, tmp_path):
     again = record(tmp_path)["evaluated_again"]["models"]["mine"]
     assert again["same"]
     assert all(task["problem"].startswith("pad.toml; ") for task in again["tasks"])
-
-
-def test_the_card_says_why_a_model_fails(run, tmp_path):
-    (tmp_path / "cases.toml").write_text(PADS)
-    assert run("--random", "6", value="1.9") == 1
-    assert main(["report", str(tmp_path / "out")]) == 0
-    assert "its error is beyond the limits in 8 of 8 cases" in (tmp_path / "out" / "report.html").read_text()

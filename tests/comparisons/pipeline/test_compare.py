@@ -10,7 +10,6 @@ import pytest
 
 import comparisons
 from comparisons.cli.main import main
-from comparisons.judging.summary import coverage_text
 from comparisons.output.comparison import WIDTH, case_tables
 from comparisons.output.errors import comparison_table, error_summary
 from comparisons.runs.cases import load_grids
@@ -127,15 +126,6 @@ def test_the_notebook_shows_escaped_tables_with_every_digit():
     assert "&lt;script&gt;" in html
     assert html.count("<table") == 2
     assert '<data value="0.1">' in html
-
-
-def test_coverage_is_beside_the_errors():
-    table = made_up("ab").assign(status=["ok", "not-applicable", "ok", "failed", "ok", "ok"])
-    table.loc[table["status"] != "ok", "kappa"] = np.nan
-    summary = error_summary(table).set_index("model")
-    assert coverage_text(summary.loc["a"]) == "3 of 3"
-    assert coverage_text(summary.loc["b"]) == "1 of 3 (1 n/a, 1 failed)"
-    assert summary.loc["b", "cases"] == 1
 
 
 CASE = ["--n", "2", "--k", "0", "--mu", "1"]
