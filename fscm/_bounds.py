@@ -28,7 +28,7 @@ from fscm.solution import Parts
 __all__ = ["EventErrors", "bounds", "root_shift"]
 
 # Share of the error that the finer mesh may not see: measured at most 0.02 over 60 problems (n = 0.8 to 10, k = 0 to
-# 0.9, mu = 0.005 to 20, seed 712; `wide_sample` of tests/fscm/test_honesty.py), against meshes of order 18.
+# 0.9, mu = 0.005 to 20), against meshes of order 18.
 _LEFT = 0.5
 # The error of the tail is computed to first order: its square remains.
 _SECOND_ORDER = 1.1

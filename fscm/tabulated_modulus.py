@@ -17,10 +17,10 @@ __all__ = ["TabulatedModulus"]
 
 
 def _numbers(name: str, values: Sequence[float], low: float, reason: str, closed: bool) -> tuple[float, ...]:
-    found = []
+    numbers = []
     for i, value in enumerate(values):
-        found.append(real_number(f"{name}[{i}]", value, low=low, high=math.inf, reason=reason, closed_low=closed))
-    return tuple(found)
+        numbers.append(real_number(f"{name}[{i}]", value, low=low, high=math.inf, reason=reason, closed_low=closed))
+    return tuple(numbers)
 
 
 @dataclass(frozen=True, slots=True)

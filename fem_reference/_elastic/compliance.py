@@ -144,8 +144,8 @@ class FixedCompliance:
 @lru_cache(maxsize=24)
 def _unit_compliance(k: float, nu: float, spec: MeshSpec, recoverable: bool) -> tuple[Trace, Array, Array, int]:
     grid = spec.grid()
-    made = half_space_of if recoverable else assembled
-    half_space = made(PowerLawModulus(1.0, 1.0, k), nu, spec)
+    assembly = half_space_of if recoverable else assembled
+    half_space = assembly(PowerLawModulus(1.0, 1.0, k), nu, spec)
     return trace_of(grid, spec.order), *_inverse(*condensed(half_space, recoverable)), half_space.unknowns
 
 
@@ -277,9 +277,9 @@ def compliance_for(
 # The search for the width of the edge, and the mesh of it that the bounds need again; a few MB each.
 @lru_cache(maxsize=8)
 def _fixed_compliance(modulus: Any, nu: Any, spec: MeshSpec, size: float, recoverable: bool) -> FixedCompliance:
-    grid, made = spec.grid(), half_space_of if recoverable else assembled
+    grid, assembly = spec.grid(), half_space_of if recoverable else assembled
     try:
-        half_space = made(scaled_modulus(modulus, size), scaled_poisson(nu, size), spec)
+        half_space = assembly(scaled_modulus(modulus, size), scaled_poisson(nu, size), spec)
         matrix, rounding = _inverse(*condensed(half_space, recoverable))
     except NotConverged as error:
         _refuse_thin_elements(grid, size, error)

@@ -76,10 +76,10 @@ def _depth(nodes: Array, modulus: Modulus, nu: float | PoissonRatio, order: int)
     rows: list[dict[str, Array]] = []
     x, w = unit_gauss(order + EXTRA_POINTS)
     u, wu = unit_gauss(FIRST_LAYER_POINTS)
-    for part, points, weights in ((nodes[:2], u**3, 3.0 * u**2 * wu), (nodes[1:], x, w)):
+    for ends, points, weights in ((nodes[:2], u**3, 3.0 * u**2 * wu), (nodes[1:], x, w)):
         Z, slope = _along(points, order)
-        h = np.diff(part)[:, None]
-        z, stretch = graded_depth(part[:-1, None] + h * points, float(nodes[1]), modulus.surface_exponent)
+        h = np.diff(ends)[:, None]
+        z, stretch = graded_depth(ends[:-1, None] + h * points, float(nodes[1]), modulus.surface_exponent)
         measure, dZ = h * weights * stretch, slope / (h * stretch)[:, :, None]
         lame, shear = lame_parameters(modulus, nu, z)
         lame, shear = lame * measure, shear * measure
@@ -95,8 +95,8 @@ def _depth(nodes: Array, modulus: Modulus, nu: float | PoissonRatio, order: int)
                 "dZ mu Z": _integrals(dZ, shear, Z),
             }
         )
-    first, below = rows
-    return {name: np.concatenate([first[name], below[name]]) for name in first}
+    in_first_layer, below = rows
+    return {name: np.concatenate([in_first_layer[name], below[name]]) for name in below}
 
 
 #: Blocks of an element, radial or axial rows and columns, as pairs of a matrix along r and one along z.
@@ -161,9 +161,9 @@ def charted_stiffness(body: Body, dofs: Dofs, first_layer: Index) -> Iterator[tu
     along = _factors(mesh, order)
     rows = both_components(np.asarray(dofs.element_dofs)).T
     corner, sides = mesh.p[:, mesh.t].min(axis=1), np.ptp(mesh.p[:, mesh.t], axis=1)
-    others = np.setdiff1d(np.arange(mesh.nelements), first_layer)
+    deeper = np.setdiff1d(np.arange(mesh.nelements), first_layer)
     count = order + EXTRA_POINTS
-    rules = (others, gauss_product(count, count)), (first_layer, gauss_product(count, FIRST_LAYER_POINTS, 3))
+    rules = (deeper, gauss_product(count, count)), (first_layer, gauss_product(count, FIRST_LAYER_POINTS, 3))
     for elements, (X, W) in rules:
         if not elements.size:
             continue
@@ -173,9 +173,9 @@ def charted_stiffness(body: Body, dofs: Dofs, first_layer: Index) -> Iterator[tu
         det = J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0]
         N, dN = (f[:, along[0]] for f in _along(X[0], order))
         M, dM = (f[:, along[1]] for f in _along(X[1], order))
-        first, second = (g / sides[i, elements, None, None] for i, g in enumerate((dN * M, N * dM)))
-        radial = (J[1, 1] / det)[..., None] * first - (J[1, 0] / det)[..., None] * second
-        axial = (J[0, 0] / det)[..., None] * second - (J[0, 1] / det)[..., None] * first
+        along_r, along_z = (g / sides[i, elements, None, None] for i, g in enumerate((dN * M, N * dM)))
+        radial = (J[1, 1] / det)[..., None] * along_r - (J[1, 0] / det)[..., None] * along_z
+        axial = (J[0, 0] / det)[..., None] * along_z - (J[0, 1] / det)[..., None] * along_r
         measure = r * np.abs(det) * W * (sides[0] * sides[1])[elements, None]
         constants = (constant * measure for constant in lame_parameters(body.modulus, body.nu, z))
         yield elements, rows[elements], contracted(radial, axial, N * M / r[..., None], *constants)

@@ -150,17 +150,17 @@ class ImageTable:
         sums, count = np.empty((2, len(x))), _DEGREE + 1
         work = np.empty((4, count, _AT_A_TIME))
         for shortest in range(0, len(x), _AT_A_TIME):
-            last = min(shortest + _AT_A_TIME, len(x))
-            X, Y, rows = work[0, :, : last - shortest], work[1, :, : last - shortest], work[2:, :, : last - shortest]
-            _polynomials(x[shortest:last], X)
-            _polynomials(y[shortest:last], Y)
-            patches = np.searchsorted(ends, shortest, side="right"), np.searchsorted(starts, last)
+            end = min(shortest + _AT_A_TIME, len(x))
+            X, Y, rows = work[0, :, : end - shortest], work[1, :, : end - shortest], work[2:, :, : end - shortest]
+            _polynomials(x[shortest:end], X)
+            _polynomials(y[shortest:end], Y)
+            patches = np.searchsorted(ends, shortest, side="right"), np.searchsorted(starts, end)
             for patch in range(int(patches[0]), int(patches[1])):
-                columns = slice(max(int(starts[patch]), shortest) - shortest, min(int(ends[patch]), last) - shortest)
+                columns = slice(max(int(starts[patch]), shortest) - shortest, min(int(ends[patch]), end) - shortest)
                 c = self._patch(int(keys[starts[patch]]))
                 rows[..., columns] = (c.reshape(count, -1).T @ X[:, columns]).reshape(2, count, -1)
             rows *= Y
-            rows.sum(axis=1, out=sums[:, shortest:last])
+            rows.sum(axis=1, out=sums[:, shortest:end])
         results = np.empty((2, len(x)))
         results[:, order] = sums
         return results[0], results[1]
