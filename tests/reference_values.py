@@ -40,11 +40,3 @@ REFERENCE_VALUES = (
     ReferenceValue("jump_in_displacement", 5.0, 0.4, 3.0, -3.51597, 5, _ELEMENTS),
     ReferenceValue("jump_in_gap", 5.0, 0.4, 3.0, 2.07692, 5, _ELEMENTS),
 )
-
-_FSCM = "the integral equation of fscm, u_num below 1e-10"
-
-OTHER_LAWS = {
-    (12.0, 4.0): ReferenceValue("pull_off_force", 2.0, 0.4, 1.0, 1.743571075, 9, _FSCM),
-    (8.0, 2.5): ReferenceValue("pull_off_force", 2.0, 0.4, 1.0, 1.825276438, 9, _FSCM),
-}
-"""For m-n laws, by their exponents; the other values are for the 9-3 law."""

@@ -54,7 +54,7 @@ def transform(
         def rate(t, y):
             z = np.exp(low + t * (high - low)) - length
             factor = xi * (z + length) * (high - low)
-            return np.concatenate([factor * part for part in slope(*y.reshape(3, -1), E(inside(z)), ratio(inside(z)))])
+            return np.concatenate([factor * rate for rate in slope(*y.reshape(3, -1), E(inside(z)), ratio(inside(z)))])
 
         done = solve_ivp(rate, (1.0, 0.0), R.ravel(), "DOP853", rtol=1e-11, atol=1e-12, max_step=LARGEST_STEP)
         return done.y[:, -1].reshape(3, -1)
@@ -97,16 +97,16 @@ def pull_off(
     width=0.25,
     radius=16.0,
     wave=20.0,
-    first=2.0,
+    start=2.0,
 ) -> PullOff:
     """Pull-off of a punch f(r) with the 9-3 law, work of adhesion and z0 both 1: first minimum of the load.
 
     `nearest`: radius within which panels have the given `width`; `radius`: where they end; `wave`: largest xi, to which
-    the panels resolve a wave; `first`: central gap where the search begins.
+    the panels resolve a wave; `start`: central gap where the search begins.
     """
-    near = np.linspace(0, nearest, round(nearest / width) + 1)
+    inner = np.linspace(0, nearest, round(nearest / width) + 1)
     far = np.linspace(nearest, radius, max(1, round((radius - nearest) * wave / 25)) + 1)
-    ends = np.concatenate([near, far[1:]])
+    ends = np.concatenate([inner, far[1:]])
     r, weight = _gauss(ends)
     ratio = nu if callable(nu) else lambda z: nu + 0.0 * z
     modulus = 2 * (1 - float(ratio(np.array(0.0))) ** 2) / float(E(np.array(0.0)))
@@ -143,24 +143,24 @@ def pull_off(
         far_load, _, load_slope, _ = tail(delta, ring @ p)
         return H, delta, ring @ p + far_load, ring @ (slope * rate[:-1]) + load_slope * rate[-1], rate
 
-    known = {first: solve(first, height(r) + first, -first)}
+    states = {start: solve(start, height(r) + start, -start)}
 
     def load_rate(gap: float) -> float:
-        near = min(known, key=lambda g: abs(g - gap))
-        H, delta, _, _, rate = known[near]
-        known[gap] = solve(gap, H + (gap - near) * rate[:-1], delta + (gap - near) * rate[-1])
-        return known[gap][3]
+        before = min(states, key=lambda g: abs(g - gap))
+        H, delta, _, _, rate = states[before]
+        states[gap] = solve(gap, H + (gap - before) * rate[:-1], delta + (gap - before) * rate[-1])
+        return states[gap][3]
 
-    gap = first
+    gap = start
     step = 0.2
-    while known[gap][3] > 0:
+    while states[gap][3] > 0:
         try:
             load_rate(gap - step)
             above, gap = gap, gap - step
         except RuntimeError:
             step /= 2
     root = brentq(load_rate, gap, above, xtol=1e-11)
-    _, delta, load, _, _ = known[root]
+    _, delta, load, _, _ = states[root]
     return PullOff(-load, delta)
 
 

@@ -37,7 +37,7 @@ Parameters = tuple[float, float, float, float]
 def problems(count: int = COUNT) -> list[Parameters]:
     """n in [1, 10], k in [0, 0.9], mu in [0.05, 10] with their limits: a cone, a homogeneous solid, a weak gradient."""
     rng = np.random.default_rng(SEED)
-    found = []
+    parameters = []
     for i in range(count):
         n = 10 ** rng.uniform(0.0, 1.0)
         k = rng.uniform(0.0, 0.9)
@@ -49,8 +49,8 @@ def problems(count: int = COUNT) -> list[Parameters]:
             k = 0.0
         if i % 7 == 1:
             k = rng.uniform(0.0, 0.1)
-        found.append((float(n), float(k), float(mu), float(nu)))
-    return found
+        parameters.append((float(n), float(k), float(mu), float(nu)))
+    return parameters
 
 
 def rows(number: int, accuracy: str = "quick") -> list[dict[str, object]]:
@@ -60,7 +60,7 @@ def rows(number: int, accuracy: str = "quick") -> list[dict[str, object]]:
     problem = problem_with(k, mu, n, nu)
     head = {"seed": SEED, "number": number, **dict(zip(("n", "k", "mu", "nu"), parameters, strict=True))}
     try:
-        found = solve_together(problem, NAMES, accuracy)
+        solutions = solve_together(problem, NAMES, accuracy)
     except NotConverged:
         return [{**head, "quantity": name, "status": "NotConverged"} for name in NAMES]
     choice, spec, size = chosen(problem, ("zero_load",), accuracy, events_on_meshes)
@@ -74,7 +74,7 @@ def rows(number: int, accuracy: str = "quick") -> list[dict[str, object]]:
     )
     reference = ResolvedEvents(events_on_meshes(choice, spec, size).fine, choice.contact(finer, size))
     table: list[dict[str, object]] = []
-    for name, solution in found.items():
+    for name, solution in solutions.items():
         row = {**head, "quantity": name, "status": type(solution).__name__}
         if isinstance(solution, Solution):
             error = abs(QUANTITIES[name].functional(reference) - solution.value)
@@ -89,7 +89,7 @@ def ratio(row: dict[str, object]) -> float:
     return u_num / max(error, ROUNDING * (1.0 + abs(value)))
 
 
-def stored() -> list[dict[str, str]]:
+def stored() -> list[dict]:
     """Rows of the table."""
     if not TABLE.exists():
         return []
@@ -99,17 +99,15 @@ def stored() -> list[dict[str, str]]:
 
 def main(numbers: Iterable[int]) -> None:
     """Compute the problems that the table lacks."""
-    known = {int(row["number"]) for row in stored()}
+    table = stored()
     for number in numbers:
-        if number in known:
-            continue
-        found = rows(number)
-        old = stored()
-        with TABLE.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            # The sort is stable: quantities keep their order.
-            writer.writerows(sorted([*old, *found], key=lambda row: int(str(row["number"]))))
+        if str(number) not in {row["number"] for row in table}:
+            table += rows(number)
+            with TABLE.open("w", encoding="utf-8", newline="") as file:
+                writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+                writer.writeheader()
+                # The sort is stable: quantities keep their order.
+                writer.writerows(sorted(table, key=lambda row: int(str(row["number"]))))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy import special
 
-from fem_reference import Interface, LennardJones, PowerPunch, Problem, solve, solve_together
+from fem_reference import Interface, LennardJones, PowerPunch, Problem, solve_together
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.mesh_lengths import EXTERIOR_ERROR, mesh_spec
 from fem_reference._elastic.compliance import compliance_for
@@ -57,9 +57,9 @@ def _power(n):
 
 
 def test_hankel_transforms_of_a_homogeneous_solid():
-    known = next(v for v in REFERENCE_VALUES if (v.n, v.k, v.mu, v.quantity) == (2, 0, 1, FORCE))
-    found = pull_off(lambda z: 1.0 + 0.0 * z, 0.0, _power(2))
-    assert found.force == pytest.approx(math.pi * known.value, abs=HANKEL_ERROR)
+    row = next(v for v in REFERENCE_VALUES if (v.n, v.k, v.mu, v.quantity) == (2, 0, 1, FORCE))
+    reference = pull_off(lambda z: 1.0 + 0.0 * z, 0.0, _power(2))
+    assert reference.force == pytest.approx(math.pi * row.value, abs=HANKEL_ERROR)
 
 
 def test_hankel_transform_of_a_layer():
@@ -101,31 +101,10 @@ def test_pull_off_of_a_coating_on_the_coarsest_mesh():
 def test_pull_off_of_coatings(modulus, n, options):
     """Force and displacement within the bound, which is small (measured difference: 1.3e-8 relative at most)."""
     reference = pull_off(modulus, NU, _power(n), **options)
-    found = solve_together(_problem(modulus, n), (FORCE, DISPLACEMENT), "quick")
+    solutions = solve_together(_problem(modulus, n), (FORCE, DISPLACEMENT), "quick")
     for name, exact in ((FORCE, reference.force), (DISPLACEMENT, reference.displacement)):
-        assert abs(found[name].value - exact) <= found[name].u_num + HANKEL_ERROR
-        assert abs(found[name].value - exact) <= 1e-6
-        assert found[name].u_num <= 1e-5
-
-
-@pytest.mark.heavy
-def test_displacement_does_not_depend_on_the_extent():
-    """It moved by 5e-5, because the skin was left out of the solid beyond the mesh."""
-    choice, spec, size = chosen(_problem(EXPONENTIAL, 5.0), ("pull_off",), "quick")
-    near, far = (
-        choice.traced(replace(spec, extent=scale * spec.extent), size).at("pull_off").state for scale in (1, 8)
-    )
-    assert abs(far.displacement - near.displacement) <= 3e-7
-    assert far.load == pytest.approx(near.load, rel=1e-7)
-
-
-@pytest.mark.heavy
-def test_an_undeclared_interface_is_found():
-    """The lines of the mesh alone are compared in `test_jumps_of_a_callable`."""
-    undeclared = CustomModulus(STIFF, 0.0, 0.0, surface_depth=1.0)
-    declared = solve(_problem(STIFF), FORCE, "quick")
-    found = solve(_problem(undeclared), FORCE, "quick")
-    assert found.value == pytest.approx(declared.value, rel=1e-12)
+        assert abs(solutions[name].value - exact) <= min(1e-6, solutions[name].u_num + HANKEL_ERROR)
+        assert solutions[name].u_num <= 1e-5
 
 
 def test_displacement_of_a_table_that_falls_to_a_small_modulus():
@@ -167,12 +146,6 @@ def test_layers_and_kinks():
     assert depth_scales(OffsetPowerLawModulus(1.0, 1.0, 0.7, 1.0), 1e-3, 1e6) == DepthScales()
 
 
-def test_a_cubic_that_falls_to_a_small_modulus_has_short_parts():
-    """E is a polynomial there, and 1/E is none; where E rises from 1 to 3 one part is enough."""
-    assert depth_scales(FALLING, 1e-2, 1e2).parts[:2] == ((0.0, 0.5), (0.5, 1.0))
-    assert depth_scales(FALLING, 1e-2, 1e2).parts[-1] == pytest.approx((2.5737, 3.0), rel=1e-4)
-
-
 def test_nodes_follow_the_scales():
     """A node at a line, elements no longer than a short part, and the nodes of a plain mesh without any."""
     plain = graded_grid()
@@ -189,31 +162,15 @@ def test_nodes_follow_the_scales():
 
 def test_error_of_the_exterior():
     """Falls with the square of the extent, and is what the displacement moves by."""
-    first, second = (exterior_error(EXPONENTIAL, extent) for extent in (256.0, 1024.0))
-    assert first / second == pytest.approx(16.0, rel=1e-3)
-    assert first > 5e-5
+    short, long = (exterior_error(EXPONENTIAL, extent) for extent in (256.0, 1024.0))
+    assert short / long == pytest.approx(16.0, rel=1e-3)
+    assert short > 5e-5
     _, spec, size = chosen(_problem(EXPONENTIAL, 5.0), ("pull_off",), "quick")
     assert exterior_error(CustomModulus(lambda z: _exponential(size * z), 0.0, 0.0, 1.0), spec.extent) <= EXTERIOR_ERROR
 
 
-@pytest.mark.parametrize(
-    "modulus",
-    [
-        EXPONENTIAL,
-        STIFF,
-        OffsetPowerLawModulus(1.0, 1.0, 0.7, 1e-3),
-        CustomModulus(lambda z: 1.0 + 10.0 * z**0.2, 0.0, 0.2, surface_depth=1e-5),
-        CustomModulus(lambda z: 1.0 + 9.0 / np.cosh(z) ** 2, 0.0, 0.0, surface_depth=1.0),
-        CustomModulus(lambda z: z**0.3 / (1.0 + z**0.3), 0.3, 0.0, surface_depth=1.0),
-    ],
-)
-def test_moduli_with_the_exponents_that_they_declare(modulus):
-    assert ProfileSolid(modulus, NU).modulus is modulus
-
-
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
+def test_impossible_moduli_are_refused():
+    for make, message in (
         (lambda: CustomModulus(np.sqrt, 0.0, 0.5, 1.0), r"surface exponent 0 is declared, but E\(z\) rises as z\^0.5"),
         (lambda: CustomModulus(np.sqrt, 0.5, 0.0, 1.0), r"depth exponent 0 is declared, but E\(z\) rises as z\^0.5"),
         (lambda: CustomModulus(lambda z: 1 - z, 0.0, 0.0, 1.0), "outside .0, infinity.: it must be positive"),
@@ -223,11 +180,9 @@ def test_moduli_with_the_exponents_that_they_declare(modulus):
         (lambda: Interface(1.0, math.nan), "transition = nan"),
         (lambda: CoatingModulus(1.0, 0.0, 1.0), "E_substrate = 0.0 is outside"),
         (lambda: CoatingModulus(1.0, 2.0, 1.0, -0.5), "transition = -0.5 is outside"),
-    ],
-)
-def test_impossible_moduli_are_refused(make, message):
-    with pytest.raises(ValueError, match=message):
-        ProfileSolid(make(), NU)
+    ):
+        with pytest.raises(ValueError, match=message):
+            ProfileSolid(make(), NU)
 
 
 def test_noise_is_refused():

@@ -14,26 +14,11 @@ from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import uniform_grid
 from fem_reference.coating import CoatingModulus
 from fem_reference.depth_profiles import ExponentialModulus, TableModulus, TablePoisson
-from fem_reference.modulus import Modulus, PowerLawModulus
+from fem_reference.modulus import PowerLawModulus
 from fem_reference.poisson import CoatingPoisson, CustomPoisson
 from tests.fem_reference.profile_solid import ProfileSolid
 
 STEPS = TableModulus((0.0, 1.0, 1.5, 4.0), (1.0, 1.1, 3.0, 3.0))
-
-
-@pytest.mark.parametrize(
-    "modulus",
-    [
-        ExponentialModulus(1.0, 10.0, 0.5),
-        STEPS,
-        CoatingModulus(10.0, 1.0, thickness=1.0, transition=2.0),
-        TableModulus((2.0, 3.0), (5.0, 4.0)),
-    ],
-)
-def test_moduli_have_the_exponents_that_they_declare(modulus):
-    assert isinstance(modulus, Modulus)
-    assert ProfileSolid(modulus, 0.3).modulus is modulus
-    assert hash(modulus) == hash(modulus)
 
 
 def test_a_table_is_monotone_and_constant_beyond_its_ends():
@@ -85,9 +70,9 @@ def test_error_of_the_exterior_has_poissons_ratio():
     """Zero without a change; that of a skin falls with the square of the extent."""
     E = PowerLawModulus(1.0, 1.0, 0.0)
     assert exterior_error(E, 64.0, CustomPoisson(lambda z: 0.3 + 0.0 * z)) == 0.0
-    near, far = (exterior_error(E, extent, CoatingPoisson(0.1, 0.4, 1.0)) for extent in (256.0, 1024.0))
-    assert near / far == pytest.approx(16.0, rel=1e-2)
-    assert near > 1e-7
+    short, long = (exterior_error(E, extent, CoatingPoisson(0.1, 0.4, 1.0)) for extent in (256.0, 1024.0))
+    assert short / long == pytest.approx(16.0, rel=1e-2)
+    assert short > 1e-7
 
 
 def test_stiffness_of_two_layers_is_that_of_both():
@@ -106,9 +91,8 @@ def test_stiffness_of_two_layers_is_that_of_both():
         assert abs(layered[rows] - matrix[rows]).max() <= 1e-14
 
 
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
+def test_impossible_solids_are_refused():
+    for make, message in (
         (lambda: ExponentialModulus(1.0, -1.0, 1.0), "E_depth = -1.0"),
         (lambda: ExponentialModulus(1.0, 1.0, math.nan), "length = nan"),
         (lambda: TableModulus((0.0,), (1.0,)), "2 depths or more"),
@@ -119,14 +103,9 @@ def test_stiffness_of_two_layers_is_that_of_both():
         (lambda: TableModulus("ab", (1.0, 2.0)), "not two columns of numbers"),
         (lambda: TablePoisson((0.0, 1.0), (0.3, 0.5)), r"nu = 0.5 is outside \[0, 0.5\)"),
         (lambda: CoatingPoisson(-0.1, 0.3, 1.0), r"nu = -0.1 is outside"),
-        (lambda: CoatingPoisson(0.1, 0.3, 0.0), "depth of an interface = 0.0"),
-        (lambda: CoatingModulus(1.0, 2.0, 1.0, -1.0), "transition = -1.0"),
         (lambda: PowerLaw(1.0, 1.0, 0.0, CoatingPoisson(0.1, 0.3, 1.0)), "take CustomSolid"),
-        (lambda: PowerLaw(1.0, 1.0, 0.0, 0.5), r"nu = 0.5 is outside \[0, 0.5\)"),
         (lambda: ProfileSolid(STEPS, CustomPoisson(lambda z: 0.3 + z)), "at the depth"),
         (lambda: ProfileSolid(STEPS, CustomPoisson(lambda z: 0.3)), "must have that of z"),
-    ],
-)
-def test_impossible_solids_are_refused(make, message):
-    with pytest.raises(ValueError, match=message):
-        make()
+    ):
+        with pytest.raises(ValueError, match=message):
+            make()

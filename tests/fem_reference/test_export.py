@@ -28,15 +28,15 @@ def state():
 def test_stress_at_the_surface_is_the_traction(state):
     point, field = state
     contact, y = point.branch.contact, point.state.y
-    near = np.flatnonzero((field.points[:, 1] < 1e-9) & (field.points[:, 0] < 5 * y[-1]))
-    r = field.points[near, 0]
+    top = np.flatnonzero((field.points[:, 1] < 1e-9) & (field.points[:, 0] < 5 * y[-1]))
+    r = field.points[top, 0]
     trace = contact.compliance.trace
     w = trace.evaluate(r / y[-1]) @ y[:-2]
     pressure = contact.law.traction(-y[-2] + contact.punch.height(r) + w)
     # Derivatives of the displacement lose one order: measured 2e-3 on this mesh.
-    assert np.abs(field.stress[near, 2] + pressure).max() <= 5e-3
-    assert np.abs(field.stress[near, 3]).max() <= 1e-2
-    assert field.displacement[near, 1] == pytest.approx(w, abs=1e-5)
+    assert np.abs(field.stress[top, 2] + pressure).max() <= 5e-3
+    assert np.abs(field.stress[top, 3]).max() <= 1e-2
+    assert field.displacement[top, 1] == pytest.approx(w, abs=1e-5)
 
 
 def test_gap_and_pressure_are_those_of_the_surface(state):

@@ -169,10 +169,10 @@ def test_the_loss_on_meshes_of_their_own_has_every_jump(name, monkeypatch):
     solid = ProfileSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1)
     problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     row = TABLE["hysteresis_energy"]
-    found = solution_module._summed(problem, {"hysteresis_energy": row}, "default")["hysteresis_energy"]
+    loss = solution_module._summed(problem, {"hysteresis_energy": row}, "default")["hysteresis_energy"]
     assert requested[:2] == list(LOSSES)
-    assert found.value == pytest.approx(row.functional(events))
-    assert found.u_num == pytest.approx(1e-8 * len(requested))
+    assert loss.value == pytest.approx(row.functional(events))
+    assert loss.u_num == pytest.approx(1e-8 * len(requested))
     # A further jump has two parts.
     assert len(requested) == 2 * len(events.jumps) - 2
 
@@ -182,6 +182,6 @@ def test_the_hysteresis_on_a_stiff_film_has_three_jumps():
     """A film of 1 GPa on 1.5 MPa: the innermost fold is at -122.3 nm, and the jump out of contact at -135.4 nm."""
     film = Coating(E_coating=1e9, E_substrate=1.5e6, thickness=1e-7, transition=0.0, nu_coating=0.4, nu_substrate=0.49)
     problem = Problem(film, PowerPunch(2.0, 5e-6), LennardJones(0.05, 4e-10))
-    found = solve_together(problem, ("hysteresis_energy", *LOSSES), "quick")
-    further = found["hysteresis_energy"].value - sum(found[name].value for name in LOSSES)
+    solutions = solve_together(problem, ("hysteresis_energy", *LOSSES), "quick")
+    further = solutions["hysteresis_energy"].value - sum(solutions[name].value for name in LOSSES)
     assert further == pytest.approx(1.4542e-16, rel=1e-3)

@@ -76,16 +76,6 @@ def test_a_cycle_of_the_hierarchy_reduces_every_error(k, nu):
     assert max(left) <= REDUCTION
 
 
-def test_preconditioner_is_symmetric_and_positive(half_space):
-    preconditioner = ElasticPreconditioner(half_space)
-    rng = np.random.default_rng(1)
-    a, b = rng.normal(size=(2, half_space.free.size))
-    assert a @ preconditioner(b) == pytest.approx(
-        b @ preconditioner(a), rel=1e-9, abs=1e-9 * np.linalg.norm(a) * np.linalg.norm(b)
-    )
-    assert a @ preconditioner(a) > 0
-
-
 @pytest.mark.skipif(np.finfo(np.longdouble).eps > 1e-18, reason="this machine has no extended precision")
 def test_thin_elements_leave_no_force_by_rounding():
     """The residual is 1e-13; with sums in double precision it was 2e-11 to 5e-11 (measured)."""
@@ -112,16 +102,11 @@ def test_the_hierarchy_has_the_same_numbers_in_every_run():
     assert np.array_equal(*applied)
 
 
-def test_too_few_iterations_raise(half_space):
+def test_an_iteration_that_ends_early_raises_and_what_rounding_leaves_does_not(half_space):
     load = np.zeros(half_space.matrix.shape[0])
     load[half_space.surface[0]] = 1.0
     with pytest.raises(NotConverged, match="allow more iterations"):
         solve_cg(half_space, load, iterations=2)
-
-
-def test_what_rounding_leaves_is_no_failure(half_space):
-    load = np.zeros(half_space.matrix.shape[0])
-    load[half_space.surface[0]] = 1.0
     with pytest.raises(NotConverged, match="conjugate gradients reached a residual"):
         solve_cg(half_space, load, tolerance=1e-18, rounding=0.0)
     assert 1e-18 < solve_cg(half_space, load, tolerance=1e-18).residual <= 1e-12
@@ -136,24 +121,23 @@ def _with_elements(half_space, change):
 
 def _cut_loose(stiffness, sides, surface):
     """An unknown that nothing holds: its rows and columns are gone."""
-    element, place = np.nonzero(sides == surface[3])
-    stiffness[element, place, :] = 0.0
-    stiffness[element, :, place] = 0.0
+    element, column = np.nonzero(sides == surface[3])
+    stiffness[element, column, :] = 0.0
+    stiffness[element, :, column] = 0.0
 
 
 def _made_twins(stiffness, sides, surface):
     """Two unknowns of one edge with one equation: no diagonal entry shows that the matrix is singular."""
-    one, other = surface[-1], surface[-2]
-    element = np.flatnonzero((sides == one).any(axis=1))[0]
-    place, model = (np.flatnonzero(sides[element] == row)[0] for row in (one, other))
-    stiffness[element, place, :] = stiffness[element, model, :]
-    stiffness[element, :, place] = stiffness[element, :, model]
+    element = np.flatnonzero((sides == surface[-1]).any(axis=1))[0]
+    twin, model = (np.flatnonzero(sides[element] == row)[0] for row in (surface[-1], surface[-2]))
+    stiffness[element, twin, :] = stiffness[element, model, :]
+    stiffness[element, :, twin] = stiffness[element, :, model]
 
 
 def _made_indefinite(stiffness, sides, surface):
     """A spring that pushes: the diagonal stays positive."""
-    element, place = np.nonzero(sides == surface[3])
-    stiffness[element, place, place] *= 1e-3
+    element, column = np.nonzero(sides == surface[3])
+    stiffness[element, column, column] *= 1e-3
 
 
 @pytest.mark.filterwarnings("ignore:divide by zero")
@@ -178,30 +162,3 @@ def test_a_mesh_folded_over_is_refused():
     folded[[3, 4]] = folded[[4, 3]]
     with pytest.raises(ValueError, match="folded over"):
         Grid(folded, grid.z)
-
-
-def test_condensed_stiffness_is_the_inverse_of_the_full_one(half_space):
-    """One column of the surface compliance from the factorised whole system and from conjugate gradients."""
-    S = surface_stiffness(half_space)
-    load = np.zeros(half_space.matrix.shape[0])
-    load[half_space.surface[3]] = 1.0
-    column = np.linalg.solve(S, np.eye(S.shape[0])[3])
-    for result in (solve_direct(half_space, load), solve_cg(half_space, load, tolerance=1e-11)):
-        assert np.abs(result.solution[half_space.surface] - column).max() <= 1e-8 * np.abs(column).max()
-
-
-def test_energy_balance(half_space):
-    """Half the work of the load is the strain energy."""
-    load = np.zeros(half_space.matrix.shape[0])
-    load[half_space.surface[:5]] = 1.0
-    u = solve_direct(half_space, load).solution
-    assert u @ load == pytest.approx(u @ (half_space.matrix @ u), rel=1e-9)
-
-
-def test_exterior_scales_with_length():
-    """The exact exterior of E ~ z^k: doubling every length multiplies the surface stiffness by 2^(1+k)."""
-    k = 0.4
-    small = graded_grid(edge=1.0, edge_width=0.2, surface_depth=0.1, extent=8.0, density=1.0)
-    large = type(small)(2.0 * small.r, 2.0 * small.z)
-    S = [surface_stiffness(assemble_half_space(g, PowerLawModulus(1.0, 1.0, k), 0.3)) for g in (small, large)]
-    assert np.abs(S[1] - 2.0 ** (1 + k) * S[0]).max() <= 1e-9 * np.abs(S[1]).max()

@@ -34,13 +34,13 @@ def _own(problem, points, missed=(), monkeypatch=None):
 
 
 def test_a_quantity_whose_edge_is_not_resolved_or_that_is_missed_gets_its_own_mesh(monkeypatch):
-    own = partial(_own, GRADED, monkeypatch=monkeypatch)
-    assert own({"jump_in": True, "jump_out": False}) == [JUMP_OUT]
-    assert own({"jump_in": True, "jump_out": True}, {JUMP_OUT: NotConverged()}) == [JUMP_OUT]
+    names = partial(_own, GRADED, monkeypatch=monkeypatch)
+    assert names({"jump_in": True, "jump_out": False}) == [JUMP_OUT]
+    assert names({"jump_in": True, "jump_out": True}, {JUMP_OUT: NotConverged()}) == [JUMP_OUT]
     # The mesh of the first event is its own.
-    assert own({"jump_in": True, "jump_out": True}) == []
+    assert names({"jump_in": True, "jump_out": True}) == []
     # The mesh of the jump out of contact serves the other one, which has no contact edge.
-    assert own({"jump_in": False, "jump_out": False}) == [JUMP_OUT, JUMP_IN]
+    assert names({"jump_in": False, "jump_out": False}) == [JUMP_OUT, JUMP_IN]
 
 
 def test_one_mesh_serves_every_event_of_a_solid_that_scales(monkeypatch):

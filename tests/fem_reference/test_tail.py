@@ -65,8 +65,8 @@ def test_the_traction_behind_the_mesh_moves_the_surface_by_the_integral_of_a_hom
     problem, plain, tail, y = _contacts(0.0)
     R, E_star = plain.compliance.trace.extent * SIZE, problem.solid.E0 / (1.0 - problem.solid.nu**2)
     expected = 2.0 / E_star * _beyond(plain, lambda r: float(_traction(tail, r, R)) / (2.0 * math.pi * r))
-    found = (Contact.residual(plain, y) - tail.residual(y))[: plain.compliance.trace.nodes.size]
-    assert found == pytest.approx(np.full(found.size, expected), rel=POINT_LOAD)
+    moved = (Contact.residual(plain, y) - tail.residual(y))[: plain.compliance.trace.nodes.size]
+    assert moved == pytest.approx(np.full(moved.size, expected), rel=POINT_LOAD)
 
 
 def _traction(contact, r, R):

@@ -29,9 +29,9 @@ from fscm._panels import PanelMesh
 
 # Nodes a panel, nodes of the mesh at most, and the height of the punch where it ends.
 _ORDER, _MOST, _HEIGHT = 6, 1000, 3e3
-# Longest panel, and panels over the width of the cohesive edge: with fewer the edge is held between them and jumps from
-# one to the next (n = 2, k = 0.29, mu = 1.9: more than 24 branches with panels of 1.5 widths).
-_WIDTH, _PER_EDGE, _EDGE = 0.18, 1.0, 1.03
+# Longest panel; and the cohesive edge is (_EDGE compliance)^(-1/(1-k)) wide.  On panels that are longer than that the
+# edge is held between them and jumps from one to the next (n = 2, k = 0.29, mu = 1.9: more than 24 branches).
+_WIDTH, _EDGE = 0.18, 1.03
 # The fine panels reach this much farther than the edge at the first state.
 _BEYOND_EDGE, _MARGIN = 1.1, 2.0
 # Steps of the displacement: the first, the longest in tension and in compression, and the one at which a branch ends.
@@ -106,7 +106,6 @@ class BruteForce:
         self.area = 2.0 * mesh.weights * mesh.nodes
         self.radii = mesh.nodes
         self.height = problem.punch.height(mesh.nodes)
-        self.factorisations = 0
 
     def residual(self, H, d):
         return H + d - self.height - self.response @ self.problem.law.traction(H)
@@ -144,7 +143,6 @@ class BruteForce:
         raise RuntimeError(f"no state to relax to at delta = {d}")
 
     def _factors(self, J):
-        self.factorisations += 1
         return lu_factor(J, overwrite_a=True, check_finite=False)
 
     def _solved(self, H, d, factors):
@@ -272,7 +270,7 @@ def stable_states(problem: Problem, height: float) -> StableStates:
         When a state is not found.
     """
     displacement = 6.0 + 1.3 * height + 2.0 * problem.mu
-    width = (_EDGE * problem.compliance) ** (-1.0 / (1.0 - problem.k)) / _PER_EDGE
+    width = (_EDGE * problem.compliance) ** (-1.0 / (1.0 - problem.k))
     fine = _BEYOND_EDGE * _edge(problem, displacement) + _MARGIN
     branches = BruteForce(problem, min(width, _WIDTH), fine).branches(displacement)
     return StableStates(

@@ -1,6 +1,6 @@
 """Responses of graded solids to a ring from Taylor series of the equations with 30 digits, and the script for them.
 
-`python -m tests.fscm.graded_digits` writes `graded_digits.json` beside this file: 50 pairs of radii of four solids.
+`python -m tests.fscm.graded_digits` writes `graded_digits.json` beside this file: 50 pairs of radii of five solids.
 
 The moduli are polynomials in a variable y with dz = dy / p(y), so that the Taylor coefficients of the equations follow
 from a finite recurrence: y = z + z_s, exp(-z/l), 1/(1 + exp(2 (z - h)/w)), or z between two data points.  Numbers are
@@ -14,6 +14,7 @@ import json
 import sys
 from itertools import pairwise
 from pathlib import Path
+from typing import NamedTuple
 
 import mpmath
 import numpy as np
@@ -28,6 +29,8 @@ SOLIDS = {
     "exponential": Exponential(1.0, 10.0, 1.0, 0.25),
     "smooth coating": Coating(5.0, 1.0, 1.0, 0.25, 0.25),
     "table": TabulatedModulus([0.0, 1.0, 2.0, 5.0], [1.0, 3.0, 4.0, 10.0], 0.25),
+    # Last by its name, too, since seeds follow the names in order.
+    "two materials": Coating(1.0, 10.0, 1.0, 0.0, 0.25, 0.45),
 }
 #: Binary digits after the point, terms of a series, and the share of its radius that is a step: 3^-60 = 1e-29.
 BITS, TERMS, SHARE = 130, 60, 3
@@ -62,31 +65,42 @@ def _of(p, E, roots=()):
     return Variable(_product(p, E), E, _product(p, slope), [*roots, *np.roots(np.array(E[::-1], float)).tolist()])
 
 
-def _stretches(solid, deepest):
-    """Pieces (variable, y at the bottom, y at the top) from a depth to the surface, and that depth."""
-    one = mpf(1)
+class Piece(NamedTuple):
+    """Part of the depth: y at its bottom and at its top, Poisson's ratio, and E there over E just below."""
+
+    variable: Variable
+    bottom: mpf
+    top: mpf
+    nu: float
+    jump: float = 1.0
+
+
+def _pieces(solid, deepest):
+    """The pieces from a depth to the surface."""
+    one, nu = mpf(1), solid.nu_coating if isinstance(solid, Coating) else solid.nu
     if isinstance(solid, OffsetPowerLaw):
         k, z_s = mpf(solid.k), mpf(solid.z_s)
-        return [(Variable([mpf(0), one], [mpf(0), one], [k], [mpf(0)]), deepest + z_s, z_s)]
+        return [Piece(Variable([mpf(0), one], [mpf(0), one], [k], [mpf(0)]), deepest + z_s, z_s, nu)]
     if isinstance(solid, Exponential):
         length, below = mpf(solid.length), mpf(solid.E_depth)
         variable = _of([mpf(0), -1 / length], [below, mpf(solid.E_surface) - below], [mpf(0)])
-        return [(variable, mpmath.exp(-min(deepest, CONSTANT * length) / length), one)]
+        return [Piece(variable, mpmath.exp(-min(deepest, CONSTANT * length) / length), one, nu)]
+    if isinstance(solid, Coating) and solid.transition == 0.0:
+        uniform, h = _of([one], [one]), mpf(solid.thickness)
+        coating = Piece(uniform, min(deepest, h) - h, mpf(0) - h, nu, solid.E_coating / solid.E_substrate)
+        return [Piece(uniform, deepest, h, solid.nu_substrate), coating] if deepest > h else [coating]
     if isinstance(solid, Coating):
         h, w, below = mpf(solid.thickness), mpf(solid.transition), mpf(solid.E_substrate)
         variable = _of([mpf(0), -2 / w, 2 / w], [below, mpf(solid.E_coating) - below], [mpf(0), one])
-
-        def y(z):
-            return 1 / (1 + mpmath.exp(2 * (z - h) / w))
-
-        return [(variable, y(min(deepest, h + CONSTANT * w / 2)), y(mpf(0)))]
-    zeros = []
+        bottom, top = (1 / (1 + mpmath.exp(2 * (z - h) / w)) for z in (min(deepest, h + CONSTANT * w / 2), mpf(0)))
+        return [Piece(variable, bottom, top, nu)]
     curve = scipy.interpolate.PchipInterpolator(solid.depths, solid.moduli)
+    pieces = []
     for i, (a, b) in enumerate(pairwise(solid.depths)):
         if deepest > a:
             E = [mpf(c) for c in curve.c[::-1, i].tolist()]
-            zeros.append((_of([one], E), min(deepest, mpf(b)) - mpf(a), mpf(0)))
-    return zeros[::-1]
+            pieces.append(Piece(_of([one], E), min(deepest, mpf(b)) - mpf(a), mpf(0), nu))
+    return pieces[::-1]
 
 
 def _shifted(coefficients, y):
@@ -134,22 +148,25 @@ def _step(variable, y, h, xi, Q, constants):
 def relative_compliance(solid, xi):
     """D = xi C E*/2 of the constants of the surface, with about 25 digits."""
     with mpmath.workdps(45):
-        xi = mpf(xi)
-        nu = mpf(solid.nu_coating if isinstance(solid, Coating) else solid.nu)
-        constants = [
-            _fixed(x) for x in (nu / (1 - nu), 2 * (1 + nu), (1 + nu) * (1 - 2 * nu) / (1 - nu), 1 / (1 - nu**2))
-        ]
-        n, m = _fixed(-2 * (1 - nu**2)), _fixed((1 + nu) * (1 - 2 * nu))
-        Q = [n, m, m, n]
-        for variable, y, top in _stretches(solid, START / xi):
+        xi, Q = mpf(xi), None
+        for variable, y, top, ratio, jump in _pieces(solid, START / xi):
+            nu = mpf(ratio)
+            constants = [
+                _fixed(x) for x in (nu / (1 - nu), 2 * (1 + nu), (1 + nu) * (1 - 2 * nu) / (1 - nu), 1 / (1 - nu**2))
+            ]
+            if Q is None:  # a homogeneous solid below
+                n, m = _fixed(-2 * (1 - nu**2)), _fixed((1 + nu) * (1 - 2 * nu))
+                Q = [n, m, m, n]
+            else:
+                Q = [int(mpmath.nint(x * mpf(jump))) for x in Q]
             while y != top:
                 reach = min((abs(y - root) for root in variable.roots), default=mpf(10) ** 9) / SHARE
                 p = _shifted(variable.rate, y)[0] / _shifted(variable.factor, y)[0]
                 h = min(reach, 2 * abs(p) / xi, abs(top - y))
-                last = h == abs(top - y)
+                ends_here = h == abs(top - y)
                 h = h if top > y else -h
                 Q = _step(variable, y, h, xi, Q, constants)
-                y = top if last else y + h
+                y = top if ends_here else y + h
         return -mpmath.ldexp(mpf(Q[3]), -BITS) / (2 * (1 - nu**2))
 
 
@@ -172,18 +189,18 @@ def excess(modes, xi):
 
 def response(modes, r, t, nodes=16):
     """G(r, t): the ring of a homogeneous solid in closed form, and the integral of (D - 1) J0(xi r) J0(xi t)."""
-    last = END + 4.2 * WIDTH
+    end = END + 4.2 * WIDTH
     # Pieces of six radians at most, and no longer than half their distance from the origin.
     step = 6.0 / (r + t + 1.0)
-    high = np.linspace(2.0 * step, last, int(last / step))
+    high = np.linspace(2.0 * step, end, int(end / step))
     ends = np.concatenate([[0.0], np.geomspace(1e-12, 2.0 * step, 75), high[1:]])
     x, w = np.polynomial.legendre.leggauss(nodes)
     xi = (ends[:-1, None] + 0.5 * np.diff(ends)[:, None] * (1.0 + x)).ravel()
     weights = (0.5 * np.diff(ends)[:, None] * w).ravel()
     # D - 1 falls like c/xi: c xi/(xi^2 + 1) in closed form, and the rest with a smooth end.
-    c = float(last * excess(modes, np.array([last]))[0])
-    rest = (excess(modes, xi) - c * xi / (xi * xi + 1.0)) * 0.5 * scipy.special.erfc((xi - END) / WIDTH)
-    total = float((weights * rest) @ (scipy.special.j0(xi * r) * scipy.special.j0(xi * t)))
+    c = float(end * excess(modes, np.array([end]))[0])
+    remainder = (excess(modes, xi) - c * xi / (xi * xi + 1.0)) * 0.5 * scipy.special.erfc((xi - END) / WIDTH)
+    total = float((weights * remainder) @ (scipy.special.j0(xi * r) * scipy.special.j0(xi * t)))
     with mpmath.workdps(30):
         closed = c * mpmath.besseli(0, min(r, t)) * mpmath.besselk(0, max(r, t))
         return float(t * (1 / mpmath.agm(mpf(r) + mpf(t), abs(mpf(r) - mpf(t))) + closed + total))

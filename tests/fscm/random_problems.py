@@ -9,9 +9,7 @@ from __future__ import annotations
 
 import csv
 import math
-import multiprocessing
 import signal
-import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import FrameType
@@ -64,16 +62,16 @@ def finer(problem: Problem) -> Analysis:
 
 def _thinned(path: Iterator[Point], end: Callable[[State], bool]) -> list[Point]:
     """The points of a path next to turning points and zero load, and one of `STEPS` of the others: each takes 2 MB."""
-    kept: list[Point] = []
+    points: list[Point] = []
     before = None
     for count, point in enumerate(path):
-        if before is not None and _signs(before) != _signs(point) and kept[-1] is not before:
-            kept.append(before)
+        if before is not None and _signs(before) != _signs(point) and points[-1] is not before:
+            points.append(before)
         ended = end(point.state)
         if before is None or ended or count % STEPS == 0 or _signs(before) != _signs(point):
-            kept.append(point)
+            points.append(point)
         if ended:
-            return kept
+            return points
         before = point
     raise AssertionError("the path has no end of its own")
 
@@ -98,22 +96,18 @@ def rows_of(problem: Problem) -> Iterator[tuple[object, ...]]:
             yield *case, name, type(error).__name__, "", len(model.points), ""
 
 
-def known() -> dict[Problem, dict[str, tuple[str, float, float]]]:
+def stored_values() -> dict[Problem, dict[str, tuple[str, float, float]]]:
     """Status, value and its bound (0 where it is not stored) of each quantity of each problem in the table."""
-    found: dict[Problem, dict[str, tuple[str, float, float]]] = {}
+    values: dict[Problem, dict[str, tuple[str, float, float]]] = {}
     with TABLE.open(newline="") as file:
         for row in csv.DictReader(file):
             problem = Problem(float(row["n"]), float(row["k"]), float(row["mu"]))
             value = row["status"], float(row["value"] or math.nan), float(row["u_num"] or 0.0)
-            found.setdefault(problem, {})[row["quantity"]] = value
-    return found
+            values.setdefault(problem, {})[row["quantity"]] = value
+    return values
 
 
 def _computed(problem: Problem) -> list[tuple[object, ...]]:
-    def late(number: int, frame: FrameType | None) -> None:
-        raise TimeoutError
-
-    signal.signal(signal.SIGVTALRM, late)
     signal.setitimer(signal.ITIMER_VIRTUAL, PATIENCE)
     try:
         return list(rows_of(problem))
@@ -123,18 +117,23 @@ def _computed(problem: Problem) -> list[tuple[object, ...]]:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
 
 
-def main(workers: int = 2) -> None:
+def _late(number: int, frame: FrameType | None) -> None:
+    raise TimeoutError
+
+
+def main() -> None:
     """Compute the problems that the table lacks, and append them."""
-    done = known() if TABLE.exists() else {}
+    signal.signal(signal.SIGVTALRM, _late)
+    done = stored_values() if TABLE.exists() else {}
     with TABLE.open("a", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         if not done:
             table.writerow(COLUMNS)
-        with multiprocessing.get_context("spawn").Pool(workers) as pool:
-            for rows in pool.imap(_computed, [p for p in problems() if p not in done]):
-                table.writerows(rows)
+        for problem in problems():
+            if problem not in done:
+                table.writerows(_computed(problem))
                 file.flush()
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+    main()

@@ -7,28 +7,23 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
-from fscm import Analysis, CustomPunch, MeasuredPunch, NoSuchEvent, NotConverged, Problem
+from fscm import CustomPunch, MeasuredPunch, Problem, solve
 from fscm.punch import PunchShape
 from tests.fscm.brute_force import stable_states
 
 TABLE = Path(__file__).with_name("random_punches.csv")
 SEED = 20261122
 COUNT = 100
-KINDS = ("asperity", "ring", "waves", "flat", "measured")
 
 
-@dataclass(frozen=True)
-class RandomPunch:
-    """A problem, its number, the kind of its punch and the height of its roughness."""
+class RandomPunch(NamedTuple):
+    """A problem, and the height of the roughness of its punch."""
 
-    number: int
-    kind: str
     problem: Problem
     height: float
 
@@ -36,11 +31,10 @@ class RandomPunch:
 def random_punch(number: int) -> RandomPunch:
     """Problem of a number: every fifth is of one kind; heights of 0.5 to 15 z0, mu from 0.05 to 2, k from 0 to 0.6."""
     rng = np.random.default_rng([SEED, number])
-    kind = KINDS[number % len(KINDS)]
     mu = float(math.exp(rng.uniform(math.log(0.05), math.log(2.0))))
     k = float(rng.choice([0.0, rng.uniform(0.0, 0.6)]))
-    shape, height = _SHAPES[kind](rng)
-    return RandomPunch(number, kind, Problem(2.0, k, mu, punch=shape), height)
+    shape, height = _SHAPES[number % len(_SHAPES)](rng)
+    return RandomPunch(Problem(2.0, k, mu, punch=shape), height)
 
 
 def _height(rng: np.random.Generator) -> float:
@@ -117,48 +111,25 @@ def _measured(rng: np.random.Generator) -> tuple[PunchShape, float]:
     return MeasuredPunch(radii, heights), h
 
 
-_SHAPES = {"asperity": _asperity, "ring": _ring, "waves": _waves, "flat": _flat, "measured": _measured}
+_SHAPES = (_asperity, _ring, _waves, _flat, _measured)
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """What the path of a punch gives: status "complete" or the class of the exception, force, its bound, the reason."""
-
-    status: str
-    force: float = math.nan
-    u_num: float = math.nan
-    reason: str = ""
-
-
-def outcome(analysis: Analysis) -> Outcome:
-    """Outcome of the pull-off force."""
-    try:
-        solution = analysis.solution("pull_off_force")
-    except (NotConverged, NoSuchEvent) as error:
-        return Outcome(type(error).__name__, reason=str(error))
-    return Outcome("complete", solution.value, solution.u_num)
-
-
-def displacements(jumps: Sequence[float]) -> str:
-    """Displacements of jumps as one cell of the table."""
-    return " ".join(f"{jump:.4f}" for jump in jumps)
+def table() -> list[dict[str, str]]:
+    """Rows of the table, by the number of the punch."""
+    with TABLE.open() as file:
+        return list(csv.DictReader(file))
 
 
 def table_row(number: int) -> dict[str, object]:
-    """Row of a punch in the table: its path, and the stable states on a fixed mesh."""
-    case = random_punch(number)
-    values, states = outcome(Analysis(case.problem)), stable_states(case.problem, case.height)
-    complete = values.status == "complete"
+    """Row of a punch: the force of its path, and the stable states on a fixed mesh."""
+    problem, height = random_punch(number)
+    states = stable_states(problem, height)
     return {
         "number": number,
-        "seed": SEED,
-        "kind": case.kind,
-        "status": values.status,
-        "pull_off_force": f"{values.force:.12g}" if complete else "",
-        "u_num": f"{values.u_num:.2g}" if complete else "",
+        "pull_off_force": f"{solve(problem, 'pull_off_force').value:.12g}",
         "brute_force": f"{states.pull_off_force:.6g}",
-        "retreat": displacements(states.retreat),
-        "approach": displacements(states.approach),
+        "retreat": " ".join(f"{jump:.4f}" for jump in states.retreat),
+        "approach": " ".join(f"{jump:.4f}" for jump in states.approach),
     }
 
 
@@ -166,5 +137,4 @@ if __name__ == "__main__":
     with TABLE.open("w", newline="") as file:
         writer = csv.DictWriter(file, list(table_row(0)), lineterminator="\n")
         writer.writeheader()
-        for each in range(COUNT):
-            writer.writerow(table_row(each))
+        writer.writerows(map(table_row, range(COUNT)))

@@ -65,31 +65,3 @@ def test_order_of_convergence(k: float, order: int) -> None:
         exact = 0.5 * gamma((1 - k) / 2) * hyp1f1((1 + k) / 2, 1, -(mesh.nodes**2))
         errors.append(np.abs(w - exact).max())
     assert np.log2(errors[0] / errors[1]) > order - 0.1
-
-
-@pytest.mark.parametrize("k", [0.0, 0.4, 0.8])
-def test_symmetry_in_the_energy_inner_product(k: float) -> None:
-    """Betti: the work of p1 on w2 equals that of p2 on w1, for smooth p1, p2."""
-    mesh = _graded_mesh(depth=8)
-    W = response_matrix(Kernel(k), mesh)
-    area = mesh.weights * mesh.nodes
-    r = mesh.nodes
-    first, second = np.exp(-(r**2)), np.exp(-2 * (r - 0.8) ** 2) * r**2
-    one, two = (area * first) @ (W @ second), (area * second) @ (W @ first)
-    assert one == pytest.approx(two, rel=1e-12)
-
-
-def test_reused_blocks_equal_fresh_ones() -> None:
-    kernel = Kernel(0.3)
-    old = _graded_mesh(order=8, depth=10)
-    new = PanelMesh(np.unique(np.append(np.delete(old.breaks, 5), [0.7, 3.0])), 8)
-    fresh = response_matrix(kernel, new)
-    np.testing.assert_array_equal(response_matrix(kernel, new, (old, response_matrix(kernel, old))), fresh)
-
-
-def test_scaling_of_the_matrix() -> None:
-    """W has the dimension radius^(1-k): the half-space has no length of its own."""
-    mesh = _graded_mesh(order=8, depth=10)
-    big = PanelMesh(mesh.breaks * 4.0, 8)
-    W = response_matrix(Kernel(0.3), mesh)
-    np.testing.assert_allclose(response_matrix(Kernel(0.3), big), 4.0**0.7 * W, rtol=1e-11)

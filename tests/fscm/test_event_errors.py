@@ -182,24 +182,8 @@ def test_an_extreme_of_large_curvature_is_not_missed():
     assert errors.at_extreme("load", "load").rounding >= MISSED_EXTREME * (1.0 + abs(state.load))
 
 
-NEAR_CRITICAL = [
-    (1.0, 0.22, 2.3e-3),
-    (1.0, 0.206, 4.8e-2),
-    (1.0, 0.644, 1.2e-3),
-    (1.3, 0.66, 1.6e-2),
-    (1.3, 0.316, 8.7e-2),
-    (2.0, 0.599, 4.7e-3),
-    (2.0, 0.275, 0.11),
-    (2.5, 0.553, 1.1e-3),
-    (4.0, 0.124, 2.6e-3),
-    (4.0, 0.389, 6.6e-2),
-    (7.0, 0.318, 1.4e-3),
-    (7.0, 0.588, 0.71),
-]
-
-
 @pytest.mark.heavy
-@pytest.mark.parametrize(("n", "k", "above"), NEAR_CRITICAL)
+@pytest.mark.parametrize(("n", "k", "above"), [(1.0, 0.22, 2.3e-3), (1.3, 0.66, 1.6e-2), (7.0, 0.318, 1.4e-3)])
 def test_what_cancels_in_a_hysteresis_is_left_out_of_its_bound_rightly(n, k, above):
     """Near the critical Tabor number the energy is a small difference: measured at most 0.2 of the bound."""
     mu = solve(Problem(n, k, 1.0), "critical_tabor_number").value * (1.0 + above)
@@ -207,13 +191,3 @@ def test_what_cancels_in_a_hysteresis_is_left_out_of_its_bound_rightly(n, k, abo
     value, fine = (Analysis(Problem(n, k, mu), m).solution("hysteresis_energy") for m in (Meshes(), finer))
     assert abs(value.value - fine.value) <= value.u_num + fine.u_num
     assert value.u_num < 1e-10
-
-
-@pytest.mark.heavy
-@pytest.mark.parametrize(("k", "flat", "mu"), [(0, 5.0, 3.0), (0, 1.5, 1.0), (0.3, 1.5, 0.3), (0.3, 0.3, 3.0)])
-def test_the_bound_of_a_flat_end_covers_the_distance_to_a_finer_mesh(k, flat, mu):
-    problem = Problem(2, k, mu, punch=RoundedFlat(flat))
-    force = solve(problem, "pull_off_force")
-    fine = solve(problem, "pull_off_force", Meshes(value=Mesh(18, 1e-10)))
-    assert abs(force.value - fine.value) <= force.u_num + fine.u_num
-    assert fine.u_num < 2e-12

@@ -1,6 +1,7 @@
 """The Gibson limit: closed forms, extended precision, another quadrature, and the limit k -> 1 itself."""
 
 import math
+from itertools import pairwise
 
 import mpmath
 import numpy as np
@@ -19,7 +20,6 @@ from fscm.tabulated_law import TabulatedLaw
 LAW = LennardJones()
 # 2 mu^2 p'_max = 1 with p'_max = 8 q^4 - 24 q^10 at q^6 = 2/15.
 CRITICAL = math.sqrt(0.5 / (4.8 * (2 / 15) ** (2 / 3)))
-JUMPS = ["jump_in_displacement", "jump_in_gap", "jump_out_displacement", "hysteresis_energy"]
 
 
 def solid(n, mu, law=None):
@@ -35,25 +35,32 @@ def energy(H, mu):
     return float(mu**2 * LAW.traction(H) ** 2 + LAW.energy(H))
 
 
-@pytest.mark.parametrize("n", [1.0, 2.0, 5.0])
-def test_critical_tabor_number_is_a_closed_form(n):
-    critical = solid(n, 1.0).solution("critical_tabor_number")
-    assert abs(critical.value - CRITICAL) <= critical.u_num < 1e-13
+def test_critical_tabor_number_is_a_closed_form():
+    for n in (1.0, 2.0, 5.0):
+        critical = solid(n, 1.0).solution("critical_tabor_number")
+        assert abs(critical.value - CRITICAL) <= critical.u_num < 1e-13
 
 
-@pytest.mark.parametrize("mu", [0.01, 0.5, 1.0, 2.0, 5.0, 20.0])
-def test_a_paraboloid_has_pull_off_two_at_any_tabor_number(mu):
+@pytest.mark.parametrize("mu", [0.01, 0.5, 1.0, 2.0, 20.0])
+def test_a_paraboloid_has_pull_off_two_and_twice_the_energy_at_its_center(mu):
     # P = integral of p d(r^2) = -2 integral of de = 2 e(H0), least where p = 0, that is at H0 = 0.
     for quantity, exact in [("pull_off_force", 2.0), ("pull_off_displacement", 0.0)]:
         solution = solid(2, mu).solution(quantity)
         assert abs(solution.value - exact) <= solution.u_num
         assert solution.u_num < 1e-12 * (1 + mu**2)
+    for H in (-0.1, -0.01, 0.0, 20.0):
+        assert solid(2, mu).load(H) == pytest.approx(2 * energy(np.array(H), mu), rel=1e-12, abs=1e-12 * (1 + mu**2))
 
 
-@pytest.mark.parametrize("mu", [0.3, 1.0, 3.0])
-@pytest.mark.parametrize("H", [-0.1, -0.01, 0.0, 0.005, 3.0, 20.0])
-def test_the_load_of_a_paraboloid_is_twice_the_energy_at_its_center(mu, H):
-    assert solid(2, mu).load(H) == pytest.approx(2 * energy(np.array(H), mu), rel=1e-12, abs=1e-12)
+def level(H, M):
+    """Height of the punch above the surface far away, less the displacement, at which the gap is H."""
+    return H - M * mpmath.mpf(8) / 3 * ((H + 1) ** -9 - (H + 1) ** -3)
+
+
+def well(H, M):
+    """Energy per area in extended precision."""
+    p = mpmath.mpf(8) / 3 * ((H + 1) ** -9 - (H + 1) ** -3)
+    return M * p**2 / 2 + (H + 1) ** -8 / 3 - 4 * (H + 1) ** -2 / 3
 
 
 @pytest.mark.parametrize(("n", "bradley"), [(1, 2.880), (1.5, 2.166), (2, 2.0), (5, 1.669)])
@@ -73,39 +80,30 @@ def test_soft_limit_is_jkr(n):
     assert (1 - value(n, 80.0, "jump_in_displacement")) / 80.0**0.5 == pytest.approx(8 / 3, rel=1e-3)
 
 
-@pytest.mark.parametrize("n", [1.0, 1.5, 5.0])
+@pytest.mark.parametrize("n", [1.0, 5.0])
 @pytest.mark.parametrize("mu", [0.4, 2.0])
 def test_load_by_quadrature_over_the_radius(n, mu):
-    model = solid(n, mu)
-    M = 2 * mu**2
-
-    def gap(u, low, high):
-        return brentq(lambda H: H - M * float(LAW.traction(np.array(H))) - u, low, high, xtol=1e-15)
-
-    H0 = -0.02
+    """The gap at each radius from its own equation; above the critical number both sides of the front are those of
+    Maxwell's rule, equal levels and equal energies."""
+    model, M, H0 = solid(n, mu), 2 * mu**2, -0.02
     delta = model.displacement(H0)
-    if mu < CRITICAL:
-        front, sides = None, None
-    else:
-        near, far = (0.06, 1.9)  # rough, refined by Maxwell's rule: equal levels and equal energies
-        mp_p = lambda H: mpmath.mpf(8) / 3 * ((H + 1) ** -9 - (H + 1) ** -3)  # noqa: E731
-        mp_e = lambda H: M * mp_p(H) ** 2 / 2 + (H + 1) ** -8 / 3 - 4 * (H + 1) ** -2 / 3  # noqa: E731
-        sides = mpmath.findroot(lambda a, b: (a - M * mp_p(a) - b + M * mp_p(b), mp_e(a) - mp_e(b)), (near, far))
-        front = float(sides[0] - M * mp_p(sides[0]))
+    front, far_side = math.inf, 0.0
+    if mu > CRITICAL:
+        sides = mpmath.findroot(lambda a, b: (level(a, M) - level(b, M), well(a, M) - well(b, M)), (0.06, 1.9))
+        front, far_side = float(level(sides[0], M)), float(sides[1]) - 1e-6
 
     def density(r):
         u = r**n / n - delta
-        if front is None:
-            H = gap(u, -0.9, max(u, 0.0) + 5.0)
-        elif u < front:
-            H = gap(u, -0.9, LAW.peak_gap)
+        if front == math.inf:
+            bounds = (-0.9, max(u, 0.0) + 5.0)
         else:
-            H = gap(u, float(sides[1]) - 1e-6, u + 5.0)
+            bounds = (-0.9, LAW.peak_gap) if u < front else (far_side, u + 5.0)
+        H = brentq(lambda H: H - M * float(LAW.traction(np.array(H))) - u, *bounds, xtol=1e-15)
         return 2 * r * float(LAW.traction(np.array(H)))
 
-    edge = ((front if front is not None else 0.5) + delta) ** (1 / n) * n ** (1 / n)
-    parts = [(0.0, edge), (edge, 2 * edge), (2 * edge, 10 * edge), (10 * edge, np.inf)]
-    load = sum(quad(density, a, b, epsabs=1e-11, epsrel=1e-11, limit=200)[0] for a, b in parts)
+    edge = ((0.5 if front == math.inf else front) + delta) ** (1 / n) * n ** (1 / n)
+    pieces = pairwise([0.0, edge, 2 * edge, 10 * edge, np.inf])
+    load = sum(quad(density, a, b, epsabs=1e-11, epsrel=1e-11, limit=200)[0] for a, b in pieces)
     assert model.load(H0) == pytest.approx(load, rel=2e-9)
 
 
@@ -114,30 +112,21 @@ def test_jumps_in_extended_precision(mu):
     model = solid(2, mu)
     with mpmath.workdps(40):
         M = 2 * mpmath.mpf(mu) ** 2
-
-        def p(H):
-            return mpmath.mpf(8) / 3 * ((H + 1) ** -9 - (H + 1) ** -3)
-
-        def U(H):
-            return (H + 1) ** -8 / 3 - 4 * (H + 1) ** -2 / 3
-
-        A = mpmath.findroot(lambda H: 1 - M * mpmath.diff(p, H), model.solution("jump_in_gap").value)
-        near, far = mpmath.findroot(
-            lambda a, b: (
-                a - M * p(a) - b + M * p(b),
-                M * p(a) ** 2 / 2 + U(a) - M * p(b) ** 2 / 2 - U(b),
-            ),
+        A = mpmath.findroot(lambda H: mpmath.diff(lambda H: level(H, M), H), model.solution("jump_in_gap").value)
+        inner, outer = mpmath.findroot(
+            lambda a, b: (level(a, M) - level(b, M), well(a, M) - well(b, M)),
             (model._local.front.near, model._local.front.far),
         )
         # Two copies of one gap would satisfy both equations as well.
-        assert far - near > 0.1
-        for quantity, exact in [
-            ("jump_in_gap", A),
-            ("jump_in_displacement", -A + M * p(A)),
-            ("jump_out_displacement", -near + M * p(near)),
-        ]:
+        assert outer - inner > 0.1
+        exact = {
+            "jump_in_gap": A,
+            "jump_in_displacement": -level(A, M),
+            "jump_out_displacement": -level(inner, M),
+        }
+        for quantity, number in exact.items():
             solution = model.solution(quantity)
-            assert abs(solution.value - float(exact)) <= solution.u_num < 1e-12
+            assert abs(solution.value - float(number)) <= solution.u_num < 1e-12
 
 
 @pytest.mark.parametrize("mu", [0.8, 2.0])
@@ -165,19 +154,11 @@ def test_load_is_stationary_at_pull_off_and_zero_at_zero_load(n):
         assert zero.value > delta
 
 
-@pytest.mark.parametrize("quantity", JUMPS)
-def test_no_jump_below_the_critical_tabor_number(quantity):
-    with pytest.raises(NoSuchEvent, match="no jump"):
-        solid(2, 0.999 * CRITICAL).solution(quantity)
-    assert math.isfinite(solid(2, 1.001 * CRITICAL).solution(quantity).value)
-
-
-def test_hysteresis_starts_from_nothing():
-    losses = [value(2, CRITICAL * (1 + x), "hysteresis_energy") for x in (1e-3, 1e-2, 1e-1)]
-    assert 0 < losses[0] < losses[1] < losses[2] < 1e-2
-    for quantity in ("jump_in_displacement", "jump_out_displacement"):
-        at = [value(2, CRITICAL * (1 + x), quantity) for x in (1e-9, 1e-4)]
-        assert at[0] == pytest.approx(at[1], abs=1e-3)
+def test_no_jump_below_the_critical_tabor_number():
+    for quantity in ("jump_in_displacement", "jump_in_gap", "jump_out_displacement", "hysteresis_energy"):
+        with pytest.raises(NoSuchEvent, match="no jump"):
+            solid(2, 0.999 * CRITICAL).solution(quantity)
+        assert math.isfinite(solid(2, 1.001 * CRITICAL).solution(quantity).value)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import scipy
 
-from fscm import Analysis, Coating, EquilibriumPath, LennardJones, PowerPunch, Problem, displacement_cycle
+from fscm import Analysis, EquilibriumPath, displacement_cycle
 from fscm._arc_length import Point
 from fscm._curve_density import turning_slowly
 from fscm._equilibrium import State
@@ -16,6 +16,7 @@ from fscm._jumps import Branch, jumps_between
 from fscm.errors import NotConverged
 from fscm.path import _with_events
 from fscm.stability import margins
+from tests.fscm.solved_once import stiff_on_soft
 
 #: Displacements at jump-in and at both folds of the retreat of the film below, in nm; from its traced path.
 FILM_JUMPS = [-9.0557, -122.2588, -135.4293]
@@ -68,9 +69,7 @@ def test_a_jump_without_a_branch_to_land_on_is_told() -> None:
 @pytest.fixture(scope="module")
 def film() -> Analysis:
     """A sphere on a stiff film on a soft solid: the film alone jumps out of contact before the solid below does."""
-    solid = Coating(1e9, 1.5e6, 1e-7, 0.0, nu_coating=0.4, nu_substrate=0.49)
-    problem = Problem(solid, PowerPunch(2.0, 5e-6), LennardJones(0.05, 0.4e-9))
-    return Analysis(problem.dimensionless, "quick")
+    return stiff_on_soft()[0]
 
 
 def test_a_film_jumps_twice_on_retreat(film: Analysis) -> None:

@@ -1,45 +1,24 @@
-"""Pull-off forces of layered solids: complete paths, against JKR on the same layers (tests/layered_jkr.py)."""
+"""Pull-off forces of layered solids: complete paths, against JKR on the same layers (tests/solvers/layered_jkr.py)."""
 
 import math
-import warnings
-from dataclasses import replace
-from functools import lru_cache
 
 import numpy as np
 import pytest
 
-from fscm import AccuracyWarning, Analysis, Coating, Layers, LennardJones, PowerPunch, Problem, solve
+from fscm import Layers, solve
 from fscm import _events as events
 from fscm._path_end import beyond_layers
-from fscm.solution import Parts
-from tests.layered_jkr import Stack, jkr, minima_with_error
+from tests.fscm.marks import heavy
+from tests.fscm.solved_once import SUBSTRATE, WORK, R, contact, stiff_on_soft
+from tests.solvers.layered_jkr import Stack, jkr, minima_with_error
 
-R, WORK, Z0 = 5e-6, 0.05, 0.4e-9
 UNIT = math.pi * R * WORK
-SUBSTRATE = 1.5e6, 0.49
-
-
-def contact(solid, z0=Z0):
-    """Dimensionless problem of the sphere, and the unit of its radii."""
-    problem = Problem(solid, PowerPunch(n=2, Q=R), LennardJones(WORK, z0))
-    return problem.dimensionless, problem.units["radius"]
-
-
-def coated(E, thickness, z0=Z0, substrate=SUBSTRATE):
-    return contact(Coating(E, substrate[0], thickness, 0.0, 0.4, substrate[1]), z0)
 
 
 def layered(layers, substrate):
     """Sharp layers (E, nu, thickness) on a substrate."""
     E, nu = zip(*(layer[:2] for layer in layers), substrate, strict=True)
     return Layers(E, nu, [thickness for _, _, thickness in layers])
-
-
-@lru_cache
-def stiff_on_soft(E=1e9, thickness=100e-9):
-    """Its analysis, and the unit of the radii."""
-    problem, unit = coated(E, thickness)
-    return Analysis(problem, 1e-6), unit
 
 
 def minima(analysis, unit):
@@ -62,26 +41,16 @@ def test_the_load_has_the_minima_of_jkr_and_the_deepest_is_the_pull_off():
     assert force.u_num < 2e-7 * force.value
 
 
-@pytest.mark.heavy
-def test_the_force_tends_to_that_of_jkr_when_the_range_of_the_law_falls():
-    """The difference is in proportion to the range, but for a logarithm: exponents 1.05 to 1.15 were measured."""
-    limit = -min(m.load for m in minima_with_error(Stack(((10e9, 0.4, 30e-9),), SUBSTRATE), WORK, R))
-    far, near = (
-        solve(coated(10e9, 30e-9, z0)[0], "pull_off_force", 1e-5).value * UNIT - limit for z0 in (1e-9, 0.25e-9)
-    )
-    assert 0.0 < near < 0.02 * limit
-    assert math.log(far / near) / math.log(4.0) == pytest.approx(1.0, abs=0.3)
-
-
 @pytest.mark.parametrize(
     ("layers", "substrate"),
     [
-        # Soft, stiff, soft: the modulus of the surface tells nothing of the one in the middle.
-        ([(50e6, 0.45, 40e-9), (5e9, 0.3, 30e-9), (20e6, 0.4, 400e-9)], (1e6, 0.49)),
-        pytest.param([(5e9, 0.3, 20e-9), (20e6, 0.4, 3e-7), (2e9, 0.3, 200e-9)], (2e6, 0.4), marks=pytest.mark.heavy),
-        pytest.param([(0.15e6, 0.4, 300e-9)], (1.5e9, 0.3), marks=pytest.mark.heavy),
-        pytest.param([(15e9, 0.4, 3e-9)], (1.5e6, 0.49), marks=pytest.mark.heavy),
-        pytest.param([(150e6, 0.4, 5e-6)], (1.5e6, 0.49), marks=pytest.mark.heavy),
+        *heavy(
+            # Soft, stiff, soft: the modulus of the surface tells nothing of the one in the middle.
+            ([(50e6, 0.45, 40e-9), (5e9, 0.3, 30e-9), (20e6, 0.4, 400e-9)], (1e6, 0.49)),
+            ([(5e9, 0.3, 20e-9), (20e6, 0.4, 3e-7), (2e9, 0.3, 200e-9)], (2e6, 0.4)),
+            ([(0.15e6, 0.4, 300e-9)], (1.5e9, 0.3)),
+            ([(150e6, 0.4, 5e-6)], (1.5e6, 0.49)),
+        ),
     ],
 )
 def test_layers_against_jkr(layers, substrate):
@@ -104,41 +73,12 @@ def test_a_compressive_load_does_not_end_the_path_above_a_stiff_layer():
     assert not any(beyond_layers(state) for state in compressive if state.scale * unit < 1.9e-6)
 
 
-@pytest.mark.parametrize(
-    ("E", "thickness"),
-    [(1e9, 100e-9), *(pytest.param(*x, marks=pytest.mark.heavy) for x in ((1e10, 3e-8), (1e9, 1.5e-7)))],
-)
+@pytest.mark.parametrize(("E", "thickness"), [(1e9, 100e-9), *heavy((1e10, 3e-8), (1e9, 1.5e-7))])
 def test_no_minimum_follows_the_end_of_a_path(E, thickness):
     """By JKR, up to three times the contact radius of the softest material: the load rises from the end on."""
     analysis, unit = stiff_on_soft(E, thickness)
     limit = jkr(Stack(((E, 0.4, thickness),), SUBSTRATE), WORK, R)
-    radii = np.geomspace(analysis.points[-1].state.scale * unit, limit.reach, 12)
+    radii = np.geomspace(analysis.points[-1].state.scale * unit, limit.reach, 6)
     loads = [limit.state(a).load for a in radii]
     assert loads[0] > 0.0
     assert np.all(np.diff(loads) > 0.0)
-
-
-def test_equal_layers_are_a_homogeneous_solid():
-    problem, _ = contact(layered([(1e9, 0.3, 20e-9), (1e9, 0.3, 50e-9)], (1e9, 0.3)))
-    plain = solve(Problem(2, 0.0, problem.mu), "pull_off_force")
-    force = solve(problem, "pull_off_force")
-    assert abs(force.value - plain.value) <= force.u_num + plain.u_num
-
-
-def test_an_accuracy_that_is_not_reached_is_said():
-    analysis, _ = stiff_on_soft()
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        force = analysis.solution("pull_off_force")
-    assert force.u_num < 1e-6 * force.value
-    asked = replace(analysis.meshes, warn_above=1e-10)
-    analysis.meshes, reached = asked, analysis.meshes
-    try:
-        with pytest.warns(AccuracyWarning, match="accuracy = 1e-10 is not reached .* kernel"):
-            analysis.solution("pull_off_force")
-    finally:
-        analysis.meshes = reached
-
-
-def test_the_largest_part_is_named():
-    assert replace(Parts(mesh=1.0), kernel=2.0).largest == "kernel"

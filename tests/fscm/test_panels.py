@@ -6,26 +6,6 @@ import pytest
 from fscm._panels import PanelMesh, gauss_rule
 
 
-def test_polynomials_are_exact() -> None:
-    mesh = PanelMesh(np.array([0.0, 0.3, 1.0, 5.0]), 6)
-    values = mesh.nodes**5 - 2 * mesh.nodes
-    r = np.array([0.0, 0.1, 0.3, 0.99, 4.0, 5.0])
-    np.testing.assert_allclose(mesh.evaluate(values, r), r**5 - 2 * r, rtol=1e-12, atol=1e-12)
-    assert mesh.weights @ mesh.nodes**11 == pytest.approx(5.0**12 / 12, rel=1e-13)
-
-
-def test_modes_invert_legendre_values() -> None:
-    mesh = PanelMesh(np.array([0.0, 2.0]), 5)
-    u = mesh.nodes / 2.0
-    np.testing.assert_allclose(mesh.modes(3 * u - 1.0)[0], [0.5, 1.5, 0, 0, 0], atol=1e-14)
-
-
-@pytest.mark.parametrize("breaks", [[0.0, 0.15, 0.3, 1.0, 2.0, 5.0], [0.0, 1.0, 5.0]], ids=["split", "merged"])
-def test_transfer_keeps_polynomials(breaks: list[float]) -> None:
-    mesh, other = PanelMesh(np.array([0.0, 0.3, 1.0, 5.0]), 6), PanelMesh(np.array(breaks), 7)
-    np.testing.assert_allclose(mesh.transfer(mesh.nodes**4, other), other.nodes**4, rtol=1e-12, atol=1e-12)
-
-
 def test_transfer_within_panels_below_the_rounding_of_the_radius() -> None:
     """Half of a panel 4e-15 wide at r = 1: local coordinates must not be taken from rounded radii."""
     h = 2.0**-48
@@ -50,8 +30,3 @@ def test_distances_from_the_origin_are_exact() -> None:
     np.testing.assert_allclose(mesh.transfer(values, finer)[10:20], 1e20 * finer.node_offsets[10:20], rtol=1e-12)
     coarse, seen = PanelMesh(np.array([0.0, 0.5, 3.0]), 5), mesh.nodes**2
     np.testing.assert_allclose(coarse.transfer(coarse.nodes**2, mesh), seen, rtol=1e-12, atol=1e-15)
-
-
-def test_breaks_must_ascend() -> None:
-    with pytest.raises(ValueError, match="ascend"):
-        PanelMesh(np.array([0.0, 1.0, 1.0]), 4)

@@ -1,14 +1,18 @@
-"""Values and bounds at the default accuracy against the finer paths of `random_problems`."""
+"""Values and bounds against the finer paths of `random_problems`, at the default accuracy and at others."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from fscm import NotConverged, Problem, Solution, solve_together
-from tests.fscm.random_problems import known, problems
+from fscm import ACCURACIES, Analysis, NotConverged, Problem, Solution, solve_together
+from fscm._meshes import Meshes
+from tests.fscm.marks import heavy
+from tests.fscm.random_problems import problems, stored_values
 
 # Rounding of the finer values, relative: the scatter between orders 16 to 24, tolerances 1e-8 to 1e-12.
 REFERENCE_ERROR = 1e-14
@@ -18,22 +22,23 @@ MEDIAN, WORST = 1e3, 1e5
 NARROW = "which needs too much memory"
 # Problems whose finer path was not solved either: k above 0.8 and mu above 5.
 UNSOLVED = 8
-# Problems of the quick test: one of each 100.
-EVERY = 100
-# Numbers of problems with a bound that was up to 20 times too small.
-_ONCE_TOO_SMALL = (216, 260, 316)
-KNOWN = known()
+# Problems of the quick test: one of each 200.
+EVERY = 200
+# Numbers of problems with a bound that was up to 20 times too small: the tip of a rigid solid, and a nucleus at which
+# the rate of an error changes fast.
+ONCE_TOO_SMALL = (216, 260, 316)
+STORED = stored_values()
 
 
 def compared(cases: list[Problem]) -> Iterator[tuple[Problem, str, str, float, float]]:
     """Problem, quantity, difference of the statuses, error and bound."""
     for problem in cases:
-        rows = KNOWN[problem]
+        rows = STORED[problem]
         try:
             solutions = solve_together(problem, tuple(rows))
         except NotConverged as error:
-            known_limit = NARROW in str(error) or not any(row[0] == "value" for row in rows.values())
-            yield problem, "all", "" if known_limit else "NotConverged", np.nan, np.nan
+            is_refused = NARROW in str(error) or not any(row[0] == "value" for row in rows.values())
+            yield problem, "all", "" if is_refused else "NotConverged", np.nan, np.nan
             continue
         for name, (status, value, _) in rows.items():
             solution = solutions[name]
@@ -51,10 +56,10 @@ def judge(cases: list[Problem]) -> None:
     rows = list(compared(cases))
     assert [row[:3] for row in rows if row[2]] == []
     numbers = [row for row in rows if np.isfinite(row[3])]
-    values = np.array([abs(KNOWN[row[0]][row[1]][1]) for row in numbers])
+    values = np.array([abs(STORED[row[0]][row[1]][1]) for row in numbers])
     errors, bounds = np.array([row[3:] for row in numbers]).T
     rounding = REFERENCE_ERROR * (1.0 + values)
-    finer = np.array([KNOWN[row[0]][row[1]][2] for row in numbers])
+    finer = np.array([STORED[row[0]][row[1]][2] for row in numbers])
     assert [row for row, e, b in zip(numbers, errors, bounds + finer + rounding, strict=True) if e > b] == []
     ratios = bounds / np.maximum(errors, rounding)
     assert np.median(ratios) <= MEDIAN
@@ -62,24 +67,52 @@ def judge(cases: list[Problem]) -> None:
 
 
 def test_the_table_has_every_problem() -> None:
-    assert set(KNOWN) == set(problems())
+    assert set(STORED) == set(problems())
     unsolved = {
-        problem for problem, rows in KNOWN.items() if {"timeout", "NotConverged"} & {s for s, *_ in rows.values()}
+        problem for problem, rows in STORED.items() if {"timeout", "NotConverged"} & {s for s, *_ in rows.values()}
     }
     assert len(unsolved) <= UNSOLVED
 
 
 def test_a_sample_of_the_random_problems() -> None:
-    judge(problems()[:: 2 * EVERY])
+    judge(problems()[::EVERY])
 
 
 @pytest.mark.heavy
-def test_bounds_that_were_once_too_small() -> None:
-    """The tip of a rigid solid, and a nucleus at which the rate of an error changes fast."""
-    judge([problems()[i] for i in _ONCE_TOO_SMALL])
+@pytest.mark.parametrize("numbers", [ONCE_TOO_SMALL, *(range(start, 500, 10) for start in range(10))], ids=str)
+def test_all_random_problems(numbers: range) -> None:
+    judge([problems()[number] for number in numbers])
 
 
-@pytest.mark.heavy
-@pytest.mark.parametrize("part", range(10))
-def test_all_random_problems(part: int) -> None:
-    judge(problems()[part::10])
+# Share of the results whose bound reaches the requested accuracy: it is a request.  Measured on every third problem of
+# 1 <= n <= 6, k <= 0.8, 0.01 <= mu <= 10 for 1e-5, 1e-6, 1e-8 and 1e-10: 64, 64, 65 and 66 of 66.
+REACHED = 0.85
+REQUESTED = ("pull_off_force", "pull_off_displacement", "zero_load_displacement")
+
+
+@pytest.mark.parametrize(
+    ("accuracy", "every"), [(1e-5, 60), ("default", 60), *heavy(*((name, 5) for name in (1e-5, *ACCURACIES)))]
+)
+def test_an_accuracy_is_reached_and_honest(accuracy: float | str, every: int) -> None:
+    """The error is below u_num, and u_num mostly below the requested error."""
+    requested = ACCURACIES[accuracy] if isinstance(accuracy, str) else accuracy
+    dishonest, reached = [], []
+    usual = [problem for problem in problems() if 1 <= problem.n <= 6 and problem.k <= 0.8 and 0.01 <= problem.mu <= 10]
+    for problem in usual[::every]:
+        for name, solution in solve_together(problem, REQUESTED, accuracy).items():
+            _, exact, u_exact = STORED[problem][name]
+            reached.append(solution.u_num <= requested * abs(exact))
+            if not abs(solution.value - exact) <= solution.u_num + u_exact + REFERENCE_ERROR * (1.0 + abs(exact)):
+                dishonest.append((problem, name, exact, solution))
+    assert not dishonest
+    assert np.mean(reached) >= REACHED
+
+
+def test_a_smaller_number_is_a_finer_mesh() -> None:
+    problem = Problem(2, 0.4, 1.0)
+    sizes = [Analysis(problem, x).solution("pull_off_force").size for x in (1e-4, "quick", "default", 1e-9, "fine")]
+    assert sizes == sorted(set(sizes))
+    assert Meshes.of("default") == replace(Meshes.of(1e-8), warn_above=math.inf) == Meshes()
+    for accuracy in (0.0, 1e-11, 1e-3, 1, math.nan, "best", None, True):
+        with pytest.raises(ValueError, match=r"accuracy"):
+            Analysis(problem, accuracy)

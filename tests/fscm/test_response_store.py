@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fscm import _response_store as store
-from fscm._deformation import response_blocks, response_matrix
+from fscm._deformation import response_matrix
 from fscm._kernel import Kernel
 from fscm._panels import PanelMesh
 
@@ -30,27 +30,6 @@ def test_known_blocks_give_the_same_matrix_bit_for_bit(k: float) -> None:
     for mesh, matrix in zip(meshes, matrices, strict=True):
         store.clear()
         np.testing.assert_array_equal(response_matrix(Kernel(k), mesh), matrix)
-
-
-def test_only_blocks_that_lack_are_computed() -> None:
-    kernel, mesh = Kernel(0.4), PanelMesh(OFFSETS, 6, 1.0)
-    counts = []
-
-    def compute(mesh: PanelMesh, targets: np.ndarray, sources: np.ndarray) -> np.ndarray:
-        counts.append(len(targets))
-        return response_blocks(kernel, mesh, targets, sources)
-
-    blocks = store.ResponseBlocks(compute)
-    m = len(mesh.lengths)
-    blocks.of(mesh)
-    blocks.of(split(mesh, 2))
-    blocks.of(mesh)
-    assert counts == [m**2, (m + 1) ** 2 - (m - 1) ** 2]
-
-
-def test_panels_that_do_not_come_back_are_not_kept() -> None:
-    mesh = PanelMesh(OFFSETS + np.r_[0.0, np.full(len(OFFSETS) - 1, 0.1 / 3.0)], 6, 1.0)
-    assert store.known_blocks(Kernel(0.4), mesh, lambda *_: np.zeros(0)) is None
 
 
 @pytest.mark.parametrize("bound", [200_000, 2_000_000, 8_000_000])

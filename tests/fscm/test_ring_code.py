@@ -1,8 +1,5 @@
 """The ring code against closed forms; reference values and `fscm` against the ring code."""
 
-import ast
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scipy.special import gamma, hyp1f1
@@ -10,6 +7,7 @@ from scipy.special import gamma, hyp1f1
 from fscm import Problem
 from fscm import solve as fscm_solve
 from tests.fscm import ring_code
+from tests.fscm.marks import heavy
 from tests.reference_values import REFERENCE_VALUES, RING_CODE
 
 # Measured worst: 2e-12 of the pull-off force (n = 1, k = 0.6, mu = 0.5: 4.6e-13 of 4.3; n = 2, k = 0, mu = 0.1: 6e-13).
@@ -17,11 +15,10 @@ AGREEMENT = 1e-11
 # An extreme of the load gives its place to the root of the accuracy of its value; measured worst 2e-11.
 AGREEMENT_OF_PLACE = 1e-9
 
-LIGHT = [
+CASES = [
     ("pull_off", 2.0, 0.0, 0.1),
     ("jump_in", 5.0, 0.4, 3.0),
-]
-HEAVY = [
+    # Those that take longer.
     ("pull_off", 2.0, 0.4, 0.5),
     ("pull_off", 2.0, 0.0, 0.5),
     ("pull_off", 2.0, 0.0, 1.0),
@@ -40,21 +37,6 @@ HEAVY = [
 ]
 
 
-def test_it_imports_nothing_of_the_packages() -> None:
-    """Whatever `fscm` does wrong, the ring code does not inherit."""
-    tree = ast.parse(Path(ring_code.__file__).read_text())
-    names = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
-    names |= {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
-    assert {name.split(".")[0] for name in names} == {
-        "__future__",
-        "dataclasses",
-        "functools",
-        "itertools",
-        "numpy",
-        "scipy",
-    }
-
-
 @pytest.mark.parametrize("k", [0.0, 0.6, 0.9])
 def test_displacement_under_a_gaussian_pressure(k: float) -> None:
     """The transforms of exp(-r^2) are M (1-k)/2 Gamma((1-k)/2) 1F1((1+k)/2; 1; -r^2); M = 2 at mu = 1."""
@@ -65,7 +47,9 @@ def test_displacement_under_a_gaussian_pressure(k: float) -> None:
     assert np.allclose(surface.response @ np.exp(-(surface.radius**2)), exact, rtol=1e-13, atol=0.0)
 
 
-def _checked(event: str, n: float, k: float, mu: float) -> None:
+@pytest.mark.parametrize(("event", "n", "k", "mu"), [*CASES[:2], *heavy(*CASES[2:])])
+def test_fscm_and_the_reference_values(event: str, n: float, k: float, mu: float) -> None:
+    """Two codes that share no line, to 1e-11; and every digit of the table."""
     state = ring_code.solve(n, k, mu, event)
     results = {f"{event}_displacement": state.displacement}
     if event == "pull_off":
@@ -73,30 +57,17 @@ def _checked(event: str, n: float, k: float, mu: float) -> None:
     for quantity, value in results.items():
         tolerance = AGREEMENT_OF_PLACE if quantity == "pull_off_displacement" else AGREEMENT
         assert fscm_solve(Problem(n, k, mu), quantity).value == pytest.approx(value, abs=tolerance, rel=tolerance)
-        for known in REFERENCE_VALUES:
-            if (known.quantity, known.n, known.k, known.mu) == (quantity, n, k, mu):
-                assert abs(value - known.value) <= 0.5 * known.last_digit + AGREEMENT
-
-
-@pytest.mark.parametrize(("event", "n", "k", "mu"), LIGHT)
-def test_fscm_and_the_reference_values_light(event: str, n: float, k: float, mu: float) -> None:
-    """Two codes that share no line, to 1e-11; and every digit of the table."""
-    _checked(event, n, k, mu)
-
-
-@pytest.mark.heavy
-@pytest.mark.parametrize(("event", "n", "k", "mu"), HEAVY)
-def test_fscm_and_the_reference_values(event: str, n: float, k: float, mu: float) -> None:
-    """The same, where it takes longer."""
-    _checked(event, n, k, mu)
+        for row in REFERENCE_VALUES:
+            if (row.quantity, row.n, row.k, row.mu) == (quantity, n, k, mu):
+                assert abs(value - row.value) <= 0.5 * row.last_digit + AGREEMENT
 
 
 def test_every_value_of_the_ring_code_is_computed_here() -> None:
     """No reference value is without a source in the repository."""
-    computed = {(f"{event}_{name}", *case) for event, *case in LIGHT + HEAVY for name in ("force", "displacement")}
-    values = [known for known in REFERENCE_VALUES if known.origin == RING_CODE]
+    computed = {(f"{event}_{name}", *case) for event, *case in CASES for name in ("force", "displacement")}
+    values = [row for row in REFERENCE_VALUES if row.origin == RING_CODE]
     assert len(values) == 7
-    assert {(known.quantity, known.n, known.k, known.mu) for known in values} <= computed
+    assert {(row.quantity, row.n, row.k, row.mu) for row in values} <= computed
 
 
 def test_an_event_that_does_not_exist() -> None:

@@ -1,22 +1,22 @@
 """Stability: signs at folds, modes against two dimensions, limits, and the order of the modes."""
 
 import math
+from itertools import pairwise
 
 import mpmath
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.polynomial import legendre
 from scipy.fft import irfft2, rfft2
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from fscm import Analysis, CustomPunch, NoSuchEvent, Problem, displacement_cycle, equilibria, trace
+from fscm import Problem, displacement_cycle, equilibria, trace
 from fscm._azimuthal_kernel import azimuthal_kernel
-from fscm._deformation import response_matrix
 from fscm._equilibrium import State
-from fscm._panels import PanelMesh
 from fscm.stability import margins, stability_of
+from tests.fscm.marks import heavy
+from tests.fscm.solved_once import analysis_of, path_of
 
 MODES = range(5)
 
@@ -42,25 +42,6 @@ def test_kernel_is_the_integral_around_the_ring(k: float, m: int) -> None:
         series = x**m * mpmath.hyp2f1(a, a + m, m + 1, x * x) * mpmath.rf(a, m) / mpmath.factorial(m)
         exact = float(series * mpmath.mpf(t) ** -k)
     assert kernel.response(np.array([r]), np.array([t]), np.array([t - r]))[0] == pytest.approx(exact, rel=tolerance)
-
-
-def _derivative(mesh: PanelMesh, values: np.ndarray) -> np.ndarray:
-    """d/ds on each panel."""
-    to_modes, u = mesh.rule.to_modes, mesh.rule.nodes
-    matrix = np.array([2.0 * legendre.legval(2.0 * u - 1.0, legendre.legder(column)) for column in to_modes.T]).T
-    return (values.reshape(-1, mesh.order) @ matrix.T / mesh.lengths[:, None]).ravel()
-
-
-@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), (3.0, 0.6, 0.7)])
-def test_translation(n: float, k: float, mu: float) -> None:
-    """The equation at a surface shifted along x, less the equation: (1 - K_1 p') dH/dr = df/dr."""
-    state = Analysis(Problem(n, k, mu), "fine").event("pull_off").value
-    disc = state.disc
-    slope = _derivative(disc.mesh, state.gap) / state.scale
-    K = disc.stiffness_scale(state.scale) * response_matrix(azimuthal_kernel(k, 1), disc.mesh)
-    left = slope - K @ (disc.problem.law.slope(state.gap) * slope)
-    # Numerical derivatives lose digits: measured worst 5e-7, beside terms of 3.
-    assert np.max(np.abs(left - disc.problem.punch.slope(state.radius))[state.radius < 20.0]) < 5e-6
 
 
 def _state(problem: Problem, central_gap: float) -> State:
@@ -112,24 +93,9 @@ def test_modes_against_two_dimensions(k: float) -> None:
     assert fine < 0.25 * coarse
 
 
-def test_modes_become_one_in_the_limit_of_a_gibson_solid() -> None:
-    """k -> 1: the surface moves only where it is pressed, w = 2 mu^2 p, so that 2 mu^2 p' decides for every m."""
-    distance = []
-    for k in (0.9, 0.97, 0.99):
-        problem = Problem(2, k, 0.6)
-        state = _state(problem, 0.9)
-        limit = 2.0 * problem.mu**2 * np.max(problem.law.slope(state.gap))
-        parts = np.array([1.0 - margins(state, m)[0] for m in MODES])
-        assert np.all(parts < limit)
-        distance.append(limit - parts)
-    assert np.all(distance[1] < 0.5 * distance[0])
-    assert np.all(distance[2] < 0.5 * distance[1])
-    assert np.all(distance[2] < 0.05 * limit)
-
-
-@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), (5.0, 0.2, 2.0), (1.0, 0.0, 1.2)])
+@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), *heavy((5.0, 0.2, 2.0), (1.0, 0.0, 1.2))])
 def test_margin_is_zero_at_the_folds_of_the_displacement(n: float, k: float, mu: float) -> None:
-    model = Analysis(Problem(n, k, mu))
+    model = analysis_of(Problem(n, k, mu))
     for event in ("jump_in", "jump_out"):
         stability = stability_of(model.event(event).value)
         # Measured worst 4e-12 (n = 2, k = 0.6, mu = 3).
@@ -145,14 +111,13 @@ def test_margin_is_zero_at_the_folds_of_the_displacement(n: float, k: float, mu:
     [
         (2.0, 0.4, 0.3, 1),
         (2.0, 0.4, 1.0, 3),
-        pytest.param(5.0, 0.2, 2.0, 5, marks=pytest.mark.heavy),
-        pytest.param(2.0, 0.6, 3.0, 13, marks=pytest.mark.heavy),
+        *heavy((5.0, 0.2, 2.0, 5), (2.0, 0.6, 3.0, 13)),
     ],
 )
 def test_marks_change_at_folds_and_agree_with_eigenvalues(n: float, k: float, mu: float, folds: int) -> None:
     """The marks of the path come from the folds, those of a state from eigenvalues: same in every section."""
     problem = Problem(n, k, mu)
-    path = trace(problem)
+    path = path_of(problem)
     assert len(path.folds) == folds
     at = [int(np.argmin(np.abs(path.central_gap - fold.central_gap))) for fold in path.folds]
     for marks, quantity in ((path.stable_under_displacement, "displacement"), (path.stable_under_load, "load")):
@@ -160,18 +125,18 @@ def test_marks_change_at_folds_and_agree_with_eigenvalues(n: float, k: float, mu
         assert changes <= {i for i, fold in zip(at, path.folds, strict=True) if fold.quantity == quantity}
     assert path.stable_under_displacement[[0, -1]].all()
     assert list(path.stable_under_load[[0, -1]]) == [False, True]
-    for first, last in zip([0, *at], [*at, len(path.load) - 1], strict=True):
-        middle = (first + last) // 2
-        if first < middle < last:
+    for start, end in pairwise([0, *at, len(path.load) - 1]):
+        middle = (start + end) // 2
+        if start < middle < end:
             (state,) = equilibria(problem, "central_gap", float(path.central_gap[middle]))
             assert state.stable_under_displacement == path.stable_under_displacement[middle]
             assert state.stable_under_load == path.stable_under_load[middle]
 
 
-@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), pytest.param(8.0, 0.5, 3.0, marks=pytest.mark.heavy)])
+@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), *heavy((8.0, 0.5, 3.0))])
 def test_a_cycle_has_stable_states_only(n: float, k: float, mu: float) -> None:
     """Approach and retreat visit every stable state of a power-law punch, and no unstable one but the folds."""
-    path = trace(Problem(n, k, mu))
+    path = path_of(Problem(n, k, mu))
     cycle = displacement_cycle(path)
     stable = set(zip(path.displacement, path.load, path.stable_under_displacement, strict=True))
     visited = {(d, P) for record in (cycle.loading, cycle.unloading) for d, P in record.T}
@@ -196,19 +161,6 @@ def test_a_path_that_begins_behind_a_fold() -> None:
 
 
 @pytest.mark.heavy
-def test_a_punch_with_an_asperity() -> None:
-    """More folds than two: the path ends stable, and each stable branch ends in a fold of the displacement."""
-    punch = CustomPunch(lambda r: -4.0 * np.expm1(-(r**2)) + r**2 / 50.0, growth=2)
-    path = trace(Problem(2, 0.0, 0.5, punch=punch))
-    assert path.stable_under_displacement[[0, -1]].all()
-    displacement = np.diff(path.displacement)
-    stable = path.stable_under_displacement[1:] & path.stable_under_displacement[:-1]
-    # A stable branch rises with the displacement along the path or falls, but never turns.
-    for run in np.split(displacement[stable], np.flatnonzero(np.diff(np.flatnonzero(stable)) > 1) + 1):
-        assert np.all(run > 0.0) or np.all(run < 0.0)
-
-
-@pytest.mark.heavy
 @settings(max_examples=6, derandomize=True)
 @given(
     n=st.floats(1.0, 6.0),
@@ -223,11 +175,3 @@ def test_no_other_mode_is_unstable_before_the_axisymmetric_one(
     stability = stability_of(_state(Problem(n, k, mu), central_gap))
     assert np.all(np.diff(stability.margins) > 0.0)
     assert stability.margins[-1] < 1.0
-
-
-def test_events_that_do_not_exist_have_no_margin() -> None:
-    """Below the critical Tabor number the smallest margin of the path stays positive."""
-    model = Analysis(Problem(2, 0.0, 0.5))
-    with pytest.raises(NoSuchEvent):
-        model.event("jump_in")
-    assert min(margins(point.state, 0)[0] for point in model.points) > 0.1

@@ -10,11 +10,8 @@ the Abel transform of the displacement within the contact gives the Fredholm equ
 s(x) = d/dx int_0^x r f(r) / sqrt(x^2 - r^2) dr for the profile f. The load is 2 pi int_0^a phi, and the edge is in
 equilibrium at pi phi(a)^2 / (2 a E1*) = w with phi(a) < 0 (Sneddon 1965; Maugis, Contact, Adhesion and Rupture, ch. 4).
 SI units, or any others that agree; tension is negative.
-
-    python tests/layered_jkr.py --radius 5e-6 --work 0.05 --layer 1e9 0.4 100e-9 --substrate 1.5e6 0.49
 """
 
-import argparse
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -225,10 +222,10 @@ class LayeredJKR:
         cuts = np.concatenate([centre - spans, [centre], centre + spans])
         cuts = np.union1d(edges, cuts[(cuts > edges[0]) & (cuts < edges[-1])])
         t, w = gauss_panels(cuts, self.points + 8)
-        first = np.searchsorted(cuts, edges)
-        panel = np.repeat(np.arange(edges.size - 1), np.diff(first) * (self.points + 8))
+        starts = np.searchsorted(cuts, edges)
+        panel = np.repeat(np.arange(edges.size - 1), np.diff(starts) * (self.points + 8))
         local = (2 * t - edges[panel] - edges[panel + 1]) / (edges[panel + 1] - edges[panel])
-        return t, w, first[:-1] * (self.points + 8), local
+        return t, w, starts[:-1] * (self.points + 8), local
 
     def state(self, a: float) -> Equilibrium:
         """Equilibrium with the contact radius a."""
@@ -304,24 +301,3 @@ def minima_with_error(stack: Stack, work: float, Q: float, n: float = 2.0) -> li
 def pull_off_force(stack: Stack, work: float, Q: float, n: float = 2.0) -> Minimum:
     """The global minimum of the load; its load is negative."""
     return min(minima_with_error(stack, work, Q, n), key=lambda minimum: minimum.load)
-
-
-def main() -> None:
-    """Print the minima of the load."""
-    parser = argparse.ArgumentParser(description="JKR pull-off from layers: minima of the load over the contact radius")
-    parser.add_argument("--radius", type=float, required=True, help="Q of the profile r^n / (n Q), m")
-    parser.add_argument("--index", type=float, default=2.0, help="n of the profile (default: 2)")
-    parser.add_argument("--work", type=float, required=True, help="work of adhesion, J/m^2")
-    parser.add_argument("--layer", type=float, nargs=3, action="append", required=True, metavar=("E", "NU", "H"))
-    parser.add_argument("--substrate", type=float, nargs=2, required=True, metavar=("E", "NU"))
-    options = parser.parse_args()
-    stack = Stack(tuple(tuple(layer) for layer in options.layer), tuple(options.substrate))
-    minima = minima_with_error(stack, options.work, options.radius, options.index)
-    lowest = min(minimum.load for minimum in minima)
-    for minimum in minima:
-        note = "  pull-off" if minimum.load == lowest else ""
-        print(f"a = {minimum.contact_radius:.6e}  P = {minimum.load:.9e} +- {minimum.error:.0e}{note}")
-
-
-if __name__ == "__main__":
-    main()

@@ -1,0 +1,95 @@
+"""A ball, the true sphere f = R - sqrt(R^2 - r^2), in both references: digits, limits, agreement and refusal."""
+
+import math
+
+import numpy as np
+import pytest
+
+import fem_reference
+import fscm
+
+#: Pull-off force in pi R w at w/(E* R), mu = 2, k = 0, with a bound that covers the last digit.
+DIGITS = {1e-3: (1.5656047464, 1e-10), 5e-3: (1.5322147873, 5e-10)}
+#: Relative bound of the finite elements; measured worst 9.9e-6 over the 30 random balls (21).
+LARGEST_BOUND = 2e-5
+
+
+def ball(package, softness, mu, k=0.0, shape="Ball"):
+    """Problem of a ball of radius 1 on a solid with E* = 1 and w = `softness`."""
+    solid = package.PowerLaw(E0=0.91, c0=1.0, k=k, nu=0.3)
+    punch = package.Ball(1.0) if shape == "Ball" else package.PowerPunch(2.0, 1.0)
+    # Eq. 29 at the unit range has the Tabor number mu z0.
+    unit = fscm.Problem(fscm.PowerLaw(0.91, 1.0, k, 0.3), fscm.PowerPunch(2.0, 1.0), fscm.LennardJones(softness, 1.0))
+    return package.Problem(solid, punch, package.LennardJones(softness, unit.mu / mu))
+
+
+@pytest.mark.parametrize("package", [fscm, fem_reference])
+def test_the_shape_is_a_sphere_up_to_its_reach_and_smooth_beyond(package):
+    shape = package.Ball(R=2.0)
+    r = np.array([0.0, 1e-9, 0.5, 1.0, 1.5, 1.9])
+    sphere = np.array([0.0, 2.5e-19, *(2.0 - np.sqrt(4.0 - r[2:] ** 2))])
+    np.testing.assert_allclose(shape.height(r), sphere, rtol=1e-14)
+    np.testing.assert_allclose(shape.slope(r), r / np.sqrt(4.0 - r**2), rtol=1e-14)
+    at, h = shape.reach, 1e-4
+    below, above = (shape.slope(np.array([at, at + side * h])) for side in (-1.0, 1.0))
+    assert np.diff(below)[0] / -h == pytest.approx(np.diff(above)[0] / h, rel=5e-3)  # the curvature is continuous
+    far = np.array([10.0, 11.0])
+    assert np.diff(shape.height(far))[0] == pytest.approx(np.mean(shape.slope(far)), rel=1e-12)  # a parabola
+    for bad in (0.0, -1.0, math.nan, math.inf):
+        with pytest.raises(ValueError, match="radius R"):
+            package.Ball(bad)
+
+
+@pytest.mark.parametrize("softness", DIGITS)
+def test_pull_off_by_both_to_every_digit(softness):
+    value, bound = DIGITS[softness]
+    unit = math.pi * softness
+    integral, elements = (
+        package.solve(ball(package, softness, 2.0), "pull_off_force") for package in (fscm, fem_reference)
+    )
+    assert integral.value / unit == pytest.approx(value, abs=bound)
+    assert abs(integral.value - elements.value) <= integral.u_num + elements.u_num
+    assert elements.u_num < LARGEST_BOUND * elements.value
+
+
+def test_a_large_ball_is_its_paraboloid():
+    """The force differs by w/(E* R) to the power 2/3, as (a/R)^2 and z0/R do at a fixed Tabor number."""
+    differences = []
+    for softness in (8e-5, 1e-5):
+        forces = [fscm.solve(ball(fscm, softness, 0.5, 0.0, shape), "pull_off_force").value for shape in ("Ball", "")]
+        differences.append(1.0 - forces[0] / forces[1])
+    assert 0.0 < differences[1] < 2e-3
+    assert differences[0] / differences[1] == pytest.approx(4.0, rel=0.02)
+
+
+def random_ball(number):
+    rng = np.random.default_rng(7000 + number)
+    softness, mu = 10.0 ** rng.uniform(-4.0, -1.8), 10.0 ** rng.uniform(-0.8, 0.5)
+    return float(softness), float(mu), float(rng.uniform(0.0, 0.5)) if number % 2 else 0.0
+
+
+@pytest.mark.parametrize("number", [0, *(pytest.param(i, marks=pytest.mark.heavy) for i in range(1, 30))])
+def test_both_references_agree(number):
+    integral, elements = (
+        package.solve(ball(package, *random_ball(number)), "pull_off_force") for package in (fscm, fem_reference)
+    )
+    assert abs(integral.value - elements.value) <= integral.u_num + elements.u_num
+    assert elements.u_num < LARGEST_BOUND * elements.value
+
+
+@pytest.mark.parametrize(
+    "compute",
+    [
+        lambda: fscm.solve(ball(fscm, 1.0, 2.0), "zero_load_displacement"),
+        lambda: fem_reference.solve(ball(fem_reference, 1.0, 2.0), "zero_load_displacement"),
+        lambda: fscm.trace(ball(fscm, 1.0, 2.0)),
+        lambda: fscm.equilibria(ball(fscm, 1.0, 2.0), "load", 0.0),
+    ],
+    ids=["fscm", "fem", "path", "states"],
+)
+def test_a_ball_smaller_than_the_contact_is_refused_in_one_sentence(compute):
+    with pytest.raises(
+        (fscm.NotConverged, fem_reference.NotConverged), match="the ball is smaller than the contact"
+    ) as caught:
+        compute()
+    assert "\n" not in str(caught.value)

@@ -1,0 +1,92 @@
+"""Shapes of punches of both references: heights, slopes, growth, kinks, refusals."""
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import fem_reference
+import fscm
+
+both = pytest.mark.parametrize("package", [fscm, fem_reference], ids=lambda package: package.__name__)
+RADII = np.array([0.1, 0.3, 0.7, 1.1, 4.0, 30.0, 1e3])
+
+
+def hyperboloid(r):
+    return np.sqrt(1.0 + np.asarray(r) ** 2) - 1.0
+
+
+SHAPES = {
+    "cone": lambda package: package.PowerPunch(1.0, 1.0),
+    "power": lambda package: package.PowerPunch(2.5, 0.7),
+    "rounded cone": lambda package: package.RoundedCone(rounding=0.5, cone_slope=2.0),
+    "sum": lambda package: package.PowerSum((0.5, 0.125), (2.0, 4.0)),
+    "sum with a dip": lambda package: package.PowerSum((1.0, -0.1, 0.5), (1.0, 1.5, 3.0)),
+    "measured": lambda package: package.MeasuredPunch((0.0, 1.0, 2.0), (0.0, 0.25, 2.0), growth=3.0),
+    "own": lambda package: package.CustomPunch(hyperboloid, growth=1.0),
+}
+
+
+@both
+@pytest.mark.parametrize("make", SHAPES.values(), ids=SHAPES)
+def test_slope_growth_and_apex_belong_to_the_height(package, make):
+    punch = make(package)
+    h = 1e-4 * RADII
+    # Central differences of fourth order: truncation 1e-16, rounding about 1e-11.
+    d = [punch.height(RADII + i * h) for i in (-2, -1, 1, 2)]
+    assert punch.slope(RADII) == pytest.approx((d[0] - 8 * d[1] + 8 * d[2] - d[3]) / (12 * h), rel=1e-7)
+    if package is fscm:  # the sum with a dip is the slowest to settle
+        low, high = punch.height(np.array([1e9, 2e9]))
+        assert math.log2(high / low) == pytest.approx(punch.growth, abs=1e-5)
+    assert float(punch.height(np.array([0.0]))[0]) == 0.0
+    assert punch.slope(RADII.reshape(7, 1)).shape == (7, 1)
+    assert pickle.loads(pickle.dumps(punch)) == punch
+    assert hash(make(package)) == hash(punch)
+
+
+@both
+def test_a_rounded_cone_is_a_paraboloid_at_the_apex_and_a_cone_far_away(package):
+    punch = package.RoundedCone(rounding=2.0, cone_slope=0.5)
+    # Without cancellation, however small r is.
+    assert punch.height(np.array([1e-9]))[0] == pytest.approx(0.5 * 1e-18 / 4.0, rel=1e-14)
+    assert punch.height(np.array([1e9]))[0] == pytest.approx(0.5 * (1e9 - 2.0), rel=1e-14)
+
+
+@both
+def test_a_measured_profile_is_its_segments_and_a_power(package):
+    punch = package.MeasuredPunch([0, 1, 2, 3], [0, 0.5, 1.0, 3.0], growth=3)
+    r = np.array([0.0, 0.5, 1.5, 2.5, 3.0, 6.0])
+    assert punch.height(r) == pytest.approx([0.0, 0.25, 0.75, 2.0, 3.0, 24.0])
+    assert punch.slope(r) == pytest.approx([0.5, 0.5, 0.5, 2.0, 3.0, 12.0])
+    # The slope does not jump at 1.
+    assert punch.kinks == (2.0, 3.0)
+    assert package.MeasuredPunch([0.0, 1.0, 2.5], [0.0, 1.0, 2.5], growth=1).kinks == ()
+
+
+@both
+def test_impossible_shapes_are_refused_in_one_sentence(package):
+    for name, arguments, message in (
+        *(("PowerPunch", (bad, 1.0), "n = ") for bad in (0.0, -1.0, math.inf, math.nan)),
+        ("RoundedCone", (0.0, 1.0), "rounding"),
+        ("RoundedCone", (1.0, math.inf), "cone_slope"),
+        ("PowerSum", ((), ()), "exponents"),
+        ("PowerSum", ((1.0,), (2.0, 3.0)), "exponents"),
+        ("PowerSum", ((1.0, 1.0), (2.0, 2.0)), "exponents"),
+        ("PowerSum", ((1.0,), (0.0,)), "exponent"),
+        ("PowerSum", ((1.0, -1.0), (1.0, 2.0)), "coefficient -1 of the largest exponent 2"),
+        ("PowerSum", ((math.nan,), (2.0,)), "nan"),
+        ("PowerSum", ("ab", (2.0,)), "coefficient"),
+        ("MeasuredPunch", ((0.0, 1.0), (0.0,)), "no profile"),
+        ("MeasuredPunch", ((0.0,), (0.0,)), "no profile"),
+        ("MeasuredPunch", ((0.1, 1.0), (0.0, 1.0)), r"\(0.1, 0\)"),
+        ("MeasuredPunch", ((0.0, 1.0), (0.5, 1.0)), r"\(0, 0.5\)"),
+        ("MeasuredPunch", ((0.0, 1.0, 1.0), (0.0, 1.0, 2.0)), "radius 1 in row 2"),
+        ("MeasuredPunch", ((0.0, 1.0), (0.0, -1.0)), "last height -1"),
+        ("MeasuredPunch", ((0.0, 1.0), (0.0, 1.0), 0.0), "growth = 0.0"),
+        ("MeasuredPunch", ((0.0, math.nan), (0.0, 1.0)), "finite"),
+        ("CustomPunch", (lambda r: r + 1.0, 1.0), r"f\(0\)"),
+    ):
+        with pytest.raises(ValueError, match=message) as caught:
+            getattr(package, name)(*arguments)
+        assert "\n" not in str(caught.value)

@@ -1,0 +1,58 @@
+"""Both references have the same names with the same arguments for solids, punches and laws; both solve layers."""
+
+import inspect
+
+import numpy as np
+import pytest
+
+import fem_reference
+import fscm
+
+NAMES = (
+    *("PowerLaw", "Homogeneous", "OffsetPowerLaw", "Exponential", "Coating", "Layers", "TabulatedModulus"),
+    *("CustomSolid", "Ball", "PowerPunch", "RoundedCone", "PowerSum", "MeasuredPunch", "CustomPunch"),
+    *("LennardJones", "Mie", "TabulatedLaw"),
+)
+#: Arguments that one of them has besides, after the shared ones.
+MORE = {
+    "TabulatedLaw": ("smoothing",),
+    "CustomSolid": ("surface_exponent", "depth_exponent"),
+}
+
+
+def test_a_class_has_the_same_arguments_in_both():
+    for name in NAMES:
+        lists = [tuple(inspect.signature(getattr(package, name)).parameters) for package in (fscm, fem_reference)]
+        shorter, longer = sorted(lists, key=len)
+        assert longer == (*shorter, *MORE.get(name, ())), name
+
+
+@pytest.mark.parametrize("package", [fscm, fem_reference])
+def test_the_constants_of_layers_are_those_of_their_depth(package):
+    solid = package.Layers(E=[1.0, 9.0, 2.0], nu=[0.3, 0.2, 0.4], thickness=[1.0, 0.5])
+    z = np.array([0.0, 0.9, 1.1, 1.4, 1.6, 1e6])
+    assert solid.modulus(z).tolist() == [1.0, 1.0, 9.0, 9.0, 2.0, 2.0]
+    assert solid.poisson(z).tolist() == [0.3, 0.3, 0.2, 0.2, 0.4, 0.4]
+    assert solid == package.Layers(E=(1, 9, 2), nu=(0.3, 0.2, 0.4), thickness=(1, 0.5))
+
+
+@pytest.mark.parametrize("package", [fscm, fem_reference])
+def test_impossible_layers_are_refused(package):
+    for E, nu, thickness, words in (
+        ([1.0], [0.3], [], "one entry more"),
+        ([1.0, 2.0], [0.3], [1.0], "one entry more"),
+        ([1.0, 2.0, 3.0], [0.3, 0.3], [1.0], "one entry more"),
+        ([1.0, -2.0], [0.3, 0.3], [1.0], r"E\[1\] = -2"),
+        ([1.0, 2.0], [0.3, 0.3], [0.0], r"thickness\[0\] = 0"),
+        ([1.0, 2.0], [0.3, 0.6], [1.0], "0.6"),
+        (1.0, [0.3, 0.3], [1.0], "sequence"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            package.Layers(E, nu, thickness)
+
+
+def test_one_layer_is_a_coating():
+    law, punch = fscm.LennardJones(0.05, 0.4e-9), fscm.PowerPunch(2, 1e-7)
+    solids = fscm.Layers([1e9, 3e9], [0.3, 0.4], [1e-8]), fscm.Coating(1e9, 3e9, 1e-8, 0.0, 0.3, 0.4)
+    forces = [fscm.solve(fscm.Problem(solid, punch, law), "pull_off_force", 1e-5) for solid in solids]
+    assert forces[0].value == pytest.approx(forces[1].value, rel=1e-12)
