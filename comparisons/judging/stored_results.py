@@ -20,8 +20,9 @@ from comparisons.runs.rows import CASE, Key
 
 __all__ = ["CURVE", "NUMBER", "GateResults", "StoredResults", "UnusableResult"]
 
-#: Columns of a table of scalars and of one of curves without which nothing can be judged.
+#: Columns of a table of scalars without which nothing can be judged.
 NUMBER = {"model", "quantity", *CASE, "status", "reason", "value", "u_num"}
+#: The same of a table of curves.
 CURVE = {"model", "quantity", *CASE, "status", "reason", "x", "y", "u_distance"}
 
 

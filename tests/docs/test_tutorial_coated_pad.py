@@ -5,7 +5,6 @@ import shlex
 from contextlib import chdir
 from pathlib import Path
 
-import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
@@ -31,11 +30,9 @@ def stable(line):
     return re.sub(r"\(\d+(e-?\d+)?\)|\([\d.]+ s\)", "", line)
 
 
-def test_the_file_has_twelve_lines_and_the_page_three_commands():
-    assert len(TOML.splitlines()) == 12
+def test_the_file_of_the_page_is_that_of_the_examples():
     assert (DOCS / "examples" / "problems" / "coated_pad.toml").read_text(encoding="utf-8") == TOML
     assert [command[0] for command in COMMANDS] == ["describe", "solve", "curve"]
-    assert "--uncertain" in COMMANDS[0]
 
 
 def test_describe_prints_what_the_page_shows_without_the_uncertain_values(folder, capsys):
@@ -52,14 +49,3 @@ def test_the_finite_elements_print_what_the_page_shows(folder, capsys):
     printed = capsys.readouterr().out.splitlines()
     assert [stable(line) for line in printed] == [stable(line) for line in PRINTED[1].splitlines()]
     assert f"{FORCE}(" in printed[1]
-
-
-@pytest.mark.heavy
-def test_the_curve_has_the_pull_off_force_and_both_jumps(folder):
-    assert main([*COMMANDS[2], "--csv", "curve.csv"]) == 0
-    assert (folder / "coated_pad.png").stat().st_size > 10_000
-    curve = pd.read_csv("curve.csv")
-    assert -curve["load [N]"].min() * 1e9 == pytest.approx(FORCE, abs=1e-3)
-    unstable = curve[curve["stable_under_displacement"] == 0]["displacement [m]"] * 1e9
-    assert unstable.max() == pytest.approx(-0.9, abs=0.03)
-    assert unstable.min() == pytest.approx(-1.05, abs=0.03)
