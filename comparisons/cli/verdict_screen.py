@@ -5,14 +5,12 @@ from __future__ import annotations
 from comparisons.cli.screen import output, print_lines
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK
 from comparisons.console.progress import log
-from comparisons.data.file_names import GATES
 from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import Verdict
 from comparisons.judging.report_card import card_lines, given_models, verdict_sentence
 from comparisons.judging.summary import summarise
-from comparisons.output.gate_sentence import declared_sentence, gate_lines, gates_line, unexpected
+from comparisons.output.verdicts import declared_sentence, gate_lines, gates_sentence, unexpected
 from comparisons.pipeline.judgement import Judgement
-from comparisons.runs.frames import read_table
 
 __all__ = ["STATUS", "print_verdicts"]
 
@@ -47,9 +45,7 @@ def print_verdicts(judgement: Judgement, *, verbose: bool, quiet: bool) -> None:
         print_lines(_cards(judgement, verbose))
         rows, most = (gates, None) if verbose else (unexpected(gates), _GATES)
         print_lines(gate_lines(rows, judgement.inputs.specs, width, most))
-        required = read_table(judgement.folder / f"{GATES}.parquet")
-        bases = dict(zip(required["id"], required["basis"], strict=True))
-        print_lines(filter(None, [declared_sentence(gates), gates_line(gates, judgement.verdicts, bases)]))
+        print_lines(filter(None, [declared_sentence(gates), gates_sentence(gates, judgement.verdicts)]))
     wrong = gates[gates["verdict"] == Verdict.ERROR]
     for row in wrong.head(_ERRORS).itertuples():
         log(f"a gate is in error: {row.gate} of {row.candidate}: {row.reason}")

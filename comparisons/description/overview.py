@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from comparisons.numerics.kappa import relative_difference, relative_uncertainty
+from comparisons.numerics.bounds import relative_difference, relative_uncertainty
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import REFERENCES
 from comparisons.registry import MODELS

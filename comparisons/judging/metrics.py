@@ -8,8 +8,7 @@ from typing import Any
 
 from comparisons.judging.decision import Verdict
 from comparisons.judging.stored_results import GateResults, UnusableResult
-from comparisons.numerics.bounds import combined
-from comparisons.numerics.kappa import relative_difference
+from comparisons.numerics.bounds import combined, relative_difference
 from comparisons.problem import Problem
 
 __all__ = ["CaseError", "case_error", "reference_range"]

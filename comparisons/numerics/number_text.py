@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping
 from decimal import ROUND_CEILING, ROUND_HALF_EVEN, Decimal
 from typing import Any
 
@@ -21,12 +22,13 @@ _SMALL_VALUE = 1e-6
 #: A relative error in percent is shown to this digit, or to the digit that its uncertainty leaves it.
 _LEAST_PERCENT = 5e-5
 
-#: The error of a gate is shown to this digit; one below `_SMALL_ERROR` with a power of ten, to its third decimal.
-_LEAST_ERROR = 5e-6
-_SMALL_ERROR = 1e-3
-_LEAST_MANTISSA = 5e-3
+#: The error of a gate is shown to this digit; one below `_SMALL_ERROR` has a power of ten.
+_LEAST_ERROR, _SMALL_ERROR = 5e-6, 1e-3
 #: Powers of ten below it are no normal doubles.
 _LEAST_POWER = -300
+
+#: What siunitx reads as a number: sign and digits, decimals, uncertainty, power of ten.
+_NUMBER = re.compile(r"-?([0-9]+)(?:\.([0-9]+))?(?:\(([0-9]+)\))?(?:e([+-]?[0-9]+))?")
 
 
 def exact(value: float) -> str:
@@ -106,24 +108,27 @@ def value_text(value: float | None, u: float | None) -> str:
     """
     if value is None or math.isnan(value):
         return ""
-    if 0.0 < abs(value) < _SMALL_VALUE and not float(u or 0.0) > abs(value):
-        power = max(math.floor(math.log10(abs(value))), _LEAST_POWER)
-        scale = 10.0**power
-        return f"{short(value / scale, max(float(u or 0.0) / scale, LEAST_SHOWN))}e{power}"
+    u, size = float(u or 0.0), abs(value)
+    return _text(value, u, LEAST_SHOWN, size if size < _SMALL_VALUE and not u > size else 0.0)
+
+
+def _text(value: float, u: float, least: float, size: float) -> str:
+    """Return a value with an uncertainty of `least` at least, with the power of ten of a size unless that is zero."""
+    power = max(math.floor(math.log10(size)), _LEAST_POWER) if size else 0
     # NaN, from a table, is a missing uncertainty; max keeps it where it is its first argument.
-    return short(value, max(float(u or 0.0), LEAST_SHOWN))
+    text = short(value / 10.0**power, max(u / 10.0**power, least))
+    return f"{text}e{power}" if power else text
 
 
-def percent_text(fraction: float, u: float) -> str:
+def percent_text(fraction: float, u: float, least: float = _LEAST_PERCENT) -> str:
     """Return a relative error in percent; "inf" where that is above the largest number.
 
     Examples
     --------
-    >>> percent_text(0.066931234, 1e-9), percent_text(-1e307, 1e-9)
-    ('6.69312(5)', '-inf')
+    >>> percent_text(0.066931234, 1e-9), percent_text(-1e307, 1e-9), percent_text(-0.0494, 1e-9, 5e-3)
+    ('6.69312(5)', '-inf', '-4.940(5)')
     """
-    percent = 100 * float(fraction)
-    return str(percent) if math.isinf(percent) else value_text(percent, max(100 * float(u), _LEAST_PERCENT))
+    return _text(100 * float(fraction), 100 * float(u), least, 0.0)
 
 
 def error_text(error: float | None, u: float | None) -> str:
@@ -136,12 +141,8 @@ def error_text(error: float | None, u: float | None) -> str:
     """
     if error is None or u is None or math.isnan(error):
         return ""
-    largest = max(abs(error), u)
-    if not 0.0 < largest < _SMALL_ERROR:
-        return short(error, max(u, _LEAST_ERROR))
-    power = max(math.floor(math.log10(largest)), _LEAST_POWER)
-    scale = 10.0**power
-    return f"{short(error / scale, max(u / scale, _LEAST_MANTISSA))}e{power}"
+    size = max(abs(error), u)
+    return _text(error, u, _LEAST_ERROR, size if size < _SMALL_ERROR else 0.0)
 
 
 def case_text(case: Mapping[str, Any]) -> str:
@@ -157,3 +158,26 @@ def case_text(case: Mapping[str, Any]) -> str:
         for name, number in case.items()
         if name != "problem" and number is not None and not math.isnan(number)
     )
+
+
+def number_parts(text: str) -> re.Match[str] | None:
+    """Return the parts of a number with its uncertainty: digits, decimals, uncertainty, power of ten.
+
+    Examples
+    --------
+    >>> number_parts("-1.79(2)e-7").groups()
+    ('1', '79', '2', '-7')
+    """
+    return _NUMBER.fullmatch(text)
+
+
+def aligned(texts: Iterable[str]) -> bool:
+    """Whether a column of texts is one of numbers: at least half of those that are not empty.
+
+    Examples
+    --------
+    >>> aligned(["-5.0(3)", "failed", ""]), aligned(["jkr", "2"]), aligned([])
+    (True, True, False)
+    """
+    filled = [text for text in texts if text]
+    return 2 * sum(number_parts(text) is not None for text in filled) >= max(len(filled), 1)

@@ -7,55 +7,43 @@ for any quantity.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import product
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from comparisons.data.paper_values import paper_values
-from comparisons.numerics.bounds import combined
-from comparisons.numerics.kappa import relative_difference, relative_uncertainty
+from comparisons.numerics.bounds import combined, relative_difference, relative_uncertainty
+from comparisons.problem import PARAMETERS
 from comparisons.quantities import QUANTITIES
 from comparisons.runs.case_columns import keys_in, with_problem, without_empty_problem
 from comparisons.runs.cases import Grid
 from comparisons.runs.rows import CASE
 from comparisons.runs.tasks import Task, problem_for
 
-__all__ = [
-    "COMPARED",
-    "KAPPA_COLUMNS",
-    "LARGEST_COLUMNS",
-    "agreement",
-    "comparison_table",
-    "error_summary",
-    "largest",
-    "relative_error",
-    "worst_rows",
-]
+__all__ = ["COLUMNS", "agreement", "comparison_table", "error_summary", "largest", "relative_error", "worst_rows"]
 
 _CASE = ["quantity", *CASE]
 _SERIES = ["quantity", "model", "n", "k"]
-_REFERENCE = ("reference", "reference_value", "u_reference")
+_VALUES = ("value", "u_num", "reference_value", "u_reference")
+_KAPPA = ("reference", "reference_value", "u_reference", "kappa", "u_kappa")
 
-#: Columns of `relative_error`.
-KAPPA_COLUMNS = ("quantity", "model", *CASE, "value", "u_num", *_REFERENCE, "kappa", "u_kappa")
-
-#: Columns of `largest`.
-LARGEST_COLUMNS = (*_SERIES, "cases", "mu", "at_end", "kappa", "u_kappa", "paper_percent", "verdict")
-
-#: Columns of `comparison_table`.
-COMPARED = (*_CASE, "model", "status", "value", "u_num", *_REFERENCE, "kappa", "u_kappa", "reason")
+#: Columns of `relative_error`, of `largest` and of `comparison_table`, by the names of their files.
+COLUMNS = {
+    "kappa": ("quantity", "model", *CASE, "value", "u_num", *_KAPPA),
+    "largest_kappa": (*_SERIES, "cases", "mu", "at_end", "kappa", "u_kappa", "paper_percent", "verdict"),
+    "comparison": (*_CASE, "model", "status", "value", "u_num", *_KAPPA, "reason"),
+}
 
 #: Columns of `error_summary`.
-_SUMMARY = (
-    *("quantity", "model", "reference", "asked", "answered", "not_applicable", "failed", "cases"),
-    *("largest", "u_largest", *CASE, "rms", "u"),
-)
+_GROUP = ["quantity", "model", "reference"]
+_COUNTS = ("asked", "answered", "not_applicable", "failed", "cases")
+_SUMMARY = (*_GROUP, *_COUNTS, "largest", "u_largest", "size", *CASE, "rms", "u")
 
 
 def _with_kappa(table: pd.DataFrame) -> pd.DataFrame:
-    numbers = table[["value", "u_num", "reference_value", "u_reference"]].astype(float)
-    value, u, reference, u_reference = (numbers[name] for name in numbers)
+    value, u, reference, u_reference = (table[name].astype(float) for name in _VALUES)
     with np.errstate(divide="ignore", invalid="ignore"):
         kappa = relative_difference(value, reference)
         return table.assign(kappa=kappa, u_kappa=relative_uncertainty(value, u, reference, u_reference))
@@ -74,7 +62,7 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        `KAPPA_COLUMNS`, sorted; `problem` where a case is of a file.
+        `COLUMNS` of kappa, sorted; `problem` where a case is of a file.
 
     Examples
     --------
@@ -90,7 +78,7 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     names = {"model": "reference", "value": "reference_value", "u_num": "u_reference"}
     table = usable[~of_reference].merge(usable[of_reference].rename(columns=names), on=_CASE, validate="many_to_one")
     table = _with_kappa(table).sort_values(["quantity", "model", *CASE], ignore_index=True)
-    return without_empty_problem(table[list(KAPPA_COLUMNS)])
+    return without_empty_problem(table[list(COLUMNS["kappa"])])
 
 
 def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
@@ -138,8 +126,8 @@ def largest(kappa: pd.DataFrame) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        `LARGEST_COLUMNS`: mu is where the largest is, at_end whether that is an end of the range of mu, so that a
-        wider one may give more.
+        `COLUMNS` of largest_kappa: mu is where the largest is, at_end whether that is an end of the range of mu, so
+        that a wider one may give more.
 
     Examples
     --------
@@ -153,14 +141,15 @@ def largest(kappa: pd.DataFrame) -> pd.DataFrame:
     table = worst_rows(kappa, _SERIES)[[*_SERIES, "mu", "kappa", "u_kappa"]].sort_values(_SERIES, ignore_index=True)
     ends = kappa.groupby(_SERIES)["mu"].agg(["size", "min", "max"]).reset_index(drop=True)
     at_end = (table["mu"] == ends["min"]) | (table["mu"] == ends["max"])
-    table = table.assign(cases=ends["size"], at_end=at_end)
     papers = [printed.get(key) for key in table[_SERIES].itertuples(index=False, name=None)]
-    table["paper_percent"] = [paper.text if paper else "" for paper in papers]
-    table["verdict"] = [
-        paper.verdict(100.0 * abs(value), 100.0 * bound) if paper else ""
-        for paper, value, bound in zip(papers, table["kappa"], table["u_kappa"], strict=True)
-    ]
-    return table[list(LARGEST_COLUMNS)]
+    percents = zip(papers, 100.0 * table["kappa"].abs(), 100.0 * table["u_kappa"], strict=True)
+    table = table.assign(
+        cases=ends["size"],
+        at_end=at_end,
+        paper_percent=[paper.text if paper else "" for paper in papers],
+        verdict=[paper.verdict(percent, bound) if paper else "" for paper, percent, bound in percents],
+    )
+    return table[list(COLUMNS["largest_kappa"])]
 
 
 def worst_rows(kappa: pd.DataFrame, by: Sequence[str]) -> pd.DataFrame:
@@ -188,31 +177,26 @@ def comparison_table(results: pd.DataFrame, grids: Iterable[Grid], models: Seque
     Returns
     -------
     DataFrame
-        `COMPARED`.  `value` is NaN unless `status` is "ok"; `kappa` is NaN too where the reference has no value, and
-        `reason` states why.
+        `COLUMNS` of comparison.  `value` is NaN unless `status` is "ok"; `kappa` is NaN too where the reference has no
+        value, and `reason` states why.
     """
-    stored = dict(zip(keys_in(results), results[["status", "value", "u_num", "reason"]].to_numpy(), strict=True))
-
-    def row(grid: Grid, model: str, quantity: str, case: Any) -> dict[str, Any]:
-        status, value, u, reason = stored[Task(model, quantity, problem_for(model, case)).key]
-        own, reference, u_reference, why = stored[Task(grid.reference, quantity, problem_for(grid.reference, case)).key]
-        if status == "ok" and own != "ok":
-            reason = f"the reference {grid.reference}: {own}: {why}"
-        parameters = dict(zip(CASE, case.key, strict=True))
-        table = {"quantity": quantity, "model": model, "status": status, "value": value, "u_num": u, "reason": reason}
-        return table | parameters | dict(zip(_REFERENCE, (grid.reference, reference, u_reference), strict=True))
-
-    rows = {
-        (quantity, case, model, grid.reference): row(grid, model, quantity, case)
-        for grid in grids
-        for quantity in grid.quantities
-        for case in grid.cases
-        for model in models or grid.models
-        if model != grid.reference
-    }
-    table = _with_kappa(pd.DataFrame(rows.values(), columns=[name for name in COMPARED if not name.endswith("kappa")]))
-    numbers = ("n", "k", "mu", "nu", "value", "u_num", "reference_value", "u_reference")
-    return without_empty_problem(table.astype(dict.fromkeys(numbers, float))[list(COMPARED)])
+    evaluated = results[["status", "value", "u_num", "reason"]].to_dict("records")
+    stored = dict(zip(keys_in(results), evaluated, strict=True))
+    rows = {}
+    for grid in grids:
+        for quantity, case, model in product(grid.quantities, grid.cases, models or grid.models):
+            if model == grid.reference:
+                continue
+            result, reference = (
+                stored[Task(name, quantity, problem_for(name, case)).key] for name in (model, grid.reference)
+            )
+            row = {"quantity": quantity, "model": model, **dict(zip(CASE, case.key, strict=True)), **result}
+            row |= dict(zip(_KAPPA, (grid.reference, reference["value"], reference["u_num"]), strict=False))
+            if result["status"] == "ok" != reference["status"]:
+                row["reason"] = f"the reference {grid.reference}: {reference['status']}: {reference['reason']}"
+            rows[quantity, case, model, grid.reference] = row
+    table = pd.DataFrame(rows.values(), columns=list(COLUMNS["comparison"]))
+    return without_empty_problem(_with_kappa(table.astype(dict.fromkeys((*PARAMETERS, *_VALUES), float))))
 
 
 def error_summary(table: pd.DataFrame) -> pd.DataFrame:
@@ -228,7 +212,7 @@ def error_summary(table: pd.DataFrame) -> pd.DataFrame:
     -------
     DataFrame
         In how many cases the model was evaluated (asked), has a value (answered), is not applicable and has failed;
-        the number of cases with a kappa; the kappa of largest size with its bound and its case; the root mean square
+        the number of cases with a kappa; the kappa of largest size with its bound, size and case; the root mean square
         of kappa; and the largest bound u of a kappa, which bounds the error of both: the largest, and the root mean
         square, change by no more than their terms do.
 
@@ -242,18 +226,18 @@ def error_summary(table: pd.DataFrame) -> pd.DataFrame:
     >>> summary[["asked", "answered", "failed", "largest", "mu", "rms"]].round(6).values.tolist()
     [[3.0, 2.0, 1.0, 0.04, 2.0, 0.035355]]
     """
-    groups = with_problem(table).groupby(["quantity", "model", "reference"], sort=False)
-    rows = [dict(zip(("quantity", "model", "reference"), key, strict=True)) | _summed(rows) for key, rows in groups]
+    groups = with_problem(table).groupby(_GROUP, sort=False)
+    rows = [dict(zip(_GROUP, key, strict=True)) | _summed(rows) for key, rows in groups]
     return without_empty_problem(pd.DataFrame(rows, columns=list(_SUMMARY)))
 
 
 def _summed(rows: pd.DataFrame) -> dict[str, Any]:
-    counts = {name: int((rows["status"] == name.replace("_", "-")).sum()) for name in ("not_applicable", "failed")}
-    errors = rows[rows["kappa"].notna()]
-    summed = {"asked": len(rows), "answered": int((rows["status"] == "ok").sum()), **counts, "cases": len(errors)}
+    statuses, errors = rows["status"].value_counts(), rows[rows["kappa"].notna()]
+    numbers = (len(rows), *(int(statuses.get(name, 0)) for name in ("ok", "not-applicable", "failed")), len(errors))
+    summed: dict[str, Any] = dict(zip(_COUNTS, numbers, strict=True))
     if errors.empty:
         return summed | {"problem": ""}
     worst = errors.iloc[int(errors["kappa"].abs().to_numpy().argmax())]
-    sizes = {"largest": worst["kappa"], "u_largest": worst["u_kappa"], **{name: worst[name] for name in CASE}}
-    rms = float(np.sqrt(np.mean(errors["kappa"].to_numpy(float) ** 2)))
-    return summed | sizes | {"rms": rms, "u": errors["u_kappa"].max()}
+    sizes = {"largest": worst["kappa"], "u_largest": worst["u_kappa"], "size": abs(worst["kappa"])}
+    sizes |= {"rms": float(np.sqrt(np.mean(errors["kappa"].to_numpy(float) ** 2))), "u": errors["u_kappa"].max()}
+    return summed | sizes | {name: worst[name] for name in CASE}

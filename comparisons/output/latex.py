@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from comparisons.output.alignment import aligned, number_parts
+from comparisons.numerics.number_text import aligned, number_parts
 
-__all__ = ["LatexTable", "escaped", "latex", "latex_table"]
+__all__ = ["escaped", "latex", "latex_parts"]
 
 _PACKAGES = r"% The document needs \usepackage{array,booktabs,longtable,pdflscape,siunitx}"
 
@@ -58,14 +58,6 @@ _UPRIGHT = _Page("footnotesize", 74, 4.6, "center")
 _TURNED = _Page("scriptsize", 138, 4.3, "landscape")
 
 
-class LatexTable(NamedTuple):
-    """A table in LaTeX: what stands before and after its rows, and a line for each row."""
-
-    before: str
-    rows: list[str]
-    after: str
-
-
 def latex(texts: pd.DataFrame, caption: str, label: str) -> str:
     r"""Return a table of texts in LaTeX.
 
@@ -95,12 +87,12 @@ def latex(texts: pd.DataFrame, caption: str, label: str) -> str:
     \midrule
     \
     """
-    table = latex_table(texts, caption, label)
-    return "\n".join([table.before, *table.rows, table.after, ""])
+    before, rows, after = latex_parts(texts, caption, label)
+    return "\n".join([before, *rows, after, ""])
 
 
-def latex_table(texts: pd.DataFrame, caption: str, label: str) -> LatexTable:
-    """Return a table as `latex` does, row by row."""
+def latex_parts(texts: pd.DataFrame, caption: str, label: str) -> tuple[str, list[str], str]:
+    """Return a table as `latex` does: what stands before its rows, a line for each row, and what stands after them."""
     plain = {str(name): [" ".join(str(text).split()) for text in texts[name]] for name in texts}
     page, form = _layout(plain)
     cells = pd.DataFrame({_heading(name, column): _cells(column) for name, column in plain.items()}, dtype=object)
@@ -112,16 +104,11 @@ def latex_table(texts: pd.DataFrame, caption: str, label: str) -> LatexTable:
         label="tab:" + re.sub("[^A-Za-z0-9-]+", "-", label),
         column_format=form,
     )
-    begin = (
-        rf"\begin{{{page.around}}}\{page.font}\setlength{{\tabcolsep}}{{2.5pt}}\setlength{{\LTcapwidth}}{{\linewidth}}"
-    )
-    before, end_of_head, body = made.partition("\\endlastfoot\n")
+    margins = r"\setlength{\tabcolsep}{2.5pt}\setlength{\LTcapwidth}{\linewidth}"
+    head, end_of_head, body = made.partition("\\endlastfoot\n")
     rows, end, _ = body.partition(r"\end{longtable}")
-    return LatexTable(
-        f"{_PACKAGES}\n{begin}\n{before}{end_of_head}".rstrip("\n"),
-        rows.splitlines(),
-        f"{end}\n\\end{{{page.around}}}",
-    )
+    before = f"{_PACKAGES}\n\\begin{{{page.around}}}\\{page.font}{margins}\n{head}{end_of_head}"
+    return before.rstrip("\n"), rows.splitlines(), f"{end}\n\\end{{{page.around}}}"
 
 
 def _layout(texts: Mapping[str, list[str]]) -> tuple[_Page, str]:

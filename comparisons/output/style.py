@@ -19,24 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = [
-    "COLOURS",
-    "FORMATS",
-    "LINES",
-    "MARKERS",
-    "MODEL_LINES",
-    "MODEL_NAMES",
-    "VERDICT_SYMBOLS",
-    "ModelStyle",
-    "first_shown",
-    "lettered",
-    "model_label",
-    "model_styles",
-    "new_figure",
-    "picture_path",
-    "save",
-    "styled",
-]
+__all__ = ["COLOURS", "LINES", "MARKERS", "MODEL_LINES", "MODEL_NAMES", "ModelStyle", "model_styles", "save", "styled"]
 
 #: Okabe and Ito's colours that stay apart for every kind of colour vision and, in this order, in grey.
 COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666")
@@ -78,9 +61,6 @@ _MODEL_DASHES = "- - -- -- -. : -. - : : : : : -. : -. -. -- -."
 
 #: The model whose curve is broad and pale, below the others: where they are right they cover it.
 _BROAD = "fscm"
-
-#: Models that a plot of a page shows at first: more lines hide each other.
-_SHOWN_AT_FIRST = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,36 +106,23 @@ def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
     ('#000000', '#0072b2', 'mine')
     """
     present = sorted(set(names))
-    own = {name: index for index, name in enumerate(MODEL_NAMES) if name in present}
-    free = (index for index in count() if index not in own.values())
+    indices = {name: index for index, name in enumerate(MODEL_NAMES) if name in present}
+    free = (index for index in count() if index not in indices.values())
     dashes = dict(zip(MODEL_NAMES, _MODEL_DASHES.split(), strict=True))
     styles: dict[str, ModelStyle] = {}
     # Ours first: the dashes of the others are those that their colour has left.
-    for name in sorted(present, key=lambda name: name not in own):
-        index = own[name] if name in own else next(free)
-        turn, place = divmod(index, len(COLOURS))
-        taken = {style.line for style in styles.values() if style.colour == COLOURS[place]}
+    for name in sorted(present, key=lambda name: name not in indices):
+        index = indices[name] if name in indices else next(free)
+        turn, colour = divmod(index, len(COLOURS))
+        taken = {style.line for style in styles.values() if style.colour == COLOURS[colour]}
         left = [line for line in _DASHES if line not in taken] or list(_DASHES)
         line = dashes.get(name, left[index % len(left)])
         # With every turn of the colours the markers move on by one: a pair of both comes back after 64 models.
         shape = (index + turn) % len(MARKERS)
         markers = MARKERS[shape], _BOKEH_MARKERS[shape], _SIGNS[shape]
-        styles[name] = ModelStyle(
-            model_label(name), COLOURS[place], line, _DASHES[line], *markers, broad=name == _BROAD
-        )
+        label = model_label(name)
+        styles[name] = ModelStyle(label, COLOURS[colour], line, _DASHES[line], *markers, broad=name == _BROAD)
     return {name: styles[name] for name in present}
-
-
-def first_shown(names: Iterable[str]) -> list[str]:
-    """Return the models that a plot of a page shows at first: external ones, then ours in the order of the table.
-
-    Examples
-    --------
-    >>> first_shown(["schwarz", "dmt", "bradley", "jkr", "md-original", "md-improved", "mine"])
-    ['mine', 'md-improved', 'md-original', 'jkr', 'bradley']
-    """
-    order = list(MODEL_NAMES)
-    return sorted(names, key=lambda name: order.index(name) if name in order else -1)[:_SHOWN_AT_FIRST]
 
 
 def model_label(name: str) -> str:

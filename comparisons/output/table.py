@@ -1,15 +1,15 @@
 """The model of a table: a description of its columns, and the stored rows that every format shows by it.
 
 A column has a heading, the text of a row that every format shows, and the name of the stored number behind it, by
-which a page sorts.  `comparisons.output.formats` makes Markdown, LaTeX, HTML and tables of a terminal of the texts.
+which a page sorts.  The modules `latex`, `markup` and `terminal` beside this one write the texts.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import pandas as pd
@@ -17,15 +17,17 @@ import pandas as pd
 from comparisons.judging.summary import coverage_text
 from comparisons.numerics.number_text import error_text, exact, limits_text, percent_text, value_text
 from comparisons.problem import PARAMETERS
+from comparisons.problem.units import si_text
 from comparisons.quantities import title_of
+from comparisons.runs.case_columns import unit_in
 
-__all__ = ["CASE", "Column", "Record", "Table", "columns", "numbers", "percents", "short_percent", "values", "words"]
+__all__ = ["CASE", "Column", "Record", "Table", "columns", "key_columns", "key_text", "physical_text", "words"]
 
 #: A stored row.
 Record = Mapping[str, Any]
 
-#: An error in percent on a terminal and beside others is shown to this digit, or to that which its uncertainty leaves.
-_LEAST_PERCENT = 5e-3
+#: A relative error beside others is shown to this digit of a percent, or to that which its uncertainty leaves.
+SHORT_PERCENT = 5e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +63,7 @@ class Table:
     id, caption : str
     columns : sequence of Column
     stored : DataFrame
-        One row for each row of the table; its index, or its column `lines`, has the places of the rows in `source`.
-    source : str
-        Name of the stored table among the files of a page; empty where the rows are stored nowhere else.
+        One row for each row of the table.
     note : str
         A paragraph before the table on a page.
     fold : str
@@ -83,15 +83,9 @@ class Table:
     caption: str
     columns: Sequence[Column]
     stored: pd.DataFrame
-    source: str = ""
     note: str = ""
     fold: str = ""
     group: Callable[[Record], str] | None = None
-
-    @property
-    def file(self) -> str:
-        """Name of the stored table that a page saves rows of."""
-        return self.source or f"{self.id}.csv"
 
     @cached_property
     def records(self) -> list[dict[str, Any]]:
@@ -106,30 +100,32 @@ class Table:
         return table.loc[:, (table != "").any()] if len(table) else table
 
     @property
-    def seen(self) -> list[Column]:
+    def filled(self) -> list[Column]:
         """The columns of the texts."""
         return [column for column in self.columns if column.heading in self.texts]
 
     @property
     def on_paper(self) -> pd.DataFrame:
         """The texts without commands."""
-        return self.texts[[column.heading for column in self.seen if column.kind != "code"]]
+        return self.texts[[column.heading for column in self.filled if column.kind != "code"]]
 
 
 def _missing(stored: object) -> bool:
     return stored is None or stored != stored
 
 
-def words(heading: str, name: str, kind: str = "words") -> Column:
-    """Return a column of the texts that are stored under a name."""
+def words(heading: str, name: str = "", kind: str = "words") -> Column:
+    """Return a column of the texts that are stored under a name, that of the heading if none is given."""
+    name = name or heading
     return Column(heading, lambda row: "" if _missing(row.get(name)) else str(row[name]), kind=kind)
 
 
-def _numbers(heading: str, name: str, text: Callable[[Record], str]) -> Column:
+def of_number(heading: str, name: str, text: Callable[[Record], str]) -> Column:
+    """Return a column of texts that show a stored number, empty where it is missing."""
     return Column(heading, lambda row: "" if _missing(row.get(name)) else text(row), name)
 
 
-def numbers(heading: str, name: str, form: str = "") -> Column:
+def numbers(heading: str, name: str = "", form: str = "") -> Column:
     """Return a column of stored numbers in a format, as ".1e"; without one every digit is shown.
 
     Examples
@@ -138,6 +134,7 @@ def numbers(heading: str, name: str, form: str = "") -> Column:
     >>> [column.text({"u_num": number}) for number in (1.5e-9, math.inf, math.nan, None)]
     ['1.5e-09', '∞', '', '']
     """
+    name = name or heading
 
     def text(row: Record) -> str:
         number = float(row[name])
@@ -145,15 +142,15 @@ def numbers(heading: str, name: str, form: str = "") -> Column:
             return "∞" if number > 0.0 else "−∞"
         return format(number, form) if form else exact(number)
 
-    return _numbers(heading, name, text)
+    return of_number(heading, name, text)
 
 
 def values(heading: str, name: str, u: str) -> Column:
     """Return a column of values to the digits that their uncertainties leave them."""
-    return _numbers(heading, name, lambda row: value_text(row[name], row[u]))
+    return of_number(heading, name, lambda row: value_text(row[name], row[u]))
 
 
-def percents(heading: str, name: str, u: str) -> Column:
+def percents(heading: str, name: str, u: str, **least: float) -> Column:
     """Return a column of relative errors in percent; the number behind one is the stored fraction.
 
     Examples
@@ -161,18 +158,39 @@ def percents(heading: str, name: str, u: str) -> Column:
     >>> percents("error", "kappa", "u_kappa").text({"kappa": 0.066931234, "u_kappa": 1e-9})
     '6.69312(5)'
     """
-    return _numbers(heading, name, lambda row: percent_text(row[name], row[u]))
+    return of_number(heading, name, lambda row: percent_text(row[name], row[u], **least))
 
 
-def short_percent(kappa: float, u_kappa: float) -> str:
-    """Return a relative error in percent, to the digit that fits beside others.
+def physical_text(row: Record) -> str:
+    """Return the value of a stored row with its unit, or its status where there is none."""
+    if row["status"] != "ok":
+        return str(row["status"])
+    return si_text(float(row["value"]), float(row["u_num"]), str(row["unit"]))
+
+
+def key_text(value: float | str, unit: str) -> str:
+    """Return the value of a varied key; a power of a unit has no prefix, and nothing is shown where there is none.
 
     Examples
     --------
-    >>> short_percent(-0.0494, 1e-9)
-    '-4.940(5)'
+    >>> key_text(0.05, "J/m^2"), key_text(1e-12, "m^2"), key_text("tip.csv", "1")
+    ('50 mJ/m^2', '1e-12 m^2', 'tip.csv')
     """
-    return value_text(100 * kappa, max(100 * u_kappa, _LEAST_PERCENT))
+    if isinstance(value, str):
+        return value
+    if pd.isna(value):
+        return ""
+    rounded = float(f"{value:.6g}")
+    return f"{rounded:g} {unit}" if "^" in unit.partition("/")[0] else si_text(rounded, 0.0, unit)
+
+
+def key_columns(names: Iterable[str]) -> list[Column]:
+    """Return the columns of varied keys, by the names of their stored columns."""
+    return [Column(unit_in(name)[0], partial(_key_text, name), name) for name in names]
+
+
+def _key_text(name: str, row: Record) -> str:
+    return key_text(row[name], unit_in(name)[1])
 
 
 #: Headings of the parameters of a case and of its problem file.
@@ -182,19 +200,24 @@ CASE = ("n", "k", "μ", "ν", "problem")
 _COLUMNS = {
     column.heading: column
     for column in (
-        *(words(name, name) for name in ("model", "gate", "candidate", "reference", "problem", "unit", "status")),
-        *(
-            words("version", "model_version"),
-            words("reason", "reason", "prose"),
-            words("verdict", "verdict", "verdict"),
-        ),
+        *map(words, ("model", "gate", "candidate", "reference", "problem", "unit", "status")),
+        words("version", "model_version"),
+        words("reason", kind="prose"),
+        words("verdict", kind="verdict"),
         *(numbers(heading, name) for heading, name in zip("nkμν", PARAMETERS, strict=True)),
+        *(numbers(name, form=".0f") for name in ("asked", "answered", "failed", "cases")),
         Column("quantity", lambda row: title_of(row["quantity"])),
-        *(values("value", "value", "u_num"), numbers("u_num", "u_num", ".1e")),
-        *(values("candidate's value", "value", "u_num"), values("reference's value", "reference_value", "u_reference")),
-        *(percents("κ (%)", "kappa", "u_kappa"), numbers("u of κ", "u_kappa", ".1e")),
-        *(Column("coverage", coverage_text), Column("limits", lambda row: limits_text(row["lower"], row["upper"]))),
-        _numbers("E(U)", "error", lambda row: error_text(row["error"], row["uncertainty"])),
+        values("value", "value", "u_num"),
+        numbers("u_num", form=".1e"),
+        values("candidate's value", "value", "u_num"),
+        values("reference's value", "reference_value", "u_reference"),
+        percents("κ (%)", "kappa", "u_kappa"),
+        of_number("largest |κ| (%)", "size", lambda row: percent_text(row["largest"], row["u_largest"])),
+        percents("rms κ (%)", "rms", "u"),
+        numbers("u of κ", "u_kappa", ".1e"),
+        Column("coverage", coverage_text),
+        Column("limits", lambda row: limits_text(row["lower"], row["upper"])),
+        of_number("E(U)", "error", lambda row: error_text(row["error"], row["uncertainty"])),
     )
 }
 

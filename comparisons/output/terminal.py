@@ -12,7 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from comparisons.console.printable import printable
-from comparisons.output.alignment import aligned
+from comparisons.numerics.number_text import aligned
 
 __all__ = ["records", "rich_table"]
 
@@ -39,10 +39,10 @@ def rich_table(table: pd.DataFrame, title: str, formats: Mapping[str, str] | Non
     texts = _texts(table, formats or {})
     lines = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
     for name, cells in texts.items():
-        number = aligned([part for cell in cells for part in cell.replace("\n", ", ").split(", ")])
+        number = aligned([word for cell in cells for word in cell.replace("\n", ", ").split(", ")])
         # A column of single words gives way to one of sentences.
         whole = number or not any(" " in cell for cell in cells)
-        width = max(map(len, "\n".join(cells).split("\n"))) if whole and len(cells) else None
+        width = max(map(len, "\n".join(cells).split("\n"))) if whole else None
         lines.add_column(Text(str(name)), justify="right" if number else "left", min_width=width, overflow="fold")
     for row in texts.itertuples(index=False):
         lines.add_row(*map(Text, row))
@@ -61,15 +61,15 @@ def records(table: pd.DataFrame, title: str) -> RenderableType:
       domain  soft solids
     """
     texts = _texts(table, {})
-    first, *others = texts
+    heading, *names = texts
     blocks: list[RenderableType] = [Text(title, style="bold")]
     for row in texts.to_dict("records"):
         block = Table.grid(padding=(0, 2, 0, 0))
-        block.add_column(no_wrap=True, min_width=2 + max(map(len, others), default=0))
+        block.add_column(no_wrap=True, min_width=2 + max(map(len, names), default=0))
         block.add_column(overflow="fold")
-        for name in filter(row.get, others):
+        for name in filter(row.get, names):
             block.add_row(Text(f"  {name}"), Text(row[name]))
-        blocks += [Text(row[first], style="bold"), block]
+        blocks += [Text(row[heading], style="bold"), block]
     return Group(*blocks)
 
 

@@ -1,22 +1,25 @@
-"""The command that computes a case again, and the files of verdicts."""
+"""Verdicts in words: the command that computes a case again, sentences and lines on gates, the files of a folder."""
 
 from __future__ import annotations
 
 import shlex
+from collections import Counter
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
 import pandas as pd
 
+from comparisons.console.folding import hanging, wrapped_command
 from comparisons.data.file_names import GATES, JUNIT, SUMMARY, VERDICTS, VERDICTS_MARKDOWN
-from comparisons.judging.card_gates import CARD
+from comparisons.judging.card_gates import CARD, without_card_gates
+from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import Gate
-from comparisons.judging.summary import summarise
-from comparisons.numerics.number_text import exact
+from comparisons.judging.summary import coverage_text, summarise
+from comparisons.numerics.number_text import error_text, exact, limits_text
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
-from comparisons.output.markdown import markdown
+from comparisons.output.markup import markdown
 from comparisons.output.table import CASE, Column, Record, Table, columns
 from comparisons.problem import PARAMETERS
 from comparisons.problem.problem import split_name
@@ -25,7 +28,10 @@ from comparisons.runs.atomic_files import atomic
 from comparisons.runs.frames import write_table
 from comparisons.runs.rows import Key
 
-__all__ = ["FORMATS", "GATE_COLUMNS", "command", "write_verdicts"]
+__all__ = ["GATE_COLUMNS", "command", "gate_lines", "gates_sentence", "unexpected", "write_verdicts"]
+
+#: Names of gates that are listed in one sentence.
+_NAMES = 12
 
 #: What is stored of each gate beside its verdicts: what was required, in which unit, and on what grounds.
 GATE_COLUMNS = ("id", "requirement", "metric", "basis", "grounds")
@@ -73,6 +79,90 @@ def command(row: Record, specs: Mapping[str, str]) -> str:
     return shlex.join(["fscm-bench", verb, "--model", model, "--quantity", row["quantity"], *case, *vary])
 
 
+def gates_sentence(gates: pd.DataFrame, verdicts: pd.DataFrame) -> str:
+    """Return how many gates of the user pass, fail as declared, and do neither, what report cards say, and the cases.
+
+    Parameters
+    ----------
+    gates : DataFrame
+        One row for each gate and candidate, as of `comparisons.judging.summary.summarise`.
+    verdicts : DataFrame
+        As of `comparisons.judging.judge.judge`.
+
+    Examples
+    --------
+    >>> gates = pd.DataFrame({"gate": ["A", "B", "C"], "verdict": ["PASS", "XFAIL", "FAIL"]})
+    >>> gates_sentence(gates, gates)
+    '1 of 3 gates pass, 1 fail as declared, 1 unexpected: 1 FAIL (cases: 1 FAIL, 1 XFAIL, 1 PASS)'
+    >>> card = pd.DataFrame({"gate": ["CARD-DIFFERS"], "verdict": ["INCONCLUSIVE"]})
+    >>> gates_sentence(card, card)
+    'No gate was evaluated; report cards: 1 INCONCLUSIVE'
+    """
+    of_user = without_card_gates(gates)
+    of_cards = gates.drop(of_user.index)
+    cards = _counts(of_cards[of_cards["verdict"] != Verdict.PASS])
+    ending = f"; report cards: {cards}" if cards else ""
+    if of_user.empty:
+        return f"No gate was evaluated{ending}"
+    count, surprising = Counter(of_user["verdict"]), unexpected(of_user)
+    parts = [f"{count[Verdict.PASS]} of {len(of_user)} gates pass", f"{count[Verdict.XFAIL]} fail as declared"]
+    if count[Verdict.NOT_APPLICABLE]:
+        parts.append(f"{count[Verdict.NOT_APPLICABLE]} apply to no case")
+    parts.append(": ".join(filter(None, [f"{len(surprising)} unexpected", _counts(surprising)])))
+    return f"{', '.join(parts)} (cases: {_counts(without_card_gates(verdicts))}){ending}"
+
+
+def _counts(rows: pd.DataFrame) -> str:
+    count = Counter(rows["verdict"])
+    return ", ".join(f"{count[verdict]} {verdict}" for verdict in Verdict if count[verdict])
+
+
+def unexpected(gates: pd.DataFrame) -> pd.DataFrame:
+    """Return the gates of a summary that do not behave as declared, worst first."""
+    return gates[~gates["verdict"].isin([Verdict.PASS, Verdict.XFAIL, Verdict.NOT_APPLICABLE])]
+
+
+def gate_lines(gates: pd.DataFrame, specs: Mapping[str, str], width: int, most: int | None = None) -> list[str]:
+    """Return for each gate its verdict, the error of the worst case, and the command that computes that case again.
+
+    Parameters
+    ----------
+    gates : DataFrame
+        As of `comparisons.judging.summary.summarise`.
+    specs : mapping of str to str
+        The SPEC that finds each external model.
+    width : int
+        Columns of the terminal.
+    most : int, optional
+        Gates that are shown; the last line counts the others.
+    """
+    lines: list[str] = []
+    for row in gates.head(most or len(gates)).to_dict("records"):
+        error = error_text(row["error"], row["uncertainty"])
+        against = f" against {row['reference']}" if row["reference"] else ""
+        stated = f": E = {error}, limits {limits_text(row['lower'], row['upper'])}" if error else ""
+        covered = f", a value in {text}" if (text := coverage_text(row)) else ""
+        lines += hanging(f"{row['verdict']} {row['gate']} of {row['candidate']}{against}{stated}{covered}", width)
+        lines += hanging(f"  {row['reason']}", width) if row["reason"] else []
+        lines += wrapped_command(command(row, specs), width)
+    if most and len(gates) > most:
+        lines += hanging(f"{len(gates) - most} more do not pass; --verbose prints all", width)
+    return lines
+
+
+def declared_sentence(gates: pd.DataFrame) -> str:
+    """Return the names of the gates that fail as declared, the first ones and the number of the others.
+
+    Examples
+    --------
+    >>> declared_sentence(pd.DataFrame({"gate": ["A", "B"], "verdict": ["PASS", "XFAIL"]}))
+    'as declared (XFAIL; --verbose prints the commands): B'
+    """
+    names = list(dict.fromkeys(gates.loc[gates["verdict"] == Verdict.XFAIL, "gate"]))
+    more = f" and {len(names) - _NAMES} more" if len(names) > _NAMES else ""
+    return f"as declared (XFAIL; --verbose prints the commands): {', '.join(names[:_NAMES])}{more}" if names else ""
+
+
 def write_verdicts(
     folder: Path,
     judged: pd.DataFrame,
@@ -90,19 +180,19 @@ def write_verdicts(
     write_table(judged.assign(verdict=judged["verdict"].map(str)), folder / VERDICTS)
     write_table(summary.assign(verdict=summary["verdict"].map(str)), folder / SUMMARY)
     write_table(pd.DataFrame(required, columns=list(GATE_COLUMNS), dtype=str), folder / GATES)
-    requirement = {gate.id: gate.requirement for gate in gates}
+    again, requirement = partial(command, specs=specs), {gate.id: gate.requirement for gate in gates}
     layout = [
         *columns("verdict", "gate", "candidate", "reference", "coverage", "E(U)", "limits"),
-        Column("command", partial(command, specs=specs)),
+        Column("command", again),
         *columns("reason"),
         Column("requirement", lambda row: requirement.get(row["gate"], "")),
     ]
     by_gate = Table("verdicts", "Verdicts", layout, summary)
     worst = Table("verdicts", "Verdicts of fscm-bench, worst first, each in its worst case", _WORST_CASES, summary)
-    texts = {folder / f"{VERDICTS}.{suffix}": made(by_gate, worst) for suffix, made in FORMATS.items()}
-    for path, text in texts.items():
+    contents = {folder / JUNIT: junit(judged, again, seconds)}
+    for suffix, made in FORMATS.items():
+        contents[folder / f"{VERDICTS}.{suffix}"] = made(by_gate, worst).encode()
+    for path, content in contents.items():
         with atomic(path) as file:
-            file.write(text.encode())
-    with atomic(folder / JUNIT) as file:
-        file.write(junit(judged, partial(command, specs=specs), seconds))
-    return texts[folder / VERDICTS_MARKDOWN]
+            file.write(content)
+    return contents[folder / VERDICTS_MARKDOWN].decode()

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from rich.console import RenderableType
 
 from comparisons.output.latex import latex
-from comparisons.output.markdown import markdown
+from comparisons.output.markup import markdown
 from comparisons.output.style import save, styled
 from comparisons.paper.cache import CachedCall, Outcome
 from comparisons.runs.atomic_files import atomic

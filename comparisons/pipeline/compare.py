@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from comparisons.data.file_names import COMPARISON, RECORD
-from comparisons.output.comparison import case_tables, summary_tables
 from comparisons.output.errors import comparison_table, error_summary
-from comparisons.output.figures import comparison as figure_of_comparison
-from comparisons.output.html import html_table
+from comparisons.output.figures.of_run import draw_comparison
+from comparisons.output.markup import html_table
 from comparisons.output.style import save
+from comparisons.output.summaries import case_tables, summary_tables
 from comparisons.pipeline.inputs import Cases, grid_text, load_cases
 from comparisons.pipeline.run import run
 from comparisons.quantities import CURVES
@@ -55,7 +55,7 @@ class Comparison:
 
     def figure(self) -> Figure:
         """Return the errors as a Matplotlib figure."""
-        return figure_of_comparison.draw(self.table)
+        return draw_comparison(self.table)
 
     def _repr_html_(self) -> str:
         return "\n".join(map(html_table, [*summary_tables(self.summary), *case_tables(self.table)]))

@@ -7,7 +7,7 @@ import argparse
 from comparisons.cli.options import JOBS, MODEL_SPEC, OUT, QUIET, RETRY_FAILED, file, numbers, option
 from comparisons.cli.run_screen import print_end
 from comparisons.cli.screen import output
-from comparisons.output.comparison import terminal_tables
+from comparisons.output.summaries import terminal_tables
 from comparisons.pipeline.compare import REFERENCES, compare
 
 EXAMPLES = ("fscm-bench compare jkr md-improved --n 1 2 --k 0 0.4 --mu 0.1 1 3",)

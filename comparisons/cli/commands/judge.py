@@ -8,7 +8,7 @@ from shlex import quote
 from comparisons.cli.options import QUIET, VERBOSE, file
 from comparisons.cli.verdict_screen import STATUS, print_verdicts
 from comparisons.console.progress import note
-from comparisons.output.markdown import to_step_summary
+from comparisons.output.markup import to_step_summary
 from comparisons.pipeline.judgement import judge_folder
 
 EXAMPLES = ("fscm-bench judge results/mine --verbose",)

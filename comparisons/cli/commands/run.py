@@ -11,8 +11,8 @@ from comparisons.cli.screen import output, print_lines
 from comparisons.cli.verdict_screen import STATUS, print_verdicts
 from comparisons.console.exit_status import FAILED
 from comparisons.console.progress import note
-from comparisons.output import run_summary
-from comparisons.output.markdown import to_step_summary
+from comparisons.output import summaries
+from comparisons.output.markup import to_step_summary
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
 from comparisons.runs.cases import TIERS
@@ -77,12 +77,12 @@ def _print_errors(finished: FinishedRun, *, verbose: bool, with_paper: bool) -> 
     """Print the largest errors, or the error of every case."""
     tables, console = finished.tables, output()
     if verbose:
-        for table in run_summary.every_error(tables.results, tables.kappa, tables.largest):
+        for table in summaries.every_error(tables.results, tables.kappa, tables.largest):
             console.print(table)
         return
-    if (largest := run_summary.largest_table(tables.largest)) is not None:
+    if (largest := summaries.largest_table(tables.largest)) is not None:
         console.print(largest)
     if "problem" in tables.kappa:
-        console.print(run_summary.largest_errors(tables.kappa[tables.kappa["problem"].fillna("") != ""]))
-    of_paper = run_summary.paper_sentence(tables.largest) if with_paper else ""
-    print_lines(filter(None, [run_summary.computations_sentence(finished.counts), of_paper]))
+        console.print(summaries.largest_errors(tables.kappa[tables.kappa["problem"].fillna("") != ""]))
+    of_paper = summaries.paper_sentence(tables.largest) if with_paper else ""
+    print_lines(filter(None, [summaries.computations_sentence(finished.counts), of_paper]))

@@ -7,7 +7,7 @@ import argparse
 from comparisons.cli.options import JOBS, OUT, QUIET, RETRY_FAILED, file, option, several
 from comparisons.cli.run_screen import print_end
 from comparisons.cli.screen import output
-from comparisons.output.run_summary import summary_tables, values_of_problems
+from comparisons.output.summaries import sweep_tables
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.pipeline.run import run
@@ -84,7 +84,6 @@ def show(finished: FinishedRun, *, with_summary: bool) -> int:
     """Print the summary of a sweep and its failures; return the exit status."""
     if with_summary:
         console, tables = output(), finished.tables
-        values = values_of_problems(tables.results)
-        for table in [*values, *summary_tables(tables.results, tables.curves, tables.kappa)]:
+        for table in sweep_tables(tables.results, tables.curves, tables.kappa):
             console.print(table)
     return print_end(finished)

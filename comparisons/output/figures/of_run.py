@@ -1,17 +1,28 @@
-"""The figures of a run: both Maugis-Dugdale models as in Fig. 16(b), and the two references beside each other."""
+"""The figures of a run: both Maugis-Dugdale models as in Fig. 16(b), the two references, and any plot of a page."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import textwrap
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import zip_longest
 from string import ascii_lowercase
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import pandas as pd
 
 from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA, KAPPA_FIGURE, REFERENCES
-from comparisons.output.style import COLOURS, MARKERS, lettered, model_label, model_styles, new_figure, styled
-from comparisons.quantities import CURVES as CURVE_QUANTITIES
+from comparisons.numerics.number_text import number_parts
+from comparisons.output import plots
+from comparisons.output.style import (
+    COLOURS,
+    MARKERS,
+    ModelStyle,
+    lettered,
+    model_label,
+    model_styles,
+    new_figure,
+    styled,
+)
 from comparisons.quantities import QUANTITIES, title_of
 
 if TYPE_CHECKING:
@@ -19,7 +30,15 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
-__all__ = ["draw_agreement", "draw_kappa", "draw_references", "figures_of", "kappa_handles", "kappa_panels"]
+__all__ = [
+    "draw_agreement",
+    "draw_comparison",
+    "draw_kappa",
+    "draw_plots",
+    "figures_of",
+    "kappa_handles",
+    "kappa_panels",
+]
 
 #: Quantity and gradient exponent of the figure of errors; model -> face of the markers (None: the colour of the line).
 _QUANTITY, _K = "pull_off_force", 0.4
@@ -28,12 +47,10 @@ _FACES = {"md-original": "white", "md-improved": None}
 #: Colour in the legend of what is common to every n.
 _ANY = "0.45"
 
-#: Differences of the references below this, far below any stated uncertainty, are drawn on the lower edge.
-_SMALLEST = 1e-13
 _COLUMNS = 4
 
-#: Quantity of both references -> limits of x, and of y.
-_PANELS: dict[str, Any] = {"force_curve": ((-4.5, 2.5), (-2.0, 1.0)), "pull_off_pressure": ((0.0, 3.0), (None, None))}
+#: More panels are too small a part of a figure; room of one entry of the legend in inches.
+_MOST_PANELS, _LEGEND_WIDTH, _LEGEND_HEIGHT = 24, 2.3, 0.17
 
 
 def figures_of(tables: dict[str, pd.DataFrame]) -> Iterator[tuple[str, Figure]]:
@@ -49,16 +66,68 @@ def figures_of(tables: dict[str, pd.DataFrame]) -> Iterator[tuple[str, Figure]]:
     >>> list(figures_of({"agreement": pd.DataFrame()}))
     []
     """
-    kappa = tables.get(KAPPA, pd.DataFrame(columns=["model", "quantity", "k"]))
-    kappa = kappa[kappa["model"].isin(_FACES) & (kappa["quantity"] == _QUANTITY) & (kappa["k"] == _K)]
-    for stem, table, draw in (
-        (KAPPA_FIGURE, kappa, draw_kappa),
-        (AGREEMENT, tables.get(AGREEMENT, kappa.head(0)), draw_agreement),
-        (REFERENCES, tables.get(CURVES, kappa.head(0)), draw_references),
-    ):
+    kappa, differences, points = (tables.get(name, pd.DataFrame()) for name in (KAPPA, AGREEMENT, CURVES))
+    if len(kappa):
+        kappa = kappa[kappa["model"].isin(_FACES) & (kappa["quantity"] == _QUANTITY) & (kappa["k"] == _K)]
+    drawings = (KAPPA_FIGURE, kappa, draw_kappa), (AGREEMENT, differences, draw_agreement)
+    for stem, table, draw in (*drawings, (REFERENCES, points, lambda table: draw_plots(plots.curves(table)))):
         if len(table):
             with styled():
                 yield stem, draw(table)
+
+
+def draw_comparison(table: pd.DataFrame) -> Figure:
+    """Draw kappa in percent, over the number of the case where one over a parameter would have too many panels.
+
+    Parameters
+    ----------
+    table : DataFrame
+        As of `comparisons.output.errors.comparison_table`.
+    """
+    plot = plots.kappa(table)
+    if plot.points["group"].nunique() > _MOST_PANELS:
+        plot = plots.kappa(table, "case")
+    return draw_plots([plot])
+
+
+def draw_plots(drawn: Sequence[plots.Plot]) -> Figure:
+    """Draw plots of a page side by side, a panel for each of their choices."""
+    panels = [(plot, rows) for plot in drawn for _, rows in plot.points.groupby("group", sort=False)]
+    columns = min(_COLUMNS, max(len(panels), 1))
+    height = max(-(-len(panels) // columns), 1)
+    styles = model_styles(model for plot in drawn for model in plot.points["model"])
+    width = max(4.8, 2.5 * columns)
+    in_legend = max(1, int(width // _LEGEND_WIDTH))
+    with styled():
+        figure = new_figure(width, 0.7 + 2.4 * height + _LEGEND_HEIGHT * (len(styles) // in_legend))
+        handles: dict[str, Any] = {}
+        for axes, panel in zip_longest(figure.subplots(height, columns, squeeze=False).flat, panels):
+            axes.set_visible(panel is not None)
+            if panel is not None:
+                plot, rows = panel
+                handles |= _panel(axes, plot, rows, styles)
+        figure.legend(handles.values(), handles, loc="outside lower center", ncols=in_legend)
+    return figure
+
+
+def _panel(axes: Axes, plot: plots.Plot, rows: pd.DataFrame, styles: Mapping[str, ModelStyle]) -> dict[str, Any]:
+    """Draw the points of one choice; return what the legend shows of each model."""
+    handles = {}
+    for model, points in rows.groupby("model"):
+        style = styles[str(model)]
+        drawn = style.arguments
+        if plot.mark == "both":
+            bars = points["high"] - points["y"]
+            drawn |= {"yerr": bars, "elinewidth": 0.8, "capsize": 2, "marker": style.symbol, "ms": 3.5}
+        handles[style.label] = axes.errorbar(points["x"], points["y"], **drawn)[0]
+    axes.axhline(0, color="0.4", lw=0.8)
+    options = zip(plot.choices, rows["options"].iloc[0], strict=True)
+    texts = [f"{column.heading} = {text}" if number_parts(text) else text for column, text in options]
+    axes.set_title("\n".join(textwrap.wrap(", ".join(texts), 34)), fontsize=8)
+    axes.set(xscale=plot.x_scale, xlabel=plot.x_label, ylabel=plot.y_label)
+    if view := plot.views.get(str(rows["group"].iloc[0])):
+        axes.set(xlim=view[:2], ylim=view[2:])
+    return handles
 
 
 def draw_kappa(kappa: pd.DataFrame) -> Figure:
@@ -105,7 +174,7 @@ def kappa_panels(whole: Axes, enlarged: Axes, kappa: pd.DataFrame) -> None:
 
 
 def draw_agreement(agreement: pd.DataFrame) -> Figure:
-    """Draw the differences of two models as points, and their combined uncertainty as dashes.
+    """Draw E_n, the difference of two models over the sum of their bounds, which is within -1 and 1 if both hold.
 
     Parameters
     ----------
@@ -117,60 +186,18 @@ def draw_agreement(agreement: pd.DataFrame) -> Figure:
     columns = min(_COLUMNS, len(quantities))
     rows = -(-len(quantities) // columns)
     figure = new_figure(9.6, 0.8 + 2.3 * rows)
-    panels = figure.subplots(rows, columns, sharey=True, squeeze=False).ravel().tolist()
-    for letter, axes, quantity in zip(ascii_lowercase, panels, quantities, strict=False):
-        _differences(axes, agreement[agreement["quantity"] == quantity], sorted(agreement["n"].unique()))
-        lettered(axes, letter, title_of(quantity))
-    for axes in panels[len(quantities) :]:
-        axes.set_visible(False)
-    # The lowest panel of each column.
-    for axes in panels[max(len(quantities) - columns, 0) : len(quantities)]:
-        axes.set_xlabel(r"Tabor number $\mu$")
-    figure.supylabel("difference (force and energy: relative; else in $z_0$)", fontsize=9)
-    figure.suptitle(f"Difference of {pair} (points), and the sum of their bounds (dashes)")
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
-    return figure
-
-
-def _differences(axes: Axes, rows: pd.DataFrame, shapes: list[float]) -> None:
-    for index, n in enumerate(shapes):
-        of_shape = rows[rows["n"] == n]
-        style: dict[str, Any] = {"ls": "none", "color": COLOURS[index % len(COLOURS)]}
-        # Side by side: cases of one Tabor number would cover each other.
-        mu = of_shape["mu"] * 1.06 ** (index - 1.5) * 1.015 ** (10 * of_shape["k"] - 3)
-        axes.plot(mu, of_shape["claimed"], marker="_", ms=5, **style)
-        size = np.maximum(of_shape["difference"].abs(), _SMALLEST)
-        axes.plot(mu, size, marker=MARKERS[index % len(MARKERS)], ms=3.5, mfc="white", label=f"$n$ = {n:g}", **style)
-    axes.set(xscale="log", yscale="log")
-    ticks = sorted(rows["mu"].unique())
-    axes.set_xticks(ticks, [f"{mu:g}" for mu in ticks])
-    axes.set_xticks([], minor=True)
-
-
-def draw_references(curves: pd.DataFrame) -> Figure:
-    """Draw the stored curves of both references: a line for the FSCM, points for the finite elements.
-
-    Parameters
-    ----------
-    curves : DataFrame
-        As a run stores them in ``curves.csv``.
-    """
-    figure = new_figure(7.2, 4.0)
-    for letter, axes, (quantity, (x_limits, y_limits)) in zip(
-        "ab", figure.subplots(1, 2), _PANELS.items(), strict=True
-    ):
-        drawn = curves[(curves["quantity"] == quantity) & (curves["status"] == "ok")]
-        for index, ((n, k, mu), case) in enumerate(drawn.groupby(["n", "k", "mu"])):
-            label = f"$n$ = {n:g}, $k$ = {k:g}, $\\mu$ = {mu:g}"
-            for model, points in case.sort_values("point").groupby("model"):
-                line = {"lw": 2.6, "alpha": 0.35} if model == "fscm" else {"ls": "none", "marker": "o", "ms": 2.5}
-                style: dict[str, Any] = line | {"color": COLOURS[index % len(COLOURS)], "mfc": "white"}
-                axes.plot(points["x"], points["y"], label=f"{model_label(str(model))}, {label}", **style)
-        axes.axhline(0, color="0.4", lw=0.8)
-        axes.set(xlim=x_limits, ylim=y_limits, xlabel=CURVE_QUANTITIES[quantity].x.figure_label)
-        axes.set_ylabel(CURVE_QUANTITIES[quantity].y.figure_label)
-        lettered(axes, letter)
+    panels = figure.subplots(rows, columns, sharey=True, squeeze=False).flat
+    for letter, axes, quantity in zip_longest(ascii_lowercase[: len(quantities)], panels, quantities):
+        axes.set_visible(quantity is not None)
+        axes.axhspan(-1.0, 1.0, color="0.9")
+        for index, (n, of_shape) in enumerate(agreement[agreement["quantity"] == quantity].groupby("n")):
+            style: dict[str, Any] = {"color": COLOURS[index % len(COLOURS)], "marker": MARKERS[index % len(MARKERS)]}
+            # Side by side: cases of one Tabor number would cover each other.
+            mu = of_shape["mu"] * 1.06 ** (index - 1.5) * 1.015 ** (10 * of_shape["k"] - 3)
+            axes.plot(mu, of_shape["en"], ls="none", ms=3.5, mfc="white", label=f"$n$ = {n:g}", **style)
+        axes.set(xscale="log", xlabel=r"Tabor number $\mu$")
+        lettered(axes, str(letter), title_of(str(quantity)))
+    figure.suptitle(f"Difference of {pair} over the sum of their bounds, $E_n$")
     handles, labels = figure.axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=2)
+    figure.legend(handles, labels, loc="outside lower center", ncols=max(len(labels), 1))
     return figure

@@ -18,11 +18,12 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from comparisons.judging.decision import Verdict
-from comparisons.output.html import badge, html_table
-from comparisons.output.latex import latex_table
+from comparisons.output.latex import latex_parts
+from comparisons.output.markup import badge, html_table
 from comparisons.output.report.page import Page
 from comparisons.output.style import model_styles
 from comparisons.output.table import Table
+from comparisons.runs.csv_format import csv_text
 
 __all__ = ["render", "script_json"]
 
@@ -79,7 +80,6 @@ def render(page: Page) -> str:
             name: [style.colour, _ON_DARK.get(style.colour, style.colour), style.dash, style.marker, style.broad]
             for name, style in styles.items()
         },
-        "files": {name: _RECORD.findall(text) for name, text in page.files.items()},
     }
     context = {
         "page": page,
@@ -104,15 +104,12 @@ def _environment() -> Environment:
 
 
 def _data(table: Table) -> dict[str, Any]:
-    """Return what the scripts need of a table: its choices, and the rows that they save."""
-    lines = list(table.stored.get("lines", table.stored.index))
+    """Return what the scripts need of a table: its choices, and the rows that they save, between two ends."""
+    # The CSV files of a folder have no times.
+    head, *rows = _RECORD.findall(csv_text(table.stored.drop(columns="seconds", errors="ignore")))
     groups = [table.group(row) for row in table.records] if table.group else None
-    return {
-        "source": table.file,
-        "lines": lines,
-        "groups": groups,
-        "latex": latex_table(table.on_paper, table.caption, table.id),
-    }
+    tex = latex_parts(table.on_paper, table.caption, table.id)
+    return {"groups": groups, "csv": [head, rows, ""], "tex": tex}
 
 
 def _asset(package: str, name: str) -> str:

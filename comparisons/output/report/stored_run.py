@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,25 +16,27 @@ from comparisons.data.input_files import read_text
 from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged
 from comparisons.judging.summary import COVERAGE
-from comparisons.output.errors import COMPARED, KAPPA_COLUMNS, LARGEST_COLUMNS
+from comparisons.output import errors
 from comparisons.output.verdicts import GATE_COLUMNS
+from comparisons.runs.case_columns import keys_in, with_problem
 from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS, read_table
 from comparisons.runs.record import check_files, read_record, warn_of_other_code
-from comparisons.runs.rows import DIMENSIONLESS
+from comparisons.runs.rows import CASE, DIMENSIONLESS, Key
 
-__all__ = ["TABLES", "Stored", "read_folder"]
+__all__ = ["Stored", "read_folder"]
 
 #: Table -> its columns; a folder of a sweep has no verdicts, and only that of a comparison has one.
-TABLES: dict[str, Sequence[str]] = {
+_TABLES: dict[str, Sequence[str]] = {
     file_names.RESULTS: COLUMNS.names,
     file_names.CURVES: CURVE_COLUMNS.names,
-    file_names.KAPPA: KAPPA_COLUMNS,
-    file_names.LARGEST_KAPPA: LARGEST_COLUMNS,
+    **errors.COLUMNS,
     file_names.VERDICTS: Judged.__slots__,
     file_names.SUMMARY: (*Judged.__slots__, "cases", "skipped", *COVERAGE),
     file_names.GATES: GATE_COLUMNS,
-    file_names.COMPARISON: COMPARED,
 }
+
+#: Columns that identify an evaluation.
+_KEY = ["model", "quantity", *CASE]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +68,25 @@ class Stored:
         """The SPEC that finds each external model."""
         return dict(self.record["arguments"]["external"])
 
+    def error_summary(self, planned: Mapping[Key, str] | None = None) -> pd.DataFrame:
+        """Return the summary of errors (`comparisons.output.errors`) over the results that have a reference.
+
+        Parameters
+        ----------
+        planned : mapping of Key to str, optional
+            The keys of the results that count, and the reference of each; by default every result of a quantity in
+            which a model has an error.
+        """
+        kappa = with_problem(self.kappa)[[*_KEY, "reference", "kappa", "u_kappa"]]
+        of_quantity = dict(kappa.groupby("quantity")["reference"].agg("first"))
+        keys = keys_in(self.results)
+        stated = [of_quantity.get(key[1]) if planned is None else planned.get(key) for key in keys]
+        results = with_problem(self.results).assign(stated=stated).dropna(subset="stated")
+        joined = results.merge(kappa, on=_KEY, how="left")
+        # A model without any value has no relative error, which would name the reference.
+        joined["reference"] = joined["reference"].fillna(joined["stated"])
+        return errors.error_summary(joined[joined["model"] != joined["reference"]])
+
 
 def read_folder(folder: Path) -> Stored:
     """Read the folder of a finished run, sweep or comparison.
@@ -78,9 +99,14 @@ def read_folder(folder: Path) -> Stored:
     record = read_record(folder / file_names.RECORD)
     check_files(record, folder)
     warn_of_other_code(record, folder)
+    optional = (
+        _TABLES.keys()
+        - {file_names.RESULTS, file_names.CURVES, file_names.KAPPA}
+        - {path.removesuffix(".parquet") for path in record["files"]}
+    )
     tables = {
-        name: _table(folder / f"{name}.parquet", columns, there=f"{name}.parquet" in record["files"])
-        for name, columns in TABLES.items()
+        name: pd.DataFrame(columns=list(columns)) if name in optional else _table(folder / f"{name}.parquet", columns)
+        for name, columns in _TABLES.items()
     }
     texts = {
         name: read_text(path_inside(folder, name), f"the copy {name}")
@@ -90,9 +116,7 @@ def read_folder(folder: Path) -> Stored:
     return Stored(record, **tables, texts=texts)
 
 
-def _table(path: Path, columns: Sequence[str], *, there: bool) -> pd.DataFrame:
-    if not there and path.stem not in (file_names.RESULTS, file_names.CURVES, file_names.KAPPA):
-        return pd.DataFrame(columns=list(columns))
+def _table(path: Path, columns: Sequence[str]) -> pd.DataFrame:
     table = read_table(path)
     if lost := [name for name in columns if name not in table and name not in ("problem", *DIMENSIONLESS)]:
         raise ValueError(f"{path} has no column {', '.join(lost)}: it is not what this version of fscm-bench writes")

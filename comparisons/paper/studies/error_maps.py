@@ -18,7 +18,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
 
-from comparisons.numerics.kappa import relative_difference, relative_uncertainty
+from comparisons.numerics.bounds import relative_difference, relative_uncertainty
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, held, panels
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure, rows_of, together

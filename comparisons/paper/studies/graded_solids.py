@@ -24,7 +24,7 @@ from matplotlib.lines import Line2D
 import fem_reference
 import fscm
 from comparisons.models.solver import translated
-from comparisons.numerics.kappa import relative_difference
+from comparisons.numerics.bounds import relative_difference
 from comparisons.output.style import COLOURS
 from comparisons.paper.drawing import panels
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, together

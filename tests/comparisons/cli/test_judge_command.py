@@ -57,7 +57,7 @@ def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, 
     assert "TEN-PERCENT" in captured[0]
     printed = captured[0].replace(" \\\n   ", "")
     assert "fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0" in printed
-    assert captured[0].rstrip().endswith("1 of 1 gate passes, 0 fail as declared, 0 unexpected (4 cases: 4 PASS)")
+    assert captured[0].rstrip().endswith("1 of 1 gates pass, 0 fail as declared, 0 unexpected (cases: 4 PASS)")
 
 
 #: The error of the model, and another one.
@@ -114,8 +114,8 @@ def test_other_gates_than_those_of_the_run_are_named_and_the_record_agrees(folde
     assert record["verdicts"] == {"all": "FAIL", "FAIL": 4}
     assert record["judged_again"]["gates"] == str(tmp_path / "gates.toml")
     assert set(pd.read_csv(folder / "verdicts.csv")["verdict"]) == {"FAIL"}
-    page = dict(make_page(read_folder(folder)).blocks["origin"][0].pairs)
-    assert page["judged again"].startswith(f"gates {tmp_path / 'gates.toml'}, ")
+    page = dict(make_page(read_folder(folder)).tables["provenance"].stored.to_numpy())
+    assert page["judged_again.gates"] == str(tmp_path / "gates.toml")
     # Without --gates the run's own are back, and nothing of the others is left.
     assert main(["judge", str(folder)]) == 0
     assert read_record(folder / "run.json") == finished
@@ -146,7 +146,7 @@ def test_a_gate_whose_rival_is_not_computed_is_refused_and_adding_it_helps(small
     assert (captured.out, "add --model twelve-percent" in captured.err) == ("", True)
     assert main([*command, "twelve-percent"]) == 0
     # The rival is not compared with itself.
-    assert "1 of 1 gate passes" in capsys.readouterr().out
+    assert "1 of 1 gates pass" in capsys.readouterr().out
     assert main(["judge", str(tmp_path / "run"), *rules]) == 0
 
 
@@ -230,7 +230,10 @@ def test_results_of_other_code_are_named_as_such(folder, capsys, command):
     assert "computed by another version of the code, of NumPy or of SciPy (NumPy 0.1, now" in capsys.readouterr().err
     if command == "judge":
         assert read_record(folder / "run.json")["judged_by_other_code"] == fingerprint()
-        assert dict(make_page(read_folder(folder)).blocks["origin"][0].pairs)["judged by other code"] == fingerprint()
+        assert (
+            dict(make_page(read_folder(folder)).tables["provenance"].stored.to_numpy())["judged_by_other_code"]
+            == fingerprint()
+        )
         write_record(record, folder / "run.json")
         assert main(["judge", str(folder)]) == 0
         assert "judged_by_other_code" not in read_record(folder / "run.json")

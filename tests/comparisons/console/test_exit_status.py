@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from comparisons.cli.main import main
 from comparisons.console.exit_status import FAILED, TRACEBACK, WRONG_INPUT, Terminated, guarded
 from comparisons.data.file_names import STORE
-from comparisons.output.markdown import to_step_summary
+from comparisons.output.markup import to_step_summary
 from comparisons.output.style import FORMATS, save
 from comparisons.runs.atomic_files import write_json
 from comparisons.runs.frames import write_table

@@ -13,24 +13,23 @@ def s_curve(m, shift=0.0):
 
 
 def test_a_curve_is_at_no_distance_from_itself_however_it_is_sampled():
-    found = curve_distance(*s_curve(37), *s_curve(301))
-    assert found.value < 1e-7
-    assert found.value <= 3 * found.u_interpolation
+    distance = curve_distance(*s_curve(37), *s_curve(301))
+    assert distance.value < 1e-7
+    assert distance.value <= 3 * distance.u_interpolation
 
 
 def test_the_interpolation_error_is_bounded_and_of_fourth_order():
-    found = [curve_distance(*s_curve(97), *s_curve(m)) for m in (21, 41, 81)]
-    assert all(one.value <= one.u_interpolation for one in found)
-    assert found[0].u_interpolation / found[1].u_interpolation > 8
-    assert found[1].u_interpolation / found[2].u_interpolation > 8
+    distances = [curve_distance(*s_curve(97), *s_curve(m)) for m in (21, 41, 81)]
+    assert all(distance.value <= distance.u_interpolation for distance in distances)
+    assert distances[0].u_interpolation / distances[1].u_interpolation > 8
+    assert distances[1].u_interpolation / distances[2].u_interpolation > 8
 
 
 def test_a_shifted_line_is_at_its_perpendicular_distance():
-    x = np.linspace(0.0, 2.0, 30)
-    longer = np.linspace(-1.0, 3.0, 81)
-    found = curve_distance(x, 3.0 * x + 0.6, longer, 3.0 * longer)
+    x, longer = np.linspace(0.0, 2.0, 30), np.linspace(-1.0, 3.0, 81)
+    distance = curve_distance(x, 3.0 * x + 0.6, longer, 3.0 * longer)
     # Scaled by the ranges 2 and 6 the lines have slope 1 and are 0.1 apart, seen from the vertical.
-    assert found.value == pytest.approx(0.1 / np.sqrt(2), rel=1e-9)
+    assert distance.value == pytest.approx(0.1 / np.sqrt(2), rel=1e-9)
 
 
 def test_units_of_the_axes_do_not_matter():

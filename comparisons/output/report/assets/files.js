@@ -1,17 +1,11 @@
 "use strict";
 // Files of the rows that a table shows, in the order in which it shows them: CSV with all stored digits, and LaTeX.
 const Files = (() => {
-  function latex({ latex: [before, rows, after] }, shown) {
-    return [before, ...shown.map((row) => rows[row]), after, ""].join("\n");
+  function text(id, kind) {
+    const [before, rows, after] = DATA.tables[id][kind];
+    const lines = [before, ...Tables.shown(id).map((row) => rows[row]), after];
+    return `${lines.join("\n").trimEnd()}\n`;
   }
-
-  function csv({ source, lines }, shown) {
-    const [head, ...records] = DATA.files[source];
-    const places = shown.flatMap((row) => lines[row]);
-    return [head, ...places.map((place) => records[place]), ""].join("\n");
-  }
-
-  const text = (id, kind) => ({ csv, tex: latex })[kind](DATA.tables[id], Tables.shown(id));
 
   function save(id, kind) {
     const link = document.createElement("a");

@@ -14,14 +14,14 @@ const Tables = (() => {
     };
     byId[id] = table;
     table.rows.forEach((row, index) => { row.dataset.row = index; });
-    for (const data of box.querySelectorAll("td > data")) if (!data.querySelector(".verdict")) data.title = data.value;
+    for (const data of box.querySelectorAll("td > data:not(.rank)")) data.title = data.value;
     box.querySelectorAll("thead th").forEach((head, index) => {
       const button = document.createElement("button");
       Object.assign(button, { type: "button", className: "sort", textContent: head.textContent });
       button.addEventListener("click", () => sort(table, head, index));
       head.replaceChildren(button);
       head.setAttribute("aria-sort", "none");
-      head.classList.toggle("number", table.rows.some((row) => row.cells[index].querySelector(":scope > data:not(:has(.verdict))")));
+      head.classList.toggle("number", table.rows.some((row) => row.cells[index].querySelector(":scope > data:not(.rank)")));
     });
     box.querySelector(".filter").addEventListener("input", (event) => {
       table.words = event.target.value.toLowerCase().split(/\s+/).filter(Boolean);

@@ -26,9 +26,7 @@ def programs():
     if browser and driver:
         return browser, driver
     reason = "Chromium or chromedriver is not installed (Debian: apt-get install chromium chromium-driver)"
-    if _REQUIRED:
-        pytest.fail(reason)
-    pytest.skip(reason)
+    (pytest.fail if _REQUIRED else pytest.skip)(reason)
 
 
 def package(name):
@@ -48,10 +46,6 @@ def wait(condition):
         time.sleep(0.05)
 
 
-def drawn(browser):
-    return browser.execute_script("return document.documentElement.dataset.plots === 'drawn'")
-
-
 def show(browser, path, width, height):
     """Open a page in a window of this size; the logs hold its messages alone."""
     browser.get("about:blank")
@@ -59,7 +53,7 @@ def show(browser, path, width, height):
         browser.get_log(kind)
     size(browser, width, height)
     browser.get(path.as_uri())
-    wait(lambda: drawn(browser))
+    wait(lambda: browser.execute_script("return document.documentElement.dataset.plots === 'drawn'"))
 
 
 def find(browser, selector):
@@ -78,26 +72,18 @@ def cells(browser, table, column):
       const rows = Array.from(document.querySelectorAll(`#table-${arguments[0]} tbody tr`)).filter((r) => !r.hidden);
       const heads = Array.from(document.querySelectorAll(`#table-${arguments[0]} thead th`), (h) => h.innerText.trim());
       const at = heads.indexOf(arguments[1]);
-      return rows.map((row) => {
-        const data = row.cells[at].querySelector("data");
-        return data && !data.querySelector(".verdict") ? data.value : row.cells[at].textContent;
-      });
+      return rows.map((row) => row.cells[at].querySelector("data:not(.rank)")?.value ?? row.cells[at].textContent);
     """
     return browser.execute_script(script, table, column)
 
 
 def unfold(browser, table):
     browser.execute_script("document.querySelector(arguments[0]).closest('details').open = true", f"#table-{table}")
-    wait(lambda: browser.execute_script("return document.querySelector(arguments[0]) !== null", f"#table-{table} td"))
 
 
 def head(browser, table, label):
     buttons = browser.find_elements("css selector", f"#table-{table} thead button")
     return next(button for button in buttons if button.text == label)
-
-
-def sorting(browser, table, label):
-    return head(browser, table, label).find_element("xpath", "..").get_attribute("aria-sort")
 
 
 def ranges(browser, plot):
@@ -110,9 +96,10 @@ def messages(browser):
 
 
 def requests(browser):
-    """The addresses of everything that the page has asked for."""
+    """The addresses of everything that the page has asked for, but for what it holds itself."""
     sent = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
-    return [one["params"]["request"]["url"] for one in sent if one["method"] == "Network.requestWillBeSent"]
+    urls = {message["params"]["request"]["url"] for message in sent if message["method"] == "Network.requestWillBeSent"}
+    return {url for url in urls if not url.startswith("data:")}
 
 
 def width(browser, selector="html"):
@@ -120,17 +107,3 @@ def width(browser, selector="html"):
     return browser.execute_script(
         "const e = document.querySelector(arguments[0]); return [e.scrollWidth, e.clientWidth]", selector
     )
-
-
-def text_of(browser, table, kind):
-    """The file of a table's rows that are shown, in their order."""
-    return browser.execute_script("return Files.text(arguments[0], arguments[1])", table, kind)
-
-
-def dark(browser):
-    """Whether the page is dark: its own colour, and that of the first axis of its plots."""
-    return browser.execute_script("""
-      const own = getComputedStyle(document.body).backgroundColor === "rgb(20, 24, 29)";
-      const plots = Bokeh.documents.flatMap((one) => one.roots()).map((one) => one.xaxes[0].axis_label_text_color);
-      return [own, ...plots.map((colour) => colour !== "#1b1f24")];
-    """)

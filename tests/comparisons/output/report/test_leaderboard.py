@@ -10,7 +10,6 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.output.report.leaderboard import Entry, case_sets, standing
 from comparisons.output.report.stored_run import Stored
-from comparisons.runs.cases import load_grids
 
 GATE = """
 [[gate]]
@@ -32,15 +31,12 @@ not_applicable = "leave-out"
 """
 
 
-@pytest.fixture
-def folders(small_grid, tmp_path, capsys):
-    """Two runs by the same gates; the models of the second have values in half the cases, and in none."""
-    (tmp_path / "gates.toml").write_text(GATE)
-    gates = ["--gates", str(tmp_path / "gates.toml"), "--jobs", "1"]
-    main(["run", "--model", "ten-percent", "twelve-percent", *gates, "--out", str(tmp_path / "one")])
-    main(["run", "--model", "picky", "refuses", *gates, "--out", str(tmp_path / "two")])
-    capsys.readouterr()
-    return [tmp_path / "one", tmp_path / "two"]
+def run(tmp_path, name, *models, gate=GATE):
+    """The folder of a run by a gate."""
+    (tmp_path / f"{name}.toml").write_text(gate)
+    options = ["--gates", str(tmp_path / f"{name}.toml"), "--jobs", "1", "--out", str(tmp_path / name)]
+    main(["run", "--model", *models, *options])
+    return tmp_path / name
 
 
 def board(folders, tmp_path, *options):
@@ -50,15 +46,18 @@ def board(folders, tmp_path, *options):
 
 
 def table_of(page):
-    """The rows of the page: the texts of their cells by the headings."""
-    heads = [re.sub("<[^>]*>", "", text) for text in re.findall(r"<th scope=\"col\".*?</th>", page)]
-    rows = re.findall(r"<tr>(.*?)</tr>", page.partition("<tbody>")[2], flags=re.DOTALL)
+    """The rows of the leaderboard: the texts of their cells by the headings."""
+    table = page.partition('id="table-leaderboard"')[2]
+    heads = [re.sub("<[^>]*>", "", text) for text in re.findall(r"<th scope=\"col\".*?</th>", table)]
+    rows = re.findall(r"<tr>(.*?)</tr>", table.partition("<tbody>")[2], flags=re.DOTALL)
     cells = [[re.sub("<[^>]*>", "", text).strip() for text in re.findall(r"<td.*?</td>", row)] for row in rows]
     return [dict(zip(heads, row, strict=True)) for row in cells]
 
 
-def test_each_model_has_a_row_with_its_coverage(small_grid, folders, tmp_path):
-    page = board([*folders, folders[0]], tmp_path)
+def test_each_model_has_a_row_with_its_coverage(small_grid, tmp_path):
+    """The models of the second run have values in half the cases, and in none."""
+    judged, refused = run(tmp_path, "a", "ten-percent", "twelve-percent"), run(tmp_path, "b", "picky", "refuses")
+    page = board([judged, refused, judged], tmp_path)
     rows = {row["model"]: row for row in table_of(page)}
     assert len(table_of(page)) == 4
     ten = rows["ten-percent"]
@@ -71,34 +70,28 @@ def test_each_model_has_a_row_with_its_coverage(small_grid, folders, tmp_path):
     assert [rows["picky"][name] for name in counts] == ["4", "0", "0", "4", "0"]
     assert (rows["refuses"]["largest |κ| (%)"], rows["refuses"]["reference"]) == ("", "exact")
     assert re.fullmatch(r"\d{4}-\d\d-\d\d", ten["date"])
-    assert (ten["version"], ten["run"]) == ("7", str(folders[0]))
+    assert (ten["version"], ten["run"]) == ("7", str(judged))
     assert "not judged in the same way" not in page
 
 
-def test_runs_of_different_cases_are_mixed_only_if_the_page_states_it(folders, tmp_path, capsys, monkeypatch):
-    other = tmp_path / "gates2.toml"
-    other.write_text(GATE.replace("0.11", "0.2"))
-    main(["run", "--model", "twelve-percent", "--gates", str(other), "--jobs", "1", "--out", str(tmp_path / "three")])
+def test_runs_of_different_gates_are_mixed_only_if_the_page_states_it(small_grid, tmp_path, capsys):
+    folders = [run(tmp_path, "a", "ten-percent"), run(tmp_path, "b", "ten-percent", gate=GATE.replace("0.11", "0.2"))]
     capsys.readouterr()
-    every = [folders[0], tmp_path / "three"]
     path = tmp_path / "board.html"
-    assert main(["leaderboard", *map(str, every), "--out", str(path)]) == 2
-    shown = capsys.readouterr().err
-    assert "were not judged in the same way (different: gates)" in shown
-    assert shown.count("\n") == 1
+    assert main(["leaderboard", *map(str, folders), "--out", str(path)]) == 2
+    message = capsys.readouterr().err
+    assert "(different: gates)" in message
+    assert message.count("\n") == 1
     assert not path.exists()
-    page = board(every, tmp_path, "--mixed")
+    page = board(folders, tmp_path, "--mixed")
     assert "These runs were not judged in the same way" in page
-    assert {(row["model"], row["set"]) for row in table_of(page)} == {
-        ("ten-percent", "A"),
-        ("twelve-percent", "A"),
-        ("twelve-percent", "B"),
-    }
+    assert [row["set"] for row in table_of(page)] == ["A", "B"]
 
 
-def record(**other):
-    arguments = {"tier": "quick", "model": ["a"], "gates": None} | other.pop("arguments", {})
-    return {"cases_sha256": "0" * 64, "gates_sha256": "f" * 64, "arguments": arguments} | other
+def record(**more):
+    arguments = {"tier": "quick", "model": ["a"], "gates": None} | more.pop("arguments", {})
+    origin = {"package": {"version": "1", "commit": None}, "finished": "2026-01-01"}
+    return {"cases_sha256": "0" * 64, "gates_sha256": "f" * 64, "arguments": arguments} | origin | more
 
 
 def entry(record, kappa=(), results=None, planned=None):
@@ -109,7 +102,7 @@ def entry(record, kappa=(), results=None, planned=None):
 
 
 @pytest.mark.parametrize(
-    ("other", "different"),
+    ("facts", "different"),
     [
         ({"cases_sha256": "1" * 64}, "cases"),
         ({"gates_sha256": "1" * 64}, "gates"),
@@ -118,45 +111,44 @@ def entry(record, kappa=(), results=None, planned=None):
         ({"arguments": {"model": None}}, "chosen by gates"),
     ],
 )
-def test_every_difference_counts(other, different):
-    entries = [entry(record()), entry(record()), entry(record(**other))]
+def test_every_difference_counts(facts, different):
+    entries = [entry(record()), entry(record()), entry(record(**facts))]
     with pytest.raises(ValueError, match=rf"different: {different}\)"):
         case_sets(entries, mixed=False)
     assert case_sets(entries, mixed=True) == ["A", "A", "B"]
     assert case_sets(entries[:2], mixed=False) == ["A", "A"]
 
 
+CASE = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "nu": math.nan, "status": "ok", "model_version": "1"}
+
+
 def test_cases_of_the_verification_and_fresh_ones_do_not_count():
-    case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "nu": math.nan, "status": "ok", "model_version": "1"}
-    results = pd.DataFrame([case | {"model": model, "mu": mu} for model in ("a", "exact") for mu in (0.1, 0.2, 7.0)])
+    results = pd.DataFrame([CASE | {"model": model, "mu": mu} for model in ("a", "exact") for mu in (0.1, 0.2, 7.0)])
     kappa = [("pull_off_force", "a", 2.0, 0.0, mu, math.nan, "exact", x, 1e-9) for mu, x in ((0.1, -0.3), (0.2, 0.4))]
     planned = {("a", "pull_off_force", 2.0, 0.0, mu, None, ""): "exact" for mu in (0.1, 0.2)}
-    for known, asked in ((planned, 2), (None, 3)):
-        (row,) = standing(entry(record(), kappa, results, known)).to_dict("records")
+    for keys, asked in ((planned, 2), (None, 3)):
+        (row,) = standing(entry(record(), kappa, results, keys)).to_dict("records")
         assert (row["asked"], row["answered"], row["cases"], row["mu"], row["largest"]) == (asked, asked, 2, 0.2, 0.4)
         assert row["rms"] == pytest.approx(math.sqrt(0.125))
         assert row["u"] == 1e-9
 
 
 def test_a_verdict_on_the_whole_model_counts_for_every_quantity():
-    case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": math.nan, "status": "ok"}
-    results = pd.DataFrame([case | {"model": "a", "model_version": "1"}])
-    kappa = [("pull_off_force", "a", 2.0, 0.0, 1.0, math.nan, "exact", 0.0, 0.0)]
+    results = pd.DataFrame([CASE | {"model": "a", "mu": 1.0}])
+    run_entry = entry(record(), [("pull_off_force", "a", 2.0, 0.0, 1.0, math.nan, "exact", 0.0, 0.0)], results)
     rows = [("A", "a", "jump_in_gap", "ERROR"), ("A", "b", "pull_off_force", "FAIL")]
-    own, on_whole = ("A", "a", "pull_off_force", "PASS"), ("CARD-DIFFERS", "a", "", "INCONCLUSIVE")
-    for more, expected in (([own], "PASS"), ([own, on_whole], "INCONCLUSIVE"), ([on_whole], "")):
-        one = entry(record(), kappa, results)
+    passed, on_whole = ("A", "a", "pull_off_force", "PASS"), ("CARD-DIFFERS", "a", "", "INCONCLUSIVE")
+    for more, expected in (([passed], "PASS"), ([passed, on_whole], "INCONCLUSIVE"), ([on_whole], "")):
         verdicts = pd.DataFrame([*rows, *more], columns=["gate", "candidate", "quantity", "verdict"])
-        (row,) = standing(replace(one, stored=replace(one.stored, verdicts=verdicts))).to_dict("records")
+        (row,) = standing(replace(run_entry, stored=replace(run_entry.stored, verdicts=verdicts))).to_dict("records")
         assert row["verdict"] == expected
 
 
-def test_a_part_of_a_sweep_and_a_wrong_place_are_refused(toys, tmp_path, capsys):
+def test_a_part_of_a_sweep_and_a_wrong_path_are_refused(toys, tmp_path, capsys):
     (tmp_path / "grid.toml").write_text(
         "[[grid]]\nid = 'a'\ntitle = 'A'\nreference = 'exact'\nmodels = ['ten-percent']\n"
         "quantities = ['pull_off_force']\nn = [2]\nk = [0]\nmu = [1, 2]\n"
     )
-    assert load_grids((tmp_path / "grid.toml").read_text(), "quick")
     sweep = ["sweep", str(tmp_path / "grid.toml"), "--jobs", "1", "--quiet"]
     assert main([*sweep, "--shard", "1/2", "--out", str(tmp_path / "part")]) == 0
     assert main([*sweep, "--out", str(tmp_path / "whole")]) == 0

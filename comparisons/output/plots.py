@@ -1,0 +1,269 @@
+"""Plots of stored numbers: axes, choices and points, which a page draws by a script and a figure by Matplotlib."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from comparisons.numerics.number_text import case_text, percent_text
+from comparisons.output.style import MODEL_NAMES, model_styles
+from comparisons.output.table import Column, Record, columns, key_columns, key_text, physical_text
+from comparisons.problem.problem import split_name
+from comparisons.problem.units import prefixed_unit
+from comparisons.quantities import ALL_QUANTITIES, CURVES, CurveQuantity, Kind, title_of
+from comparisons.runs.case_columns import unit_in, varied_of, with_problem
+from comparisons.runs.rows import CASE
+
+__all__ = ["Plot", "curves", "in_registry", "kappa", "tension_view", "values_over_keys"]
+
+#: Ratio of the largest and the smallest abscissa from which an axis is logarithmic.
+_LOG = 30.0
+
+#: Where the load is below this share of the pull-off force, a curve approaches the axis and ends the picture.
+_FAINT = 0.02
+
+#: Models that a page shows at first: more lines hide each other.
+_SHOWN_AT_FIRST = 5
+
+#: Parameters over which errors are drawn, with the headings of their columns and the labels of their axes.
+_HEADINGS = {"mu": "μ", "k": "k", "n": "n"}
+_LABELS = {"mu": "generalised Tabor number μ", "k": "gradient exponent k", "n": "shape index n", "case": "case"}
+
+
+@dataclass(frozen=True)
+class Plot:
+    """One plot.
+
+    Attributes
+    ----------
+    id, title, x_label, y_label, caption : str
+    choices : sequence of Column
+        Columns by whose texts the points are grouped.
+    points : DataFrame
+        One row for each point: group, options (the texts), model, label, x, y, ends of the band, and the text at it.
+    table : str
+        The id of the table with the numbers.
+    x_scale : str
+        "linear" or "log".
+    mark : str
+        "both" for a line with markers, or "line".
+    views : dict
+        The first view [x0, x1, y0, y1] of a group, if not all of it.
+    y_labels : dict
+        The label of the second axis of a group, if it is another.
+    """
+
+    id: str
+    title: str
+    x_label: str
+    y_label: str
+    choices: Sequence[Column]
+    points: pd.DataFrame
+    table: str
+    caption: str
+    x_scale: str = "linear"
+    mark: str = "both"
+    views: dict[str, list[float]] = field(default_factory=dict)
+    y_labels: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def controls(self) -> list[tuple[str, list[str]]]:
+        """Label and options of each choice, in the order of the points."""
+        options = zip(*self.points["options"], strict=True)
+        return [
+            (column.heading, list(dict.fromkeys(texts))) for column, texts in zip(self.choices, options, strict=False)
+        ]
+
+    def group(self, row: Record) -> str:
+        """Return the group of a row."""
+        return "|".join(column.text(row) for column in self.choices)
+
+    @property
+    def models(self) -> list[str]:
+        """Names of what can be switched on and off; the broad line is drawn first, below the others."""
+        styles = model_styles(self.points["model"])
+        return sorted(dict.fromkeys(self.points["model"]), key=lambda name: not styles[name].broad)
+
+    @property
+    def first_models(self) -> list[str]:
+        """Those of them that are switched on at first: external ones, then ours in the order of their names."""
+        order = list(MODEL_NAMES)
+        return sorted(self.models, key=lambda name: order.index(name) if name in order else -1)[:_SHOWN_AT_FIRST]
+
+    def data(self) -> dict[str, Any]:
+        """Return what the script of the page draws, ready for JSON."""
+        names = ("id", "x_label", "y_label", "x_scale", "mark", "table", "views", "y_labels")
+        ranked = self.points.assign(rank=self.points["model"].map(self.models.index))
+        series = [
+            {"group": group, "model": model, "label": label, **rows[["x", "y", "low", "high", "hover"]].to_dict("list")}
+            for (_, group, model, label), rows in ranked.groupby(["rank", "group", "model", "label"])
+        ]
+        return {name: getattr(self, name) for name in names} | {"series": series}
+
+
+def _points(
+    rows: pd.DataFrame, choices: Sequence[Column], hover: Callable[[Record], str], x: Any, y: Any, u: Any = 0.0
+) -> pd.DataFrame:
+    """Return the points of stored rows."""
+    records = rows.to_dict("records")
+    table = pd.DataFrame({"model": rows["model"], "x": x, "y": y, "low": y - u, "high": y + u}, index=rows.index)
+    table["label"] = [
+        row["model"] if math.isnan(row.get("nu", math.nan)) else f"{row['model']}, ν = {row['nu']:g}" for row in records
+    ]
+    table["options"] = [tuple(column.text(row) for column in choices) for row in records]
+    table["group"], table["hover"] = list(map("|".join, table["options"])), list(map(hover, records))
+    # An absurd value overflows in percent; it is in the tables, but there is no place for it in a picture.
+    return table[np.isfinite(table[["x", "y", "low", "high"]].astype(float)).all(axis="columns")]
+
+
+def in_registry(quantity: str) -> tuple[int, str]:
+    """Return the order of a quantity; one that is not in the registry comes last."""
+    names = list(ALL_QUANTITIES)
+    return names.index(quantity) if quantity in names else len(names), quantity
+
+
+def kappa(table: pd.DataFrame, over: str = "") -> Plot:
+    """Relative errors over the parameter that varies most, one picture for each pair of the others.
+
+    Parameters
+    ----------
+    table : DataFrame
+        With the columns of `comparisons.output.errors.relative_error`.
+    over : str
+        "mu", "k" or "n" in place of the one with most values (the first of those with equally many); "case" for the
+        number of the case, which is what a case of a problem file has.
+    """
+    rows = with_problem(table[table["kappa"].notna()])
+    rows = rows.assign(problem=rows["problem"].fillna(""))
+    rows = rows.assign(case=1.0 + rows.groupby([*CASE], sort=False, dropna=False).ngroup())
+    if not over:
+        over = "case" if rows["n"].isna().any() else max(_HEADINGS, key=lambda name: rows[name].nunique())
+    parameters = [heading for name, heading in reversed(_HEADINGS.items()) if over not in (name, "case")]
+    rows = rows.sort_values(["n", "k", "mu", "model", over], kind="stable")
+    rows = rows.sort_values("quantity", key=_ranks, kind="stable")
+    choices = columns("quantity", "reference", *parameters)
+
+    def hover(row: Record) -> str:
+        where = case_text({name: row.get(name) for name in CASE})
+        return f"{where}, κ = {percent_text(row['kappa'], row['u_kappa'])} %"
+
+    return Plot(
+        id="plot-kappa",
+        title=f"Relative error over the {_LABELS[over]}",
+        x_label=_LABELS[over],
+        y_label="relative error κ (%)",
+        x_scale="log" if over == "mu" and rows["mu"].nunique() > 1 else "linear",
+        choices=choices,
+        points=_points(rows, choices, hover, rows[over], 100 * rows["kappa"], 100 * rows["u_kappa"]),
+        table="kappa",
+        caption="κ = (model − reference) / |reference|. A band shows what the numerical uncertainties of model and "
+        "reference allow together; where none is seen it is narrower than the line.",
+    )
+
+
+def _ranks(quantities: pd.Series) -> pd.Series:
+    return quantities.map(in_registry)
+
+
+def curves(table: pd.DataFrame) -> list[Plot]:
+    """One plot for each kind of curve that is stored."""
+    usable = table[(table["status"] == "ok") & table["mu"].notna()]
+    usable = usable.sort_values(["n", "k", "mu", "point"], kind="stable")
+    of_quantities = ((quantity, usable[usable["quantity"] == name]) for name, quantity in CURVES.items())
+    return [_curve(quantity, rows) for quantity, rows in of_quantities if len(rows)]
+
+
+def _curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
+    x, y = quantity.x.symbol, quantity.y.symbol
+    choices = [Column("case", lambda row: case_text({name: row[name] for name in ("n", "k", "mu")}))]
+    points = _points(rows, choices, lambda row: f"{x} = {row['x']:.6g}, {y} = {row['y']:.6g}", rows["x"], rows["y"])
+    views = {
+        group: tension_view((curve["x"].tolist(), curve["y"].tolist()) for _, curve in of_group.groupby("label"))
+        for group, of_group in (points.groupby("group") if quantity.kind is Kind.CURVE else ())
+    }
+    return Plot(
+        id=f"plot-{quantity.name.replace('_', '-')}",
+        title=quantity.title.capitalize(),
+        x_label=quantity.x.label,
+        y_label=quantity.y.label,
+        mark="line",
+        choices=choices,
+        points=points,
+        table=quantity.name,
+        caption=quantity.caption,
+        views={group: view for group, view in views.items() if view},
+    )
+
+
+def tension_view(curves: Iterable[tuple[list[float], list[float]]]) -> list[float] | None:
+    """Return the limits [x0, x1, y0, y1] of the tension, and of as much compression; None without tension.
+
+    Examples
+    --------
+    >>> tension_view([([0.0, 1.0, 2.0, 9.0], [-0.5, -1.0, 0.5, 40.0])])
+    [-0.1, 2.1, -1.15, 1.0]
+    """
+    pairs = [(np.array(x), np.array(y)) for x, y in curves]
+    deepest = min((float(load.min()) for _, load in pairs), default=0.0)
+    if deepest >= 0.0:
+        return None
+    visible = np.concatenate([x[(abs(load) > -_FAINT * deepest) & (load < -deepest)] for x, load in pairs])
+    margin = 0.05 * float(np.ptp(visible))
+    return [float(visible.min()) - margin, float(visible.max()) + margin, 1.15 * deepest, -deepest]
+
+
+def values_over_keys(results: pd.DataFrame) -> Iterator[tuple[Plot, list[str]]]:
+    """Yield a plot for each varied key of a problem file that has two numbers or more, and the names of all its keys.
+
+    The other keys are choices of the plot.
+
+    Parameters
+    ----------
+    results : DataFrame
+        As of `comparisons.runs.frames.frame`.
+    """
+    labelled = with_problem(results)
+    solved = labelled[(labelled["status"] == "ok") & (labelled["problem"] != "")]
+    count = 0
+    for file, rows in solved.groupby(solved["problem"].map(lambda label: split_name(label)[0])):
+        varied = [name for name in varied_of(rows) if rows[name].notna().any()]
+        for name in varied:
+            if pd.api.types.is_numeric_dtype(rows[name]) and rows[name].nunique() > 1:
+                count += 1
+                keys = [name, *(key for key in varied if key != name)]
+                yield _over_key(rows, keys, str(file), f"plot-{count}"), keys
+
+
+def _over_key(rows: pd.DataFrame, keys: list[str], file: str, id: str) -> Plot:
+    over, (label, unit) = keys[0], unit_in(keys[0])
+    rows = rows.sort_values([*keys[1:], over], kind="stable").sort_values("quantity", key=_ranks, kind="stable")
+    choices = [*columns("quantity"), *key_columns(keys[1:])]
+    power, prefixed = prefixed_unit(float(rows[over].abs().max()), unit)
+
+    def hover(row: Record) -> str:
+        return f"{label} = {key_text(row[over], unit)}, {title_of(row['quantity'])} = {physical_text(row)}"
+
+    points = _points(rows, choices, hover, rows[over] * 10.0**-power, rows["value"], rows["u_num"])
+    labels = {}
+    for group, of_group in points.groupby("group"):
+        stored = rows.loc[of_group.index]
+        y_power, y_unit = prefixed_unit(float(stored["value"].abs().max()), str(stored["unit"].iloc[0]))
+        labels[str(group)] = of_group["options"].iloc[0][0] + ("" if y_unit == "1" else f" ({y_unit})")
+        points.loc[of_group.index, ["y", "low", "high"]] *= 10.0**-y_power
+    return Plot(
+        id=id,
+        title=f"Values over {label} of {file}",
+        x_label=label if prefixed == "1" else f"{label} ({prefixed})",
+        y_label="value",
+        x_scale="log" if rows[over].min() > 0.0 and rows[over].max() / rows[over].min() >= _LOG else "linear",
+        choices=choices,
+        points=points,
+        table=f"{id}-numbers",
+        caption="A band shows the bound on the numerical error; where none is seen it is narrower than the line.",
+        y_labels=labels,
+    )

@@ -1,0 +1,255 @@
+"""Tables of errors for terminal, notebook and page: those of a comparison, and what a run and a sweep print."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+
+import pandas as pd
+from rich.console import RenderableType
+
+from comparisons.numerics.number_text import exact, percent_text, value_text
+from comparisons.output.errors import worst_rows
+from comparisons.output.table import (
+    CASE,
+    SHORT_PERCENT,
+    Column,
+    Record,
+    Table,
+    columns,
+    key_columns,
+    percents,
+    physical_text,
+    words,
+)
+from comparisons.output.terminal import rich_table
+from comparisons.runs import rows as stored_rows
+from comparisons.runs.case_columns import varied_of, with_problem
+
+__all__ = ["case_tables", "every_error", "largest_table", "summary_tables", "sweep_tables", "terminal_tables"]
+
+#: Columns of the tables where no terminal states its own; rows that a terminal shows; spaces between columns.
+WIDTH, _ROWS, _GAP = 80, 40, 2
+
+#: The reference is shown to this digit, or to the digit that its uncertainty leaves it.
+_LEAST_REFERENCE = 5e-7
+
+#: Values of n for which a line has room beside the models; failures that are written one by one.
+_SHAPES, _FAILURES = 4, 3
+
+_QUANTITY = words("quantity")
+_SHORT = percents("largest", "kappa", "u_kappa", least=SHORT_PERCENT)
+_CASE = columns(*CASE)
+
+
+def _error_text(model: str, row: Record) -> str:
+    """Return kappa in percent, or the reason why there is none in a word or two; nothing without an evaluation."""
+    status, kappa = row[f"status {model}"], row[f"kappa {model}"]
+    if status != "ok":
+        return "n/a" if status == "not-applicable" else "" if pd.isna(status) else str(status)
+    return "no reference" if pd.isna(kappa) else percent_text(kappa, row[f"u_kappa {model}"], SHORT_PERCENT)
+
+
+def _reference_text(row: Record) -> str:
+    """Return the value of the reference to seven decimals, or digits, at most."""
+    value, u = row["reference_value"], row["u_reference"]
+    return value_text(value, max(u, _LEAST_REFERENCE * min(abs(value), 1.0))) or "none"
+
+
+def case_tables(table: pd.DataFrame) -> Iterator[Table]:
+    """Yield a table for each quantity and reference: one row for each case, with kappa of each model in percent.
+
+    Parameters
+    ----------
+    table : DataFrame
+        As of `comparisons.output.errors.comparison_table`.
+    """
+    for (quantity, reference), group in with_problem(table).groupby(["quantity", "reference"], sort=False):
+        group = group.assign(case=group.groupby([*stored_rows.CASE], sort=False, dropna=False).ngroup())
+        of_models = group.pivot(index="case", columns="model", values=["status", "kappa", "u_kappa"]).infer_objects()
+        of_models.columns = pd.Index([" ".join(names) for names in of_models.columns])
+        cases = group.drop_duplicates("case").set_index("case")
+        cases = cases[["quantity", *stored_rows.CASE, "reference", "reference_value", "u_reference"]]
+        models = [
+            Column(model, partial(_error_text, model), f"kappa {model}") for model in dict.fromkeys(group["model"])
+        ]
+        yield Table(
+            f"cases-{quantity}-{reference}",
+            f"{quantity}: kappa in percent (uncertainty) against {reference}",
+            [*_CASE, Column(str(reference), _reference_text, "reference_value"), *models],
+            cases.join(of_models),
+        )
+
+
+def summary_tables(summary: pd.DataFrame) -> Iterator[Table]:
+    """Yield a table for each quantity and reference: in how many cases a model has a value, and its errors in percent.
+
+    Parameters
+    ----------
+    summary : DataFrame
+        As of `comparisons.output.errors.error_summary`.
+    """
+    layout = columns("model", "coverage", "largest |κ| (%)", *CASE, "rms κ (%)")
+    for (quantity, reference), group in summary.groupby(["quantity", "reference"], sort=False):
+        caption = f"{quantity}: coverage, largest and root mean square kappa, against {reference}"
+        yield Table(f"summary-{quantity}-{reference}", caption, layout, group)
+
+
+def terminal_tables(
+    table: pd.DataFrame, summary: pd.DataFrame, every: bool = False, width: int = WIDTH
+) -> Iterator[RenderableType]:
+    """Yield the tables of a comparison for a terminal: errors with as many models as fit, and the summary.
+
+    Parameters
+    ----------
+    table, summary : DataFrame
+        As of `comparisons.output.errors`: `comparison_table` and `error_summary`.
+    every : bool
+        Whether all cases are shown; else the first `_ROWS`.
+    width : int
+        Columns of the terminal.
+    """
+    for cases in case_tables(table):
+        beginning = cases if every else replace(cases, stored=cases.stored.head(_ROWS))
+        count = len(cases.stored)
+        limit = "" if len(beginning.stored) == count else f", first {_ROWS} of {count} cases"
+        models = [column.heading for column in cases.columns if column.number.startswith("kappa ")]
+        fixed = [name for name in beginning.texts if name not in models]
+        widths = {name: _GAP + max(map(len, [name, *beginning.texts[name]])) for name in beginning.texts}
+        free = width + _GAP - sum(widths[name] for name in fixed)
+        beside = max(int(free // max(widths[name] for name in models)), 1)
+        for start in range(0, len(models), beside):
+            yield rich_table(beginning.texts[[*fixed, *models[start : start + beside]]], cases.caption + limit)
+    for of_quantity in summary_tables(summary):
+        yield rich_table(of_quantity.texts, of_quantity.caption)
+
+
+def _printed(layout: Sequence[Column], rows: pd.DataFrame, title: str, most: int | None = _ROWS) -> RenderableType:
+    """Return a table of the first rows; the title tells how many there are."""
+    more = f" (the first {most} of {len(rows)} rows)" if most and len(rows) > most else ""
+    return rich_table(Table("", title, layout, rows.head(most or len(rows))).texts, title + more)
+
+
+def largest_table(maxima: pd.DataFrame) -> RenderableType | None:
+    """Return the largest abs(kappa) of each model, for each n if these are few; None if there is no kappa.
+
+    Parameters
+    ----------
+    maxima : DataFrame
+        As of `comparisons.output.errors.largest`.
+    """
+    if maxima.empty:
+        return None
+    if maxima["quantity"].nunique() > 1 or maxima["n"].nunique() > _SHAPES:
+        return largest_errors(maxima)
+    worst = worst_rows(maxima, ["model", "n"])
+    cells = [f"{_SHORT.text(row)}\n{exact(row['k'])}, {row['mu']:.4g}" for row in worst.to_dict("records")]
+    wide = worst.assign(cell=cells).pivot(index="model", columns="n", values="cell").fillna("")
+    wide.columns = pd.Index([f"n = {exact(n)}" for n in wide.columns])
+    title = f"{maxima['quantity'].iloc[0]}: largest abs(kappa) in percent for each n; below it k and mu"
+    return rich_table(wide.reset_index(), title)
+
+
+def largest_errors(kappa: pd.DataFrame) -> RenderableType:
+    """Return the largest relative error of each model and quantity, in percent, and its case."""
+    layout = [_QUANTITY, *columns("model"), _SHORT, *_CASE]
+    return _printed(layout, worst_rows(kappa, ["quantity", "model"]), "largest abs(kappa) in percent")
+
+
+def sweep_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFrame) -> Iterator[RenderableType]:
+    r"""Yield the tables of a sweep: values of problem files, how the computations ended, and the largest errors.
+
+    Parameters
+    ----------
+    results, curves, kappa : DataFrame
+        As `comparisons.pipeline.tables.RunTables` has them.
+
+    Examples
+    --------
+    >>> row = {"model": "fscm", "quantity": "pull_off_force", "problem": "pad.toml; punch.R=100 nm", "seconds": 0.1}
+    >>> value = {"punch.R [m]": 1e-7, "value": 2e-8, "u_num": 1.54e-15, "unit": "N", "status": "ok"}
+    >>> values, _ = sweep_tables(pd.DataFrame([row | value]), pd.DataFrame(), pd.DataFrame())
+    >>> from rich import print
+    >>> print(values)  # doctest: +NORMALIZE_WHITESPACE
+    values
+    punch.R  model  pull_off_force
+    ─────────────────────────────────
+    100 nm   fscm   20.0000000(16) nN
+    """
+    of_files = results[with_problem(results)["problem"] != ""]
+    keys = [name for name in varied_of(of_files) if of_files[name].notna().any()]
+    for quantity, rows in of_files.groupby("quantity", sort=False):
+        layout = [*(key_columns(keys) or columns("problem")), *columns("model"), Column(str(quantity), physical_text)]
+        yield _printed(layout, rows, "values")
+    # A curve has a row for each point.
+    evaluations = [results, curves[curves["point"] == 0]] if len(curves) else [results]
+    yield _computations(pd.concat([table[["model", "status", "seconds"]] for table in evaluations]))
+    if len(kappa):
+        yield largest_errors(kappa)
+
+
+def _computations(rows: pd.DataFrame) -> RenderableType:
+    """Return how many evaluations of each model ended with each status, and their seconds."""
+    counts = rows.groupby(["model", "status"]).size().unstack(fill_value=0)
+    counts = counts.reindex(columns=["ok", "not-applicable", "failed"], fill_value=0)
+    counts["seconds"] = rows.groupby("model")["seconds"].sum().round(1)
+    return rich_table(counts.reset_index(), "computations")
+
+
+def every_error(results: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> Iterator[RenderableType]:
+    """Yield the errors in every case, the failed computations, and the largest errors beside those of the paper.
+
+    Parameters
+    ----------
+    results, kappa, maxima : DataFrame
+        As `comparisons.pipeline.tables.RunTables` has them.
+    """
+    for (quantity, reference), rows in kappa.groupby(["quantity", "reference"]):
+        title = f"{quantity} of {reference} with its u_num, and kappa of each model in percent"
+        yield _printed([*columns("model"), *_CASE, *columns("reference's value", "κ (%)")], rows, title, None)
+    failed = results[results["status"] == "failed"]
+    if len(failed):
+        layout = [*columns("model"), _QUANTITY, *_CASE, *columns("reason")]
+        yield _printed(layout, failed, "failed computations", None)
+    yield _computations(results)
+    end = Column("at_end", lambda row: "yes" if row["at_end"] else "")
+    layout = [*columns("model"), *_CASE, end, *columns("κ (%)"), words("paper_percent"), words("verdict")]
+    for quantity, rows in maxima.groupby("quantity"):
+        title = f"{quantity}: largest abs(kappa) in percent, and that of the paper (at_end: of the range of mu)"
+        yield _printed(layout, rows, title, None)
+
+
+def failure_lines(failures: Sequence[stored_rows.Row]) -> Iterator[str]:
+    """Yield a sentence for each of the first failures, and one for the others."""
+    for row in failures[:_FAILURES]:
+        yield f"{row.model}: {row.quantity} at {row.label}: {row.reason}"
+    if len(failures) > _FAILURES:
+        yield f"{len(failures) - _FAILURES} more computations failed; the tables have their reasons"
+
+
+def computations_sentence(counts: Mapping[str, int]) -> str:
+    """Return how many computations ended with which status.
+
+    Examples
+    --------
+    >>> computations_sentence({"all": 12, "resumed": 0, "ok": 8, "not-applicable": 4})
+    '12 results: 8 ok, 4 not-applicable'
+    """
+    ended = ", ".join(f"{count} {name}" for name, count in counts.items() if name not in ("all", "resumed"))
+    return f"{counts['all']} results: {ended}" if ended else "no results"
+
+
+def paper_sentence(maxima: pd.DataFrame) -> str:
+    """Return how many of the maxima that the paper prints agree; empty if there are none.
+
+    Examples
+    --------
+    >>> rows = {"k": [0.4] * 3, "paper_percent": ["0.73", "3.5", "5"], "verdict": ["differs", "agrees", "differs"]}
+    >>> paper_sentence(pd.DataFrame(rows))
+    'maxima that the paper prints, for k = 0.4: agrees 1, differs 2'
+    """
+    printed = maxima[maxima["paper_percent"] != ""]
+    gradients = ", ".join(exact(k) for k in sorted(set(printed["k"])))
+    verdicts = ", ".join(f"{verdict} {count}" for verdict, count in sorted(printed["verdict"].value_counts().items()))
+    return f"maxima that the paper prints, for k = {gradients}: {verdicts}" if verdicts else ""

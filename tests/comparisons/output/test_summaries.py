@@ -1,0 +1,116 @@
+"""Texts of a run on the terminal: the largest errors, what does not pass, and one sentence on all gates."""
+
+import shlex
+
+import numpy as np
+import pandas as pd
+import pytest
+from rich.console import Console
+
+from comparisons.judging.decision import Verdict
+from comparisons.output.errors import largest, relative_error
+from comparisons.output.summaries import every_error, largest_table, paper_sentence
+from comparisons.output.terminal import records, rich_table
+from comparisons.output.verdicts import declared_sentence, gate_lines, gates_sentence
+
+CASE = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "mu": 1.0, "nu": np.nan}
+
+
+def shown(table, width=80):
+    console = Console(width=width)
+    with console.capture() as capture:
+        console.print(table)
+    return [line.rstrip() for line in capture.get().splitlines()]
+
+
+def maxima(quantities):
+    return pd.DataFrame(
+        CASE | {"quantity": name, "model": "jkr", "n": n, "k": k, "mu": 0.837, "kappa": -0.01 * n - k, "u_kappa": 1e-9}
+        for name in quantities
+        for n in (1.0, 1.5, 2.0, 5.0)
+        for k in (0.0, 0.4)
+    )
+
+
+def test_each_shape_has_its_largest_error_with_k_and_mu():
+    title, heads, _, errors, cases = shown(largest_table(maxima(["pull_off_force"])))
+    assert title.startswith("pull_off_force: ")
+    assert heads.split() == ["model", *["n", "=", "1", "n", "=", "1.5", "n", "=", "2", "n", "=", "5"]]
+    assert errors.split() == ["jkr", "-41.000(5)", "-41.500(5)", "-42.000(5)", "-45.000(5)"]
+    assert cases.split() == ["0.4,", "0.837"] * 4
+
+
+def test_the_largest_of_all_shapes_is_named_with_its_shape_and_quantity():
+    quantities = ["jump_in_gap", "pull_off_force"]
+    lines = shown(largest_table(maxima(quantities)))
+    expected = [[quantity, "jkr", "-45.000(5)", "5", "0.4", "0.837"] for quantity in quantities]
+    assert [line.split() for line in lines[-2:]] == expected
+
+
+def test_every_error_and_failure_is_printed_beside_the_numbers_of_the_paper():
+    base = CASE | {"status": "ok", "seconds": 0.1}
+    cases = [{"mu": mu, "k": k} for mu in (0.1, 1.0) for k in (0.0, 0.4)]
+    rows = [base | case | {"model": "ref", "value": 2.0, "u_num": 1e-9} for case in cases]
+    rows += [base | case | {"model": "md-improved", "value": 1.8, "u_num": 0.0} for case in cases]
+    rows += [base | {"model": "broken", "status": "failed", "reason": "[bold]it is lost"}]
+    results = pd.DataFrame(rows)
+    kappa = relative_error(results, "ref")
+    lines = [line.split() for table in every_error(results, kappa, largest(kappa)) for line in shown(table)]
+    assert ["md-improved", "2", "0.4", "0.1", "2.0000000000(10)", "-10.00000(5)"] in lines
+    assert ["broken", "pull_off_force", "2", "0.4", "1", "[bold]it", "is", "lost"] in lines
+    assert ["md-improved", "4", "0", "0", "0.4"] in lines
+    assert ["md-improved", "2", "0.4", "0.1", "yes", "-10.00000(5)", "0.73", "differs"] in lines
+    assert paper_sentence(largest(kappa)).endswith(": differs 1")
+
+
+def gates(*verdicts):
+    numbers = {"error": -0.0494, "uncertainty": 3e-9, "lower": -0.04, "upper": 0.04}
+    row = CASE | numbers | {"candidate": "jkr", "reference": "fscm", "reason": ""}
+    return pd.DataFrame(row | {"gate": f"GATE-{index}", "verdict": verdict} for index, verdict in enumerate(verdicts))
+
+
+def test_a_gate_has_its_error_its_limits_and_its_command():
+    lines = gate_lines(gates(Verdict.FAIL), {}, 80, 4)
+    assert lines[0] == "FAIL GATE-0 of jkr against fscm: E = -0.049400(5), limits -0.04 to 0.04"
+    command = "fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 1"
+    assert shlex.split("".join(lines[1:]).replace("\\", "")) == shlex.split(command)
+
+
+def test_many_gates_are_counted():
+    lines = gate_lines(gates(*[Verdict.INCONCLUSIVE] * 50), {}, 60, 4)
+    assert len(lines) <= 4 * 5 + 1
+    assert max(map(len, lines)) <= 60
+    assert lines[-1].startswith("46 more")
+    named = declared_sentence(gates(*[Verdict.XFAIL] * 15))
+    assert "GATE-0, GATE-1" in named
+    assert named.endswith("GATE-11 and 3 more")
+    assert declared_sentence(gates(Verdict.PASS)) == ""
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "sentence"),
+    [
+        (["PASS", "PASS", "XFAIL"], "2 of 3 gates pass, 1 fail as declared, 0 unexpected"),
+        (
+            ["NOT-APPLICABLE", "FAIL", "ERROR", "FAIL"],
+            "0 of 4 gates pass, 0 fail as declared, 1 apply to no case, 3 unexpected: 1 ERROR, 2 FAIL",
+        ),
+    ],
+)
+def test_the_sentence_on_all_gates(verdicts, sentence):
+    assert gates_sentence(gates(*verdicts), gates(*verdicts)).partition(" (cases: ")[0] == sentence
+
+
+@pytest.mark.parametrize("width", [60, 80, 140])
+def test_names_and_numbers_are_whole_and_texts_are_folded(width):
+    names = ["carpick-ogletree-salmeron", "double-hertz-n-k"]
+    reason = "[bold]n = 2 and k = 0, fitted to the values of another model, and to nothing else at all"
+    table = pd.DataFrame({"model": names, "kappa": [-1132.5, np.nan], "failed": [True, False], "reason": reason})
+    for printed in (rich_table(table, "[b]title", {"kappa": ".1f"}), records(table, "[b]title")):
+        lines = shown(printed, width)
+        words = " ".join(lines).split()
+        assert lines[0] == "[b]title"
+        assert {*names, "-1132.5", "yes"} <= {*words}
+        assert "nan" not in words
+        assert words.count("[bold]n") == 2
+        assert max(map(len, lines)) <= width
