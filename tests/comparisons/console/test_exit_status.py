@@ -203,7 +203,7 @@ def test_a_summary_page_without_room_loses_no_result_and_no_verdict(small_grid, 
     for arguments in (["run", "--jobs", "1", "--out", str(folder)], ["judge", str(folder)]):
         assert main(arguments) == FAILED
         printed = capsys.readouterr()
-        assert "1 of 1 gate passes" in printed.out
+        assert "1 of 1 gates pass" in printed.out
         assert f"cannot be written ({NO_ROOM})" in printed.err
         assert {"run.json", "junit.xml"} <= set(os.listdir(folder))
 
