@@ -7,7 +7,7 @@ from typing import Protocol
 
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note
-from comparisons.output.run_summary import failure_lines
+from comparisons.output.summaries import failure_lines
 from comparisons.runs.rows import Row
 
 __all__ = ["print_end"]
