@@ -40,4 +40,4 @@ def test_examples(name: str) -> None:
     results = doctest.testmod(
         importlib.import_module(name), optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
     )
-    assert results.attempted > results.failed == 0
+    assert results.failed == 0
