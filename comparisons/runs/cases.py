@@ -205,7 +205,7 @@ def cases_text() -> str:
 
     Examples
     --------
-    >>> load_grids(cases_text(), tiers=["quick"]) == grids("quick")
+    >>> load_grids(cases_text(), folder=_DATA, tiers=["quick"]) == grids("quick")
     True
     """
     return _DATA.joinpath("cases.toml").read_text(encoding="utf-8")

@@ -36,14 +36,11 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
 @pytest.mark.parametrize(
     ("wrong", "sentence"),
     [
-        ({"change": {'["pull_off_force"]': '[["a"]]'}}, "quantities must be a list of quantities"),
         ({"change": {'["pull_off_force"]': '["pull_off"]'}}, "did you mean pull_off_force?"),
         ({"change": {"n = [2]": 'n = ["2"]'}}, "n must be a list of numbers"),
-        ({"change": {"n = [2]": "n = [1" + "0" * 400 + "]"}}, "n must be a list of numbers"),
         ({"change": {"k = [0, 0.4]": "k = [0, 1.4]"}}, "[0, 1]"),
         ({"change": {"k = [0, 0.4]": "k = []"}}, "no case"),
         ({"change": {'name = "': "x = " + "[" * 5000 + "]" * 5000 + '\nname = "'}}, "nested too deeply"),
-        ({"change": {"[units]": "x = " + "[" * 400 + "]" * 400 + "\n[units]"}}, "unknown key 'x'"),
         ({"change": {'"pi Q': '"2 pi Q'}}, "divide the values by that"),
         ({"change": {'pull_off_force = "': 'jump_in_gap = "'}}, "[units] must have exactly pull_off_force"),
         ({"change": {'"predictions.csv"': '"../data/predictions.csv"'}}, "must be the name of a .csv file"),
@@ -51,8 +48,6 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
         ({"change": {'"measured"': '"<b>measured</b>"'}}, "letters, digits"),
         ({"change": {'"A. Author"': '"A.\\u202eAuthor"'}}, "author must be one line"),
         ({"change": {'doi = "10.1000/182"': 'doi = "javascript:1"'}}, "doi = "),
-        ({"change": {'licence = "CC-BY-4.0"': ""}}, "licence missing"),
-        ({"change": {"[[covers]]": "[[covers"}}, "not TOML"),
         ({"change": {"[[covers]]": f"{TABLE}\n[[covers]]"}}, "promise 15492 cases"),
         ({"digest": "0" * 64}, "has the SHA-256"),
         ({"rows": ROWS[:-1]}, "1 of 4 rows that [[covers]] promises are missing, the first is pull_off_force at n = 2"),
@@ -60,21 +55,15 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
         ({"rows": [*ROWS, "pull_off_force,2,0,7,1.5,0"]}, "line 6: pull_off_force at n = 2, k = 0, mu = 7 is not"),
         ({"rows": with_row("pull_off_force,2,0,1,1_6,0")}, "line 3: value = '1_6' is not a finite number"),
         ({"rows": with_row("pull_off_force,2,0,1,nan,1e-6")}, "line 3: value = 'nan' is not a finite"),
-        ({"rows": with_row("pull_off_force,2,0,1,,1e-6")}, "line 3: value = '' is not a finite number"),
         ({"rows": with_row("pull_off_force,2,0,1,1.6,-1")}, "line 3: u_num = -1"),
         ({"rows": with_row("pull_off_force,2,0,1,1.6")}, "line 3: 5 cells, not 6"),
         ({"rows": with_row('"pull_off_force,2,0,1,1.6,0')}, "predictions.csv, line"),
         ({"header": "quantity,k,n,mu,value,u_num"}, "the first line must be"),
-        (
-            {"wrap": lambda text: text.encode().replace(b"0.4,0.1", b"0.4\xb1,0.1")},
-            "line 4: the byte 0xb1 is not",
-        ),
     ],
 )
 def test_what_is_wrong_is_refused_with_its_place(write_data, capsys, monkeypatch, wrong, sentence):
     folder = write_data(**wrong)
-    built = []
-    real = data_model.Problem.dimensionless
+    built, real = [], data_model.Problem.dimensionless
     monkeypatch.setattr(
         data_model.Problem, "dimensionless", lambda *case, **numbers: built.append(case) or real(*case, **numbers)
     )

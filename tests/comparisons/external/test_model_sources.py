@@ -108,7 +108,6 @@ def test_what_names_no_model_is_refused_in_one_sentence(tmp_path, monkeypatch, c
     ("method", "called"),
     [
         ("def evaluate(self, p): ...", "evaluate(problem, quantity)"),
-        ("def evaluate(self, *, problem, quantity): ...", "evaluate(problem, quantity)"),
         ("def evaluate_physical(self, problem): ...", "evaluate_physical(problem, quantity)"),
         ("def curve(self): ...", "curve(problem)"),
         ("def evaluate(self, case, name, accuracy=None): ...", ""),
@@ -187,18 +186,12 @@ DEFECTS = (
     ("kill -9 $$", "was killed by signal 9"),
     ("exec 1>&-; sleep 60", "closed its standard output"),
     ("echo 1.7", "wrote '1.7', which is not one JSON object"),
-    ("echo", "wrote '', which is not one JSON object"),
-    ("printf '\\377\\n'", "which is not one JSON object"),
     (ok("NaN"), "wrote NaN, which is not a finite number"),
     (ok("1e999"), "value = inf must be a finite"),
-    (ok('"1.7"'), "value = '1.7' must be a finite real number"),
-    (ok(more=', "size": -1'), "size = -1 must be"),
     (ok(more=', "unum": 1'), "unknown key 'unum'"),
     ("""echo '{"status": "ok", "value": 1.7}'""", "u_num missing"),
     ("""echo '{"value": 1.7, "u_num": 0}'""", "status = None"),
-    ("""echo '{"status": []}'""", "status = "),
     ("""echo '{"status": "failed", "reason": "no root"}'""", "^no root$"),
-    ("""echo '{"status": "failed"}'""", "no reason"),
     (f"{ok()}; {ok()}", "more than one line for"),
     ("head -c 2000000 /dev/zero | tr '\\0' '['; echo", "which is not one JSON object"),
     ("yes | tr -d '\\n'", "wrote 200 MB without the end of a line"),
@@ -223,6 +216,8 @@ def test_a_program_that_is_too_slow_or_keeps_its_line_is_ended(write_program, mo
     close_models()
     with pytest.raises(ValueError, match=r"cannot be loaded: .* must flush its standard output"):
         create(write_program("", text="#!/bin/sh\nread -r request\nprintf '{}'\nsleep 60\n"))
+    with pytest.raises(ValueError, match=r"cannot be started .*whose first line"):
+        create(write_program("", text="no program\n"))
 
 
 @pytest.mark.parametrize(
@@ -231,9 +226,7 @@ def test_a_program_that_is_too_slow_or_keeps_its_line_is_ended(write_program, mo
         ("{}", "name, version, citation, domain missing"),
         (DESCRIBE.replace('"1"', "1"), "version = 1 must be a text"),
         (DESCRIBE.replace('"mine"', '"two words"'), "'two words' is not 1 to 64 letters"),
-        (DESCRIBE[:-1] + ', "limits": "jkr"}', "limits = 'jkr'"),
         (DESCRIBE[:-1] + ', "applies_to": {"n": [2, 2]}}', "applies_to: quantities = None is not a list"),
-        (DESCRIBE[:-1] + ', "applies_to": {"quantities": [["a"]]}}', "cannot be loaded"),
         (DESCRIBE[:-1] + ', "python": {}}', "unknown key 'python'"),
         (DESCRIBE[:-1] + ', "files": ["none.csv"]}', "there is no such file or folder beside the model"),
     ],
@@ -241,11 +234,6 @@ def test_a_program_that_is_too_slow_or_keeps_its_line_is_ended(write_program, mo
 def test_a_program_that_describes_no_model_cannot_be_loaded(write_program, describe, sentence):
     with pytest.raises(ValueError, match=re.escape(sentence)):
         create(write_program(ok(), describe))
-
-
-def test_what_is_no_program_is_wrong_input(write_program):
-    with pytest.raises(ValueError, match=r"cannot be started .*whose first line"):
-        create(write_program("", text="no program\n"))
 
 
 def test_a_program_has_the_limits_of_other_models_and_ends_with_it(write_program, tmp_path, monkeypatch):
@@ -263,11 +251,8 @@ printf '{{"status": "not-applicable", "reason": "%s %s %s %s %s"}}\\n' $$ $free 
     assert (scratch, int(kilobytes), token) == ("yes", 4_096_000_000 // 1024, [])
     assert (free == "no") == (not target.exists())
     assert not has_ended(process)
+    version = create(str(tmp_path / "program")).version
     close_models()
     assert comes_true(lambda: has_ended(process))
-
-
-def test_a_changed_program_has_another_version(write_program):
-    version = create(write_program(ok())).version
-    close_models()
-    assert create(write_program(ok("1.8"))).version != version
+    # A changed program has another version.
+    assert create(write_program(ok())).version != version

@@ -9,11 +9,9 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.external import fingerprint as module
 from comparisons.external.model_source import GROUP, close_models
-from comparisons.problem import Problem
-from comparisons.registry import ExternalIdentity, create, identify
+from comparisons.registry import create
 from comparisons.runs.frames import read_table
 from comparisons.runs.record import read_record
-from comparisons.runs.tasks import Task, evaluate_task
 
 from .conftest import GATE, GOOD, opened, row_of
 
@@ -107,13 +105,6 @@ def test_of_a_large_or_shared_folder_what_is_imported_or_declared_counts(folder,
     assert len(set(versions)) == 4
 
 
-def test_a_file_may_have_the_name_of_a_module_of_python(folder, write_model):
-    spec = write_model(name="statistics")
-    before = opened(spec).version
-    (folder / "table.csv").write_text("2")
-    assert opened(spec).version != before
-
-
 @pytest.fixture
 def site(tmp_path, monkeypatch):
     """An installed package with a table in it, and a module of another package beside it."""
@@ -166,13 +157,6 @@ def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(write_model
     assert strange["status"].tolist() == ["failed"] * 4
     assert strange["reason"].str.contains("name or version changed").all()
     assert table.loc[table["model"] == "good", "status"].tolist() == ["ok"] * 4
-
-
-@pytest.mark.parametrize("more", ["name = 'jkr'", "name = '<b>'", "version = os.urandom(8).hex()"])
-def test_a_row_is_of_the_model_that_the_run_opened(write_model, more):
-    before = ExternalIdentity("stranger", "1 (0)", write_model(more=more), "A. Author", "tests")
-    row = evaluate_task(Task("stranger", "pull_off_force", Problem.dimensionless(2, 0, 1), before))
-    assert (row.model, row.model_version, row.status) == ("stranger", "1 (0)", "failed")
 
 
 def test_a_process_that_had_to_be_started_again_is_compared_with_the_one_before(write_model, tmp_path):
@@ -256,23 +240,3 @@ def test_old_rows_of_a_sweep_over_a_problem_file_do_not_stand(once, tmp_path):
     # All of this model, and none of the other.
     assert "4 are stored" in messages
     assert values(tmp_path) == pytest.approx([1.5 * value for value in before])
-
-
-def test_rows_of_another_version_are_not_used(write_model, few_cases, tmp_path):
-    vary = ["--vary", "punch.R=1:4:4 um", "--quantity", "pull_off_force"]
-    for command in (["run"], ["sweep", "--problem", str(PAD), *vary]):
-        out = tmp_path / command[0]
-        for value in (1.5, 1.6):
-            close_models()
-            spec = write_model(f"return Result({value}, 0.0)")
-            main([*command, "--jobs", "1", "--out", str(out), "--model", spec, "bradley"])
-            rows = read_table(out / "results.parquet")
-            column = "value" if command == ["run"] else "dimensionless_value"
-            assert rows.loc[rows["model"] == "stranger", column].tolist() == pytest.approx([value] * 4)
-
-
-def test_what_was_hashed_is_passed_on_and_a_class_of_python_has_no_files(folder):
-    spec = f"{folder / 'stranger.py'}:Model"
-    _, external = identify([spec, "jkr"])
-    assert external["stranger"].hashed == create(spec).hashed
-    assert module.fingerprint({})[1].startswith("nothing")

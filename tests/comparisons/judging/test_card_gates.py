@@ -14,7 +14,6 @@ from comparisons.judging.card_gates import DIFFERS, judge_cards, judge_digits, o
         ({"A": "PASS", "CARD-DIFFERS": "INCONCLUSIVE"}, "INCONCLUSIVE"),
         ({"A": "FAIL", "CARD-DIFFERS": "INCONCLUSIVE"}, "FAIL"),
         ({"CARD-SAME-AGAIN": "PASS", "CARD-DIFFERS": "PASS"}, "ERROR"),
-        ({"CARD-SAME-AGAIN": "FAIL"}, "ERROR"),
         ({"A": "NOT-APPLICABLE", "CARD-SAME-AGAIN": "PASS"}, "ERROR"),
         ({}, "ERROR"),
     ],
@@ -44,9 +43,6 @@ def compared(same, other, reference="fscm", k=0.4, gate="A"):
         (compared(4, 0), "INCONCLUSIVE"),
         (compared(3, 2), "INCONCLUSIVE"),
         (compared(2, 2), "PASS"),
-        (compared(1, 3), "PASS"),
-        (compared(0, 4), "PASS"),
-        (compared(4, 0, "fem"), "INCONCLUSIVE"),
         (compared(4, 0, "atlas"), "INCONCLUSIVE"),
         # A closed form, and the algebraic limit.
         (compared(4, 0, "jkr"), "PASS"),

@@ -1,17 +1,12 @@
 """Gates: files that are read, files that are refused, and the standing gates."""
 
-import json
-import math
 import re
-from dataclasses import fields
-from importlib.resources import files
 
 import pytest
 
 from comparisons import Problem
-from comparisons.judging.gates import GIVEN, METRICS, Gate, gates_text, load_gates, of_tier
-from comparisons.registry import MODELS
-from comparisons.runs.cases import TIERS, Grid, grids
+from comparisons.judging.gates import gates_text, load_gates
+from comparisons.runs.cases import Grid, grids
 
 GATE = """
 [[gate]]
@@ -30,6 +25,9 @@ grounds = "A limit."
 min_cases = 3
 tier = "quick"
 """
+
+
+CURVE = GATE.replace('"rel"', '"curve"').replace("pull_off_force", "force_curve").replace("= -0.1", "= -inf")
 
 
 def with_cases(text):
@@ -71,26 +69,20 @@ MEASURED = '"measured"\nworst_measured = '
 @pytest.mark.parametrize(
     ("old", "new", "sentence"),
     [
-        ("min_cases = 3", "min_cases = 3\nminimum = 3", "unknown key 'minimum'"),
         ("min_cases = 3", "min_case = 3", "unknown key 'min_case': did you mean min_cases?"),
         ("min_cases = 3", "", "min_cases missing"),
-        *(("min_cases = 3", f"min_cases = {value}", "min_cases = ") for value in ("0", '"3"', "true")),
-        ("A-GATE", "a gate", "capitals"),
+        *(("min_cases = 3", f"min_cases = {value}", "min_cases = ") for value in ("0", '"3"')),
         ("A-GATE", "\u0391-GATE", "capitals"),
         ('"jkr"', '"jrk"', "unknown candidate 'jrk': did you mean jkr?"),
         ('"fscm"', '"given"', "unknown reference 'given'"),
         ('"rel"', '"relative"', "metric = 'relative' must be one of rel,"),
         ('"rel"', '"curve"', "unknown quantity"),
-        ("pull_off_force", "pull_off", "unknown quantity"),
         ("pull_off_force", "force_curve", "unknown quantity"),
-        ('"derived"', '"guessed"', "basis = 'guessed' must be one of"),
-        ('"quick"', '"slow"', "tier = 'slow' must be one of"),
-        ("min_cases = 3", 'min_cases = 3\nnot_applicable = "pass"', "not_applicable = 'pass' must be one of"),
         # Limits that admit nothing, everything, or any model.
         ("lower = -0.1", "lower = 0.2", "admit nothing"),
+        (GATE, CURVE.replace("upper = 0.1", "upper = 0"), "to 0 must be"),
         ("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = inf", "one must be finite"),
         ("lower = -0.1", "lower = nan", "lower = nan"),
-        ("lower = -0.1", "lower = -1" + "0" * 400, "lower = "),
         ("lower = -0.1", "lower = -1e300", "lower = -1e+300 is beyond 1000 in size"),
         ("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = 1000.5", "upper = 1000.5 is beyond 1000 in size"),
         # Uncertainties.
@@ -102,17 +94,13 @@ MEASURED = '"measured"\nworst_measured = '
         # Models.
         ('metric = "rel"', 'metric = "en"\nmax_candidate_uncertainty = 0.1\nrival = "dmt"', "compares with no rival"),
         ('"jkr"', '"fscm"', "candidate and reference are both 'fscm'"),
-        ('"jkr"', '"fscm"\nreference_at = {}', "candidate and reference are both 'fscm'"),
         ("min_cases = 3", 'min_cases = 3\nrival = "jkr"', "candidate and rival are both 'jkr'"),
         # Cases.
         ("n = [1, 2]", "n = [2, 1]", "cases.n = [2, 1] must be [low, high]"),
-        ("n = [1, 2]", "n = 1", "cases.n = 1 must be [low, high]"),
-        ("n = [1, 2]", "n = [true, true]", "[low, high]"),
         ("n = [1, 2]", "m = [1, 2]", "'m': did you mean mu?"),
         ("n = [1, 2]", '"solid.kind" = "coat"', "'coat': did you mean coating?"),
         ("n = [1, 2]", '"solid.thickness" = ["1 GPa", "2 GPa"]', "cases.solid.thickness"),
         ("n = [1, 2]", '"solid.thickness" = ["2 nm", "1 nm"]', "cases.solid.thickness"),
-        ('tags = ["blue"]', 'tags = [["blue"]]', "cases.tags must be a list of at least one name; it holds ['blue']"),
         ('tags = ["blue"]', "tags = []", "cases.tags = []"),
         *(("= 3", f"= 3\nreference_at = {{ k = {k} }}", "reference_at") for k in ('"1"', "nan", "1.5", "inf")),
         # What was measured.
@@ -132,17 +120,13 @@ MEASURED = '"measured"\nworst_measured = '
         ),
         # Texts.
         *(("A limit.", text, "grounds") for text in ("", " \\n\\t ", "A \\u001b[31mlimit.", "A\\u202e limit.")),
-        ("min_cases = 3", 'min_cases = 3\nexpected_failure = "\\u0007"', "expected_failure"),
         ("min_cases = 3", 'min_cases = 3\n"\\u001b[31m" = 1', r"unknown key '\x1b[31m'"),
         ('"A limit."', '"A limit."\nshared_grounds = "x"', "either grounds, one sentence, or shared_grounds"),
         ('grounds = "A limit."', "", "either grounds, one sentence, or shared_grounds"),
         ('grounds = "A limit."', 'shared_grounds = "none"', "unknown shared grounds 'none'"),
         ("[[gate]]", '[grounds]\nspare = "A limit."\n[[gate]]', "no gate has the shared grounds spare"),
-        ("[[gate]]", "[grounds]\nspare = 1\n[[gate]]", "grounds.spare = 1"),
         # Files of another form.
-        ("[[gate]]", "[[gates]]", "unknown key 'gates': did you mean gate?"),
         ("[[gate]]", "[gate]", "must be [[gate]] tables"),
-        ("[[gate]]", "[[gate]", "is not TOML: "),
         ("[[gate]]", "x = " + "[" * 5000 + "]" * 5000 + "\n[[gate]]", "nested too deeply"),
         (GATE, GATE + GATE, "A-GATE is there twice"),
         *((GATE, text, "gate") for text in ("gate = [1]", "gate = [[]]", "gate = 1", "")),
@@ -159,6 +143,7 @@ def test_what_is_wrong_is_refused_and_named(old, new, sentence):
     [
         ('"jkr"', '"fscm"\nreference_at = { k = 0 }'),
         ("upper = 0.1", "upper = 1000"),
+        (GATE, CURVE),
         ("lower = -0.1\nupper = 0.1", "lower = -1000\nupper = inf"),
         ('metric = "rel"\nlower = -0.1', 'metric = "abs"\nlower = -1e6'),
         ('"derived"', MEASURED + "-0.1"),
@@ -167,19 +152,12 @@ def test_what_is_wrong_is_refused_and_named(old, new, sentence):
         ('metric = "rel"', 'metric = "en"\nmax_candidate_uncertainty = 0.999'),
         ("1e-6", "1e-6\nmax_candidate_uncertainty = 7"),
         ("n = [1, 2]", "n = [1, inf]"),
+        (GATE, '[grounds]\na = "A limit."\n' + GATE.replace('grounds = "A limit."', 'shared_grounds = "a"')),
     ],
 )
 def test_what_can_fail_is_read(old, new):
     assert GATE.replace(old, new) != GATE
     assert len(load_gates(GATE.replace(old, new))) == 1
-
-
-@pytest.mark.parametrize("upper", ["0", "-0.1"])
-def test_a_distance_that_must_be_negative_is_refused(upper):
-    curve = GATE.replace('"rel"', '"curve"').replace("pull_off_force", "force_curve").replace("= -0.1", "= -inf")
-    assert load_gates(curve)
-    with pytest.raises(ValueError, match=f"to {upper} must be"):
-        load_gates(curve.replace("upper = 0.1", f"upper = {upper}"))
 
 
 def test_the_candidate_at_its_own_parameters_is_no_other_reference():
@@ -189,27 +167,10 @@ def test_the_candidate_at_its_own_parameters_is_no_other_reference():
     assert load_gates(same + "reference_at = { n = 2, k = 0.4 }")
 
 
-def test_several_gates_share_their_grounds():
-    text = '[grounds]\nlimit = "A limit\\nof Eq. 51."\n' + GATE + GATE.replace("A-GATE", "B-GATE")
-    for gate in load_gates(text.replace('grounds = "A limit."', 'shared_grounds = "limit"')):
-        assert gate.grounds == "A limit of Eq. 51."
-
-
-def test_the_schema_names_the_metrics_and_tiers_of_the_code():
-    schema = json.loads(files("comparisons.data").joinpath("gates.schema.json").read_text(encoding="utf-8"))
-    entries = schema["properties"]["gate"]["items"]["properties"]
-    assert entries["metric"]["enum"] == list(METRICS)
-    assert entries["tier"]["enum"] == list(TIERS)
-    assert entries.keys() - {"shared_grounds"} == {field.name for field in fields(Gate)}
-
-
 def test_a_standing_gate_is_fit_to_be_cited():
-    gates = load_gates(gates_text())
-    assert len(of_tier(gates, "quick")) >= 25
-    for gate in gates:
+    for gate in load_gates(gates_text()):
         for text in (gate.requirement, gate.grounds, gate.expected_failure or "."):
             assert text.endswith("."), gate.id
-        assert gate.candidate in {*MODELS, GIVEN}
         declared = {
             case
             for grid in grids(gate.tier)
@@ -218,4 +179,3 @@ def test_a_standing_gate_is_fit_to_be_cited():
             if gate.selects(grid, case)
         }
         assert len(declared) >= gate.min_cases, gate.id
-        assert math.isfinite(gate.upper)

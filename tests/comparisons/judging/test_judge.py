@@ -51,24 +51,17 @@ LEAVE_OUT = GATE + 'not_applicable = "leave-out"\n'
 
 def results(u_num=(), status=(), **models):
     """Rows of the four cases; a value is a number or a function of (k, mu), a bound 1e-6 or that of the model."""
-    rows = [
-        {
-            "model": model,
-            "quantity": "pull_off_force",
-            "n": 2.0,
-            "k": k,
-            "mu": mu,
-            "nu": math.nan,
-            "value": value(k, mu) if callable(value) else value,
-            "u_num": dict(u_num).get(model, 1e-6),
-            "status": "ok",
-            "reason": "",
-        }
-        for model, value in models.items()
-        for k in (0.0, 0.4)
-        for mu in (0.5, 1.0)
+    row = {"quantity": "pull_off_force", "n": 2.0, "nu": math.nan, "status": "ok", "reason": ""}
+    cases = [(model, value, k, mu) for model, value in models.items() for k in (0.0, 0.4) for mu in (0.5, 1.0)]
+    numbers = [
+        (value(k, mu) if callable(value) else value, dict(u_num).get(model, 1e-6)) for model, value, k, mu in cases
     ]
-    table = pd.DataFrame(rows)
+    table = pd.DataFrame(
+        [
+            row | {"model": model, "k": k, "mu": mu, "value": value, "u_num": u}
+            for (model, _, k, mu), (value, u) in zip(cases, numbers, strict=True)
+        ]
+    )
     for model, (word, count) in dict(status).items():
         index = table.index[table["model"] == model][:count]
         table.loc[index, "status"], table.loc[index, "reason"] = word, "why not"
@@ -217,6 +210,9 @@ def test_an_inconclusive_verdict_says_whose_uncertainty_it_is(words, rows, gate)
     expect("INCONCLUSIVE", words, rows, gate.replace("1e-3", "1.2345e-3" if "12345" in words else "1e-1"))
 
 
+CURVE = GATE.replace("pull_off_force", "force_curve").replace('"rel"', '"curve"').replace("= -0.1", "= -inf")
+
+
 def curve(u, model="jkr", k=0.0, mu=1.0):
     t = np.linspace(0.0, 1.0, 21)
     case = {"model": model, "quantity": "force_curve", "n": 2.0, "k": k, "mu": mu, "nu": math.nan}
@@ -226,9 +222,8 @@ def curve(u, model="jkr", k=0.0, mu=1.0):
 def test_an_inconclusive_distance_of_curves_says_whose_uncertainty_it_is():
     cases = [(k, mu) for k in (0.0, 0.4) for mu in (0.5, 1.0)]
     curves = pd.concat([curve(u, model, *case) for model, u in (("jkr", 0.2), ("fscm", 1e-9)) for case in cases])
-    gate = GATE.replace("pull_off_force", "force_curve").replace('"rel"', '"curve"').replace("= -0.1", "= -inf")
-    expect("INCONCLUSIVE", "mostly by u of the candidate jkr: 0.2", results(), gate, GRIDS, curves)
-    limited = gate.replace("upper = 0.1", "upper = 0.5") + "max_candidate_uncertainty = 0.1\n"
+    expect("INCONCLUSIVE", "mostly by u of the candidate jkr: 0.2", results(), CURVE, GRIDS, curves)
+    limited = CURVE.replace("upper = 0.1", "upper = 0.5") + "max_candidate_uncertainty = 0.1\n"
     expect("INCONCLUSIVE", "u of the candidate jkr is 0.2; the gate tolerates 0.1", results(), limited, GRIDS, curves)
 
 
@@ -243,9 +238,8 @@ def test_an_inconclusive_distance_of_curves_says_whose_uncertainty_it_is():
     ],
 )
 def test_the_bound_of_a_curve_is_the_largest_of_its_points_and_each_has_one(ends, expected):
-    gate = GATE.replace("pull_off_force", "force_curve").replace('"rel"', '"curve"').replace("= -0.1", "= -inf")
     u = np.where(np.arange(21) < 10, *ends)
-    _, table = verdict(results(), gate, curves=pd.concat([curve(u), curve(1e-9, "fscm")]))
+    _, table = verdict(results(), CURVE, curves=pd.concat([curve(u), curve(1e-9, "fscm")]))
     (case,) = table[(table["k"] == 0.0) & (table["mu"] == 1.0)].to_dict("records")
     if expected is None:
         assert "states the uncertainty" in case["reason"]
@@ -273,9 +267,7 @@ def test_an_error_that_was_not_measured_fails_although_it_keeps_the_limits_or_is
     # An uncertainty does not hide a change.
     large = {"jkr": 2.0, "fscm": 2.0}
     assert verdict(results(large, fscm=2.0, jkr=2.6), gate.replace("1e-3", "3.0"))[0] == "FAIL"
-
-
-def test_an_expected_failure_is_strict_in_every_case():
+    # An expected failure is strict in every case.
     assert verdict(results(fscm=2.0, jkr=lambda k, mu: 2.0 if k else 2.5), KNOWN)[0] == "XPASS"
 
 

@@ -3,13 +3,10 @@
 import pytest
 
 from comparisons.domain import Domain
-from comparisons.judging.gates import gates_text, load_gates
+from comparisons.judging.gates import load_gates
 from comparisons.judging.selection import needed_keys
-from comparisons.runs.cases import grids, load_grids
+from comparisons.runs.cases import load_grids
 from tests.comparisons.conftest import GATES, GRID
-
-#: The standing gates.
-STANDING = load_gates(gates_text())
 
 
 def gates(*changes):
@@ -35,15 +32,27 @@ def registered(toys):
     pass
 
 
-def test_the_reference_is_needed_where_the_candidate_has_a_value():
-    needed_at_once, then = keys(gates(), ["ten-percent"], ok=["ten-percent"])
-    assert of(needed_at_once) == (["ten-percent"], 4)
-    assert of(then) == (["exact", "ten-percent"], 8)
+RIVAL = [('tier = "quick"', 'tier = "quick"\nrival = "twelve-percent"'), ("lower = 0.09", "lower = -inf")]
 
 
-def test_the_reference_is_not_needed_where_the_candidate_has_none():
-    needed_at_once, then = keys(gates(('"ten-percent"', '"refuses"')), ["refuses"])
-    assert of(then) == of(needed_at_once) == (["refuses"], 4)
+@pytest.mark.parametrize(
+    ("changes", "models", "needed"),
+    [
+        ([], ["ten-percent"], (["exact", "ten-percent"], 8)),
+        # Cases that no gate selects are not needed.
+        ([("mu = [0.1, 1]", "mu = [1, 1]")], ["ten-percent"], (["exact", "ten-percent"], 4)),
+        # Where the candidate has no value nothing else is.
+        ([('"ten-percent"', '"refuses"')], ["refuses"], (["refuses"], 4)),
+        (RIVAL, ["ten-percent", "twelve-percent"], (["exact", "ten-percent", "twelve-percent"], 12)),
+        # The range of the reference is over all cases.
+        ([('"ten-percent"', '"refuses"'), ('"rel"', '"range-relative"')], ["refuses"], (["exact", "refuses"], 8)),
+    ],
+)
+def test_the_others_are_needed_where_the_candidate_has_a_value(changes, models, needed):
+    needed_at_once, then = keys(gates(*changes), models, ok=["ten-percent"])
+    assert of(then) == needed
+    if '"rel"' not in str(changes):
+        assert of(needed_at_once)[0] == models[:1]
 
 
 def test_the_reference_is_needed_where_the_candidate_has_none_inside_the_domain_that_it_declares():
@@ -56,36 +65,6 @@ def test_the_reference_is_needed_where_the_candidate_has_none_inside_the_domain_
     assert {key[3] for key in needed if key[0] == "exact"} == {0.0}
 
 
-def test_cases_that_no_gate_selects_are_not_needed():
-    _, then = keys(gates(("mu = [0.1, 1]", "mu = [1, 1]")), ["ten-percent"], ok=["ten-percent"])
-    assert {key[4] for key in then} == {1.0}
-    assert of(then) == (["exact", "ten-percent"], 4)
-
-
-def test_a_rival_is_needed_with_the_reference():
-    gates_of_run = gates(
-        ('tier = "quick"', 'tier = "quick"\nrival = "twelve-percent"'), ("lower = 0.09", "lower = -inf")
-    )
-    needed_at_once, then = keys(gates_of_run, ["ten-percent", "twelve-percent"], ok=["ten-percent"])
-    assert of(needed_at_once) == (["ten-percent"], 4)
-    assert of(then) == (["exact", "ten-percent", "twelve-percent"], 12)
-
-
-def test_the_range_of_the_reference_needs_all_its_cases():
-    _, then = keys(gates(('"rel"', '"range-relative"')), ["ten-percent"])
-    assert of(then) == (["exact", "ten-percent"], 8)
-
-
 def test_a_model_that_no_gate_names_is_in_the_tables_of_errors():
     needed_at_once, _ = keys(gates(), ["twelve-percent"])
     assert of(needed_at_once) == (["exact", "twelve-percent"], 8)
-
-
-def test_a_model_of_one_shape_needs_the_standing_references_of_this_shape():
-    grid = grids("quick")
-    needed_at_once = needed_keys(STANDING, grid, ["jkr"], {})
-    assert of([key for key in needed_at_once if key[1] == "pull_off_force"]) == (["jkr"], 192)
-    statuses = {key: "ok" if key[2] == 2 else "not-applicable" for key in needed_at_once}
-    added = needed_keys(STANDING, grid, ["jkr"], statuses) - needed_at_once
-    assert {key[2] for key in added} == {2.0}
-    assert len([key for key in added if key[1] == "pull_off_force"]) == 48

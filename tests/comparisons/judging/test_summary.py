@@ -2,39 +2,20 @@
 
 import math
 
-import pandas as pd
 import pytest
 
 from comparisons.judging.decision import Verdict
-from comparisons.judging.judge import Judged
+from comparisons.judging.judge import Judged, verdict_table
 from comparisons.judging.summary import summarise, worst_first
 
 
 def case(mu, error, uncertainty=0.0, verdict="PASS", lower=-1.0, upper=1.0, gate="A", reason=""):
-    return Judged(
-        gate=gate,
-        quantity="pull_off_force",
-        candidate="mine",
-        reference="fscm",
-        n=2.0,
-        k=0.0,
-        mu=mu,
-        nu=None,
-        value=1.0,
-        u_num=0.0,
-        reference_value=1.0,
-        u_reference=0.0,
-        error=error,
-        uncertainty=uncertainty,
-        lower=lower,
-        upper=upper,
-        verdict=Verdict(verdict),
-        reason=reason,
-    )
+    limits = {"lower": lower, "upper": upper, "verdict": Verdict(verdict), "reason": reason}
+    return Judged(gate, "pull_off_force", "mine", "fscm", 2.0, 0.0, mu, error=error, uncertainty=uncertainty, **limits)
 
 
 def table(*cases):
-    return pd.DataFrame([{name: getattr(one, name) for name in Judged.__slots__} for one in cases])
+    return verdict_table(cases)
 
 
 @pytest.mark.parametrize(
@@ -62,16 +43,12 @@ def test_the_worst_case_is_shown(cases, worst):
     assert worst_first(table(*cases)).iloc[0]["mu"] == worst
 
 
-def test_cases_that_do_not_apply_are_counted_apart():
-    cases = table(case(1.0, 0.1), case(2.0, None, None, "NOT-APPLICABLE"), case(3.0, 0.2))
-    assert summarise(cases)[["verdict", "mu", "cases", "skipped"]].to_numpy().tolist() == [["PASS", 3.0, 2, 1]]
-
-
-def test_an_error_of_the_gate_as_a_whole_is_no_case():
-    cases = table(case(1.0, 0.1), case(None, None, None, "ERROR", reason="1 case was evaluated, 2 are declared"))
+def test_cases_that_do_not_apply_and_errors_of_the_gate_as_a_whole_are_counted_apart():
+    cases = [case(1.0, 0.1), case(2.0, None, None, "NOT-APPLICABLE"), case(3.0, 0.2)]
+    assert summarise(table(*cases))[["verdict", "mu", "cases", "skipped"]].to_numpy().tolist() == [["PASS", 3.0, 2, 1]]
+    cases = table(*cases, case(None, None, None, "ERROR", reason="2 cases were evaluated, 3 are declared"))
     (row,) = summarise(cases).to_dict("records")
-    assert (row["verdict"], row["cases"], row["skipped"]) == ("ERROR", 1, 0)
-    assert row["reason"].startswith("1 case")
+    assert (row["verdict"], row["cases"], row["skipped"], row["reason"][:7]) == ("ERROR", 2, 1, "2 cases")
 
 
 def test_gates_and_cases_are_sorted_worst_first_in_widths_of_their_gate():
