@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from typing import Any
 
@@ -42,7 +42,7 @@ class Range:
     """
 
     quantities: tuple[str, ...]
-    limits: dict[str, tuple[float, float]]
+    limits: dict[str, tuple[float, float]] = field(hash=False)
 
     def within(self, case: Mapping[str, Any]) -> bool:
         """Whether a case is inside; a parameter that is None in the case is not restricted."""
