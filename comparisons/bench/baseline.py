@@ -7,7 +7,7 @@ from pathlib import Path
 
 from comparisons.bench.run import parts_of
 from comparisons.data.file_names import BENCH, BENCH_SUMMARY
-from comparisons.runs.atomic_files import atomic
+from comparisons.paper.baseline import replace_files
 
 __all__ = ["BENCH_BASELINE", "has_bench", "renew"]
 
@@ -40,10 +40,4 @@ def renew(folder: Path, target: Path = BENCH_BASELINE) -> list[Path]:
         raise ValueError(
             f"{folder} has {content['failures']} failed measurements: repeat `fscm-bench bench --retry-failed`"
         )
-    target.mkdir(parents=True, exist_ok=True)
-    for stale in target.iterdir():
-        stale.unlink()
-    for source in sources:
-        with atomic(target / source.name) as file:
-            file.write(source.read_bytes())
-    return [target / source.name for source in sources]
+    return replace_files(sources, target)

@@ -9,7 +9,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, MARKERS, lettered, styled
+from comparisons.output.style import COLOURS, MARKERS, styled
+from comparisons.paper.drawing import panels
 
 __all__ = ["Panel", "bars", "lines"]
 
@@ -38,26 +39,23 @@ class Panel:
     title: str = ""
 
 
-def lines(panels: Sequence[Panel], title: str, columns: int) -> Figure:
+def lines(contents: Sequence[Panel], title: str, columns: int) -> Figure:
     """Draw panels in rows of so many; a value of `by` has the same colour in all of them."""
-    rows = -(-len(panels) // columns)
-    names = list(dict.fromkeys(name for panel in panels for name in panel.rows[panel.by]))
+    rows = -(-len(contents) // columns)
+    names = list(dict.fromkeys(name for panel in contents for name in panel.rows[panel.by]))
     with styled():
         figure = Figure(figsize=(3.4 * columns, 3.2 * rows), layout="constrained")
-        for axes, panel, letter in zip(
-            figure.subplots(rows, columns, squeeze=False).flat, panels, "abcdefgh", strict=False
-        ):
+        lattice = panels(figure, rows, columns, [panel.title for panel in contents])
+        for axes, panel in zip(lattice, contents, strict=False):
             drawn = panel.rows.dropna(subset=[panel.y])
-            for name, line in drawn.groupby(panel.by, sort=False):
+            for name, of_name in drawn.groupby(panel.by, sort=False):
+                line = of_name.sort_values(panel.x)
                 style = names.index(name) % len(COLOURS)
-                line = line.sort_values(panel.x)
                 axes.plot(line[panel.x], line[panel.y], color=COLOURS[style], marker=MARKERS[style], ms=5, label=name)
-            for axis in panel.scales if len(drawn) else "":
-                axes.set(**{f"{axis}scale": "log"})
             axes.set(xlabel=panel.labels[0], ylabel=panel.labels[1])
             if len(drawn):
+                axes.set(**{f"{axis}scale": "log" for axis in panel.scales})
                 axes.legend()
-            lettered(axes, letter, panel.title)
         figure.suptitle(title, fontsize=10)
     return figure
 

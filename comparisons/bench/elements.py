@@ -7,7 +7,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
@@ -50,10 +49,6 @@ def plan(full: bool) -> list[Settings]:
     ]
 
 
-#: Returns the displacement of the surface under a load, and numbers; it reads the clock after its set-up.
-_Method = Callable[[HalfSpace, Array], tuple[Array, Numbers]]
-
-
 def measure(settings: Settings) -> Numbers:
     """Assemble a system, solve it, and return unknowns, iterations, CPU times and memory.
 
@@ -65,64 +60,64 @@ def measure(settings: Settings) -> Numbers:
         ``method`` (of `METHODS`), ``density`` of the mesh, ``k`` and ``nu``; ``shape`` of the mesh where it is not
         that of the study.
     """
-    method = METHODS[settings["method"]]
     # The first factorisation and the first set-up of pyamg import modules.
-    _solve(method, MeshSpec(0.5, 0.05, 32.0, 1.5, _ORDER), settings)
+    _solve(MeshSpec(0.5, 0.05, 32.0, 1.5, _ORDER), settings)
     edge_width, surface_depth, extent = settings.get("shape", _EDGE)
-    return _solve(method, MeshSpec(edge_width, surface_depth, extent, settings["density"], _ORDER), settings)
+    return _solve(MeshSpec(edge_width, surface_depth, extent, settings["density"], _ORDER), settings)
 
 
-def _solve(method: _Method, spec: MeshSpec, settings: Settings) -> Numbers:
+def _solve(spec: MeshSpec, settings: Settings) -> Numbers:
     begin = time.process_time()
     grid = spec.grid()
     half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, settings["k"]), settings["nu"], _ORDER)
     load = np.zeros(half_space.matrix.shape[0])
     load[half_space.surface] = smooth_load(lambda r: np.exp(-((r / LOAD_RADIUS) ** 2)))(trace_of(grid, _ORDER))
-    assembly = time.process_time() - begin
+    assembled = time.process_time()
     before = memory()
     reset_peak()
-    surface, numbers = method(half_space, load)
+    start = time.process_time()
+    ready, surface, iterations, residual = METHODS[settings["method"]](half_space, load)
+    end = time.process_time()
     peak = memory("VmHWM")
     return {
         "unknowns": half_space.unknowns,
-        **numbers,
-        "assembly_seconds": assembly,
+        "iterations": iterations,
+        "residual": residual,
+        "setup_seconds": ready - start,
+        "solve_seconds": end - ready,
+        "assembly_seconds": assembled - begin,
         "megabytes": None if before is None or peak is None else peak - before,
         "displacement": float(surface[0]),
     }
 
 
-def _numbers(iterations: int, residual: float, begin: float, ready: float) -> Numbers:
-    times = {"setup_seconds": ready - begin, "solve_seconds": time.process_time() - ready}
-    return {"iterations": iterations, "residual": residual, **times}
+#: Of the clock after the set-up, the displacement of the surface under a load, the iterations and the residual.
+_Solved = tuple[float, Array, int, float]
 
 
-def _by_pyamg(half_space: HalfSpace, load: Array) -> tuple[Array, Numbers]:
-    begin = time.process_time()
+def _by_pyamg(half_space: HalfSpace, load: Array) -> _Solved:
     preconditioner = ElasticPreconditioner(half_space)
     ready = time.process_time()
     solution = solve_cg(half_space, load, preconditioner)
-    return solution.solution[half_space.surface], _numbers(solution.iterations, solution.residual, begin, ready)
+    return ready, solution.solution[half_space.surface], solution.iterations, solution.residual
 
 
-def _direct(half_space: HalfSpace, load: Array) -> tuple[Array, Numbers]:
-    begin = time.process_time()
+def _direct(half_space: HalfSpace, load: Array) -> _Solved:
+    ready = time.process_time()
     solution = solve_direct(half_space, load)
-    return solution.solution[half_space.surface], _numbers(0, solution.residual, begin, begin)
+    return ready, solution.solution[half_space.surface], 0, solution.residual
 
 
-def _condensed(half_space: HalfSpace, load: Array) -> tuple[Array, Numbers]:
-    begin = time.process_time()
+def _condensed(half_space: HalfSpace, load: Array) -> _Solved:
     stiffness, _ = condensed(half_space)
     ready = time.process_time()
     forces = load[half_space.surface]
     surface = linalg.cho_solve(linalg.cho_factor(stiffness), forces)
-    residual = float(np.linalg.norm(stiffness @ surface - forces) / np.linalg.norm(forces))
-    return surface, _numbers(0, residual, begin, ready)
+    return ready, surface, 0, float(np.linalg.norm(stiffness @ surface - forces) / np.linalg.norm(forces))
 
 
 #: Name -> the method: "direct" factorises and solves at once, which is all in ``solve_seconds``.
-METHODS: dict[str, _Method] = {"pyamg": _by_pyamg, "direct": _direct, "condensed": _condensed}
+METHODS = {"pyamg": _by_pyamg, "direct": _direct, "condensed": _condensed}
 
 
 def ratios(rows: pd.DataFrame) -> pd.DataFrame:
@@ -158,10 +153,9 @@ def draw(rows: pd.DataFrame) -> Figure:
         "seconds": "CPU time: set-up and solution (s)",
         "megabytes": "memory beside the matrix, peak (MB)",
     }
+    of_material, scales = _of_every_run(rows), {"iterations": "x"}
     panels = [
-        Panel(
-            _of_every_run(rows), "unknowns", name, "method", ("unknowns", label), "x" if name == "iterations" else "xy"
-        )
+        Panel(of_material, "unknowns", name, "method", ("unknowns", label), scales.get(name, "xy"))
         for name, label in labels.items()
     ]
     k, nu = _MATERIALS[0]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
@@ -23,24 +25,19 @@ _LONG = 1.0
 ENDED = "its process ended before it was finished, perhaps for lack of memory"
 
 
-class _Measure:
-    """The function that makes a measurement, or states why there is none."""
-
-    def __init__(self, measure: Callable[[Settings], Numbers]) -> None:
-        self._measure = measure
-
-    def __call__(self, settings: Settings) -> tuple[Numbers, str]:
-        try:
-            return self._measure(settings), ""
-        except Exception as error:
-            # A model that cannot compute a case costs this measurement and no other.
-            return {}, f"{type(error).__name__}: {error}"
+def _attempt(measure: Callable[[Settings], Numbers], settings: Settings) -> tuple[Numbers, str]:
+    """Make a measurement, or state why there is none."""
+    try:
+        return measure(settings), ""
+    except Exception as error:
+        # A model that cannot compute a case costs this measurement and no other.
+        return {}, f"{type(error).__name__}: {error}"
 
 
 def measured(part: Part, settings: Settings) -> Measurement:
     """Make a measurement, in a new process if the part wants that; one that fails has the reason."""
     # With one job the function is called in this process.
-    ((_, output),) = processes(_Measure(part.measure), [settings], 2 if part.own_process else 1)
+    ((_, output),) = processes(partial(_attempt, part.measure), [settings], 2 if part.own_process else 1)
     numbers, reason = output or ({}, ENDED)
     status = "failed" if reason else "ok"
     return {"part": part.name, "settings": settings, "numbers": numbers, "status": status, "reason": reason}
@@ -81,12 +78,11 @@ def memory(name: str = "VmRSS") -> float | None:
         status = Path("/proc/self/status").read_text(encoding="ascii")
     except OSError:
         return None
-    return next((1024e-6 * float(line.split()[1]) for line in status.splitlines() if line.startswith(f"{name}:")), None)
+    fields = dict(line.split(":", 1) for line in status.splitlines())
+    return 1024e-6 * float(fields[name].split()[0])
 
 
 def reset_peak() -> None:
     """Begin a new peak of the resident memory; where the system does not allow it, the old one continues."""
-    try:
+    with suppress(OSError):
         Path("/proc/self/clear_refs").write_text("5", encoding="ascii")
-    except OSError:
-        return

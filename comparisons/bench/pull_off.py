@@ -48,12 +48,14 @@ def setting_text(settings: Settings) -> str:
     >>> setting_text({"model": "fscm-stieltjes", "segments": 2500}), setting_text({"model": "fscm", "accuracy": 1e-6})
     ('N = 2500', '1e-06')
     """
-    if settings["model"] == "fscm-stieltjes":
-        return f"N = {settings['segments']:.0f}"
-    if settings["model"] == "adhesion":
-        return f"{settings['points']:.0f} x {settings['points']:.0f}"
-    accuracy = settings["accuracy"]
-    return accuracy if isinstance(accuracy, str) else f"{accuracy:.0e}"
+    accuracy = settings.get("accuracy")
+    texts = {
+        "fscm-stieltjes": "N = {segments:.0f}",
+        "adhesion": "{points:.0f} x {points:.0f}",
+    }
+    return texts.get(settings["model"], "{accuracy}" if isinstance(accuracy, str) else "{accuracy:.0e}").format(
+        **settings
+    )
 
 
 def _problem(settings: Settings, repetition: int = 0) -> Problem:

@@ -7,10 +7,8 @@ be resumed; each keeps the record of the machine that made it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-
-import pandas as pd
+from typing import NamedTuple
 
 from comparisons.bench import adhesion_package
 from comparisons.bench.cold_starts import COLD_STARTS
@@ -54,22 +52,9 @@ def parts_of(names: Iterable[str] | None) -> list[Part]:
     return [part for name, part in PARTS.items() if name in requested]
 
 
-@dataclass(frozen=True, slots=True)
-class FinishedBench:
-    """A run whose files are written.
+class FinishedBench(NamedTuple):
+    """What a run prints, ratios first, at most 45 lines of at most 80 columns; and its failures."""
 
-    Attributes
-    ----------
-    folder : Path
-    tables : dict
-        Name of the part -> its table.
-    summary : list of str
-        Ratios first; at most 40 lines of at most 80 columns.
-    failures : list of Measurement
-    """
-
-    folder: Path
-    tables: dict[str, pd.DataFrame]
     summary: list[str]
     failures: list[Measurement]
 
@@ -111,13 +96,13 @@ def run_bench(
         return _written(folder, parts, store, {"only": only and list(only), "full": full})
 
 
-def _as_it_is(measurement: Measurement) -> Measurement:
-    """Return a measurement, which JSON holds."""
-    return measurement
-
-
 #: Measurements in the store of a folder.
-FORM: Form[Measurement] = Form("measurements", lambda row: [row["part"], key(row["settings"])], _as_it_is, _as_it_is)
+FORM: Form[Measurement] = Form(
+    "measurements",
+    key=lambda row: [row["part"], key(row["settings"])],
+    read=lambda content: content,
+    write=lambda row: row,
+)
 
 
 def _measure(parts: Sequence[Part], full: bool, store: Store[Measurement]) -> None:
@@ -138,11 +123,11 @@ def _written(
     record = environment()
     machine = record["machine"]
     summary = [f"{machine['cpu']}, {machine['cores']} cores; ratios of one run on it:"[:80]]
-    tables, failures = {}, []
+    failures = []
     for part in parts:
         rows = [row for row in store.items if row["part"] == part.name]
         failures += [row for row in rows if row["status"] != "ok"]
-        tables[part.name] = table = table_of(part, rows)
+        table = table_of(part, rows)
         table_file, figure_file = part.files(folder)
         # Settings as short as they can be exactly: 1e-05, not 1.0000000000000001e-05.
         settings = {name: table[name].map(_short) for name in {name for row in rows for name in row["settings"]}}
@@ -158,7 +143,7 @@ def _written(
     with atomic(folder / BENCH_SUMMARY) as file:
         file.write("".join(f"{line}\n" for line in summary).encode())
     write_data_package(folder, [part.files(folder)[0].name for part in parts])
-    return FinishedBench(folder, tables, summary, failures)
+    return FinishedBench(summary, failures)
 
 
 def _short(value: object) -> object:

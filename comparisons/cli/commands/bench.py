@@ -38,7 +38,7 @@ def call(args: argparse.Namespace) -> int:
         print_lines(finished.summary)
     for failure in finished.failures:
         log(_sentence(failure))
-    note(f"tables, figures and record are in {finished.folder}")
+    note(f"tables, figures and record are in {args.out}")
     return FAILED if finished.failures else OK
 
 

@@ -82,14 +82,10 @@ def test_every_method_solves_the_same_system():
         assert (numbers["iterations"] > 0) == (method == "pyamg")
 
 
-@pytest.mark.parametrize("workers", [1, 2])
-def test_a_sweep_is_timed(workers):
-    numbers = two_workers.measure({"model": "jkr", "cases": 7, "workers": workers})
+def test_a_sweep_is_timed_and_one_with_a_failed_case_is_no_measurement(monkeypatch):
+    numbers = two_workers.measure({"model": "jkr", "cases": 7, "workers": 2})
     assert 0.0 < numbers["seconds_of_tasks"] <= numbers["seconds"]
     assert 0.0 <= numbers["idle_seconds"] < numbers["seconds_of_tasks"]
-
-
-def test_a_sweep_with_a_failed_case_is_no_measurement(monkeypatch):
     monkeypatch.setattr(two_workers, "evaluate_task", lambda task: SimpleNamespace(status="failed"))
     with pytest.raises(RuntimeError, match="3 of 3 cases have no value"):
         two_workers.measure({"model": "jkr", "cases": 3, "workers": 1})
@@ -112,18 +108,15 @@ def ended(settings):
     os._exit(1)
 
 
-def part_of(measure, own_process=True):
-    return Part("test", "", lambda full: [], measure, None, None, None, own_process)
+def made(measure, own_process=True):
+    return measured(Part("test", "", None, measure, None, None, None, own_process), {"size": 3})
 
 
-def test_each_measurement_has_a_process_of_its_own():
-    processes = [measured(part_of(process_of, own), {})["numbers"]["process"] for own in (True, True, False)]
+def test_each_measurement_has_a_process_of_its_own_and_one_that_ends_is_a_failed_measurement():
+    processes = [made(process_of, own_process)["numbers"]["process"] for own_process in (True, True, False)]
     assert len({*processes, os.getpid()}) == 3
     assert processes[2] == os.getpid()
-
-
-def test_a_process_that_ends_is_a_failed_measurement():
-    failed = measured(part_of(ended), {"size": 3})
+    failed = made(ended)
     assert (failed["status"], failed["reason"], failed["settings"]) == ("failed", ENDED, {"size": 3})
 
 

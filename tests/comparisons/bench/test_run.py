@@ -1,12 +1,18 @@
-"""A run of the benchmark: files, record, resumption, failures, refusals."""
+"""A run of the benchmark: files, record, resumption, failures, refusals; the committed one and its renewal."""
 
 import json
+from pathlib import Path
 
+import pandas as pd
 import pytest
 
-from comparisons.bench.run import run_bench
+from comparisons import baseline
+from comparisons.bench.baseline import BENCH_BASELINE, renew
+from comparisons.bench.run import PARTS, run_bench
 from comparisons.cli.main import main
 from comparisons.runs import store
+
+COMMITTED = Path(__file__).parents[3] / BENCH_BASELINE
 
 
 def measuring_sizes(sizes):
@@ -15,6 +21,10 @@ def measuring_sizes(sizes):
         return {"cpu_seconds": 0.5}
 
     return measure
+
+
+def sizes_in(folder):
+    return pd.read_csv(folder / "tiny.csv")["size"].tolist()
 
 
 def test_a_run_writes_table_figure_and_record(tiny, tmp_path):
@@ -44,28 +54,17 @@ def test_a_resumed_run_measures_what_is_missing_and_keeps_the_record_of_the_mach
     with pytest.raises(KeyboardInterrupt):
         run_bench(tmp_path)
     assert not (tmp_path / "tiny.csv").exists()
-    other_machine = {
-        "host": "another machine",
-        "cpu": "another CPU",
-        "python": "3",
-        "numpy": "2",
-        "scipy": "1",
-        "system": "x",
-    }
-    monkeypatch.setattr("comparisons.runs.store.computing_environment", lambda: other_machine)
+    monkeypatch.setattr("comparisons.runs.store.computing_environment", lambda: {"host": "another machine"})
     tiny(measure=measuring_sizes(sizes))
-    assert run_bench(tmp_path).tables["tiny"]["size"].tolist() == [1, 2]
-    assert sizes == [1, 2]
+    run_bench(tmp_path)
+    assert sizes == sizes_in(tmp_path) == [1, 2]
     parts = json.loads((tmp_path / "bench.json").read_text())["parts"]
-    assert sorted((part["computations"], part["host"] == "another machine") for part in parts) == [
-        (1, False),
-        (1, True),
-    ]
-
-
-def test_full_adds_sizes_to_the_same_folder(tiny, tmp_path):
+    hosts = sorted((part["computations"], part["host"] == "another machine") for part in parts)
+    assert hosts == [(1, False), (1, True)]
+    # `full` adds sizes to the same folder, and they stay.
     run_bench(tmp_path, full=True)
-    assert run_bench(tmp_path).tables["tiny"]["size"].tolist() == [1, 2, 8]
+    run_bench(tmp_path)
+    assert sizes == sizes_in(tmp_path) == [1, 2, 8]
 
 
 def test_again_drops_what_is_stored_also_by_another_version(tiny, tmp_path, monkeypatch):
@@ -77,25 +76,24 @@ def test_again_drops_what_is_stored_also_by_another_version(tiny, tmp_path, monk
         run_bench(tmp_path)
     run_bench(tmp_path, again=True)
     assert sizes == [1, 2, 1, 2]
+    with store.rows_in(tmp_path), pytest.raises(ValueError, match="another process is computing into"):
+        run_bench(tmp_path)
 
 
-def test_a_failure_costs_one_measurement_and_is_retried_on_request(tiny, tmp_path):
+def test_a_failure_costs_one_measurement_is_retried_on_request_and_is_no_baseline(tiny, tmp_path):
     sizes = []
     plan = {"plan": lambda full: [{"size": -1}, {"size": 1}]}
     tiny(**plan)
     finished = run_bench(tmp_path)
     assert [row["reason"] for row in finished.failures] == ["ArithmeticError: a negative size"]
-    assert finished.tables["tiny"]["status"].tolist() == ["failed", "ok"]
+    assert pd.read_csv(tmp_path / "tiny.csv")["status"].tolist() == ["failed", "ok"]
+    with pytest.raises(ValueError, match="1 failed"):
+        renew(tmp_path, tmp_path / "baseline")
     tiny(**plan, measure=measuring_sizes(sizes))
     run_bench(tmp_path)
     assert sizes == []
     assert run_bench(tmp_path, retry_failed=True).failures == []
     assert sizes == [-1]
-
-
-def test_two_commands_cannot_use_one_folder(tiny, tmp_path):
-    with store.rows_in(tmp_path), pytest.raises(ValueError, match="another process is computing into"):
-        run_bench(tmp_path)
 
 
 def test_the_command_prints_ratios_and_ends_with_the_status(tiny, tmp_path, capsys):
@@ -116,3 +114,27 @@ def test_wrong_input_is_one_sentence(option, value, capsys):
     assert main(["bench", option, value]) == 2
     out, err = capsys.readouterr()
     assert (out, err.count("\n"), value in err) == ("", 1, True)
+
+
+def test_only_a_whole_run_renews_the_baseline(tiny, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    run_bench(Path("run"))
+    BENCH_BASELINE.mkdir(parents=True)
+    (BENCH_BASELINE / "stale.csv").write_text("")
+    assert baseline.main(["run"]) == 0
+    assert {path.name for path in BENCH_BASELINE.iterdir()} == {"bench.json", "bench.txt", "tiny.csv", "tiny.png"}
+    assert (BENCH_BASELINE / "tiny.csv").read_bytes() == Path("run", "tiny.csv").read_bytes()
+    assert baseline.main(["--check", "run"]) == 2
+    Path("run", "tiny.png").unlink()
+    with pytest.raises(ValueError, match=r"lacks tiny\.png"):
+        renew(Path("run"))
+    assert len(list(BENCH_BASELINE.iterdir())) == 4
+
+
+@pytest.mark.parametrize("name", list(PARTS))
+def test_the_committed_benchmark_has_every_measurement_of_every_part(name):
+    assert json.loads((COMMITTED / "bench.json").read_text())["failures"] == 0
+    table = pd.read_csv(PARTS[name].files(COMMITTED)[0])
+    assert set(table["status"]) == {"ok"}
+    # The package adhesion need not be installed where this test runs.
+    assert len(table) >= len([row for row in PARTS[name].plan(False) if row.get("model") != "adhesion"])
