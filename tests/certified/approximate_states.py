@@ -6,23 +6,21 @@ Nothing here is proved or needs to be: the bounds of `state_bounds` hold for eve
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from flint import arb, ctx
 from scipy.linalg import lu_factor, lu_solve
 from threadpoolctl import threadpool_limits
 
-from tests.certified.collocation import Collocation, pull_off_displacement
+from tests.certified.collocation import Collocation
 from tests.certified.panel_functions import BITS
 from tests.certified.sphere_form import SphereForm, cubic_coefficients
 
 __all__ = ["ApproximateStates", "approximate_states"]
 
-# The pull-off is first found with a smaller degree.
-_COARSE = 160
-# Secant steps in delta at the full degree; each correction of the states adds the digits of a double.
-_SECANT_STEPS, _CORRECTIONS = 3, 3
+# Each correction of the states adds the digits of a double.
+_CORRECTIONS = 3
 # The second weight would elsewhere be smaller than the error of its interpolation.
 _LEAST_WEIGHT = 1e-3
 
@@ -50,29 +48,11 @@ class ApproximateStates:
     comparison: tuple[list[arb], ...]
 
 
-def _displacement_and_state(nodes: Collocation) -> tuple[float, np.ndarray]:
-    coarse = Collocation(replace(nodes.form, degree=min(_COARSE, nodes.form.degree)))
-    delta = pull_off_displacement(coarse)
-    W = nodes.interpolated(coarse, coarse.follow(delta))
-    W, slope = nodes.newton(delta, W)
-    before, slope_before = delta - 1e-4, nodes.newton(delta - 1e-4, W)[1]
-    for _ in range(_SECANT_STEPS):
-        if slope == slope_before:
-            break
-        before, delta, slope_before = delta, delta - slope * (delta - before) / (slope - slope_before), slope
-        W, slope = nodes.newton(delta, W)
-    return delta, W
-
-
-def approximate_states(form: SphereForm, delta: float | None = None) -> ApproximateStates:
-    """State and derivatives at `delta`, by default at the pull-off, with two functions for the comparison."""
+def approximate_states(form: SphereForm, delta: float) -> ApproximateStates:
+    """State and derivatives at `delta`, with two functions for the comparison."""
     with ctx.workprec(BITS), threadpool_limits(1):
         nodes = Collocation(form)
-        if delta is None:
-            delta, W = _displacement_and_state(nodes)
-        else:
-            W = nodes.follow(delta)
-        return _many_digits(nodes, delta, nodes.height(delta, W))
+        return _many_digits(nodes, delta, nodes.follow(delta))
 
 
 def _many_digits(nodes: Collocation, delta: float, h: np.ndarray) -> ApproximateStates:

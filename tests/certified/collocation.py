@@ -7,12 +7,11 @@ from flint import arb, arb_mat
 
 from tests.certified.sphere_form import SphereForm
 
-__all__ = ["Collocation", "pull_off_displacement"]
+__all__ = ["Collocation"]
 
 _NEWTON_STEPS, _NEWTON_TOLERANCE = 60, 1e-12
-# A displacement before the pull-off of every mu <= 1, and a step that Newton's method can follow.
+# A displacement at which the gap is large, and a step that Newton's method can follow.
 _START, _STEP = -1.5, 0.1
-_ROOT_STEPS, _ROOT_TOLERANCE = 40, 1e-12
 
 
 def _floats(matrix: arb_mat) -> np.ndarray:
@@ -57,16 +56,21 @@ class Collocation:
         column = self.basis * arb_mat([[v] for v in self.form.deformed(coefficients)])
         return [column[j, 0] for j in range(column.nrows())]
 
-    def height(self, delta: float, W: np.ndarray) -> np.ndarray:
-        """1 + H."""
+    def follow(self, delta: float) -> np.ndarray:
+        """1 + H at a displacement by Newton's method in doubles, from a state of large gap."""
+        W = np.zeros(len(self.x))
+        for d in [*np.arange(min(_START, delta - _STEP), delta, _STEP), delta]:
+            W = self._newton(float(d), W)
+        return self._height(delta, W)
+
+    def _height(self, delta: float, W: np.ndarray) -> np.ndarray:
         x, L = self.x, self.form.length
         return 1 - delta + L**2 * (1 - x**2) / (2 * x**2) + x * W
 
-    def newton(self, delta: float, W: np.ndarray) -> tuple[np.ndarray, float]:
-        """W at a displacement by Newton's method in doubles, and dP / d delta."""
+    def _newton(self, delta: float, W: np.ndarray) -> np.ndarray:
         x, identity = self.x, np.eye(len(self.x))
         for _ in range(_NEWTON_STEPS):
-            h = self.height(delta, W)
+            h = self._height(delta, W)
             traction = -8 / 3 * (h**-3 - h**-9) / x**3
             slope = 8 * (h**-4 - 3 * h**-10) / x**2
             change = np.linalg.solve(identity - self.T * slope, self.T @ traction - W)
@@ -76,38 +80,4 @@ class Collocation:
             W = W + step * change
             if np.max(np.abs(change)) < _NEWTON_TOLERANCE:
                 break
-        rate = np.linalg.solve(identity - slope[:, None] * self.T, -slope / x)
-        return W, float(self.form.load([arb(v) for v in self.float_projection @ rate]))
-
-    def interpolated(self, other: Collocation, W: np.ndarray) -> np.ndarray:
-        """Nodal values here of a function that is known at the nodes of another degree."""
-        coefficients = other.float_projection @ W
-        return np.polynomial.legendre.legval(2 * self.x**2 - 1, coefficients)
-
-    def follow(self, delta: float) -> np.ndarray:
-        """W at a displacement, from a state of large gap."""
-        W = np.zeros(len(self.x))
-        for d in [*np.arange(min(_START, delta - _STEP), delta, _STEP), delta]:
-            W, _ = self.newton(float(d), W)
         return W
-
-
-def pull_off_displacement(nodes: Collocation) -> float:
-    """Displacement with dP / d delta = 0, the first one that is met from large gaps."""
-    lower, upper, W = _START, _START + _STEP, nodes.follow(_START)
-    W, low = nodes.newton(lower, W)
-    W, high = nodes.newton(upper, W)
-    while high < 0:
-        lower, low, upper = upper, high, upper + _STEP
-        W, high = nodes.newton(upper, W)
-    for _ in range(_ROOT_STEPS):
-        # Regula falsi with halved weights.
-        delta = (lower * high - upper * low) / (high - low)
-        W, slope = nodes.newton(delta, W)
-        if abs(slope) < _ROOT_TOLERANCE:
-            break
-        if slope < 0:
-            lower, low, high = delta, slope, high / 2
-        else:
-            upper, high, low = delta, slope, low / 2
-    return delta

@@ -114,10 +114,10 @@ def minimum(states: ApproximateStates, bounds: list[PanelBounds], eta: float) ->
         )
 
 
-def pull_off_enclosure(form: SphereForm, panel_count: int, eta: float) -> PullOff:
-    """Approximate, bound and prove."""
-    states = approximate_states(form)
-    return minimum(states, panel_bounds(states, panel_count), eta)
+def pull_off_enclosure(certified: Certified) -> PullOff:
+    """Approximate next to the committed displacement, bound and prove."""
+    states = approximate_states(certified.form, float(arb(certified.displacement)))
+    return minimum(states, panel_bounds(states, certified.panel_count), certified.eta)
 
 
 def _decimal(ball: arb) -> str:
@@ -126,6 +126,6 @@ def _decimal(ball: arb) -> str:
 
 if __name__ == "__main__":
     for name, certified in CERTIFIED.items():
-        enclosure = pull_off_enclosure(certified.form, certified.panel_count, certified.eta)
+        enclosure = pull_off_enclosure(certified)
         print(f"{name}: force {_decimal(enclosure.force)}, displacement {_decimal(enclosure.displacement)}, ", end="")
         print(f"P'' {_decimal(enclosure.curvature)} within {certified.eta:g}", flush=True)

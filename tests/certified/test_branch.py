@@ -26,23 +26,20 @@ def test_a_short_branch_has_one_minimum(pieces):
     assert pieces[0].lower <= arb(-0.1)
     assert pieces[-1].upper >= arb(-0.045)
     assert any(p.lower < PULL_OFF < p.upper for p in pieces if p.shape is Shape.CONVEX)
-
-
-def test_one_minimum_needs_the_order(pieces):
+    # It needs the order.
     assert not one_minimum(pieces[::-1])
     assert not one_minimum(pieces[:1])
 
 
 def test_neighbours_are_linked_and_others_are_not(pieces):
-    first, second, *_ = pieces
-    assert linked(first, second)
+    before, after, *_ = pieces
+    assert linked(before, after)
     # They share no displacement.
-    assert not linked(second, first)
+    assert not linked(after, before)
     # The second one is a state of another displacement, or of another problem.
-    moved = replace(second, states=replace(second.states, first=[10 * x for x in second.states.first]))
-    assert not linked(first, moved)
-    other = replace(second.states, form=replace(FORM, mu=fmpq(1, 2)))
-    assert not linked(first, replace(second, states=other))
+    moved = replace(after.states, first=[10 * x for x in after.states.first])
+    assert not linked(before, replace(after, states=moved))
+    assert not linked(before, replace(after, states=replace(after.states, form=replace(FORM, mu=fmpq(1, 2)))))
 
 
 def test_a_piece_that_is_too_wide_is_not_proved():
@@ -57,7 +54,7 @@ def test_the_certified_pull_off_is_the_only_minimum_of_a_long_branch():
     assert one_minimum(pieces)
     assert pieces[0].enclosure.load > -0.75
     assert pieces[-1].enclosure.load > 0
-    states = approximate_states(certified.form)
+    states = approximate_states(certified.form, float(arb(certified.displacement)))
     at_pull_off = piece(states, certified.panel_count, certified.eta)
     around = [p for p in pieces if p.shape is Shape.CONVEX and linked(at_pull_off, p)]
     assert around
