@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import beta
 
-from comparisons.model import Curve
-from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, JUMPS, ClosedForm, Estimate, Limits, monomial
+from comparisons.model import Curve, Result
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, JUMPS, ClosedForm, Limits, monomial
 from comparisons.problem import Problem
 
 __all__ = ["Bradley", "rigid_load", "rigid_pull_off"]
@@ -49,7 +49,7 @@ def _gap_base(n: float) -> float:
     return math.prod((j - 1.0) / (j - 2.0 / n) for j in range(4, 10))
 
 
-def rigid_pull_off(n: float) -> Estimate:
+def rigid_pull_off(n: float) -> Result:
     """-min P of a rigid power-law punch (Eq. 56).
 
     Examples
@@ -83,15 +83,15 @@ class Bradley(ClosedForm):
         "hysteresis_energy": "a rigid pair has no folds to lose energy at",
     }
 
-    def pull_off_force(self, problem: Problem) -> Estimate:
+    def pull_off_force(self, problem: Problem) -> Result:
         """-min P (Eq. 56)."""
         return rigid_pull_off(float(problem.n))
 
-    def pull_off_displacement(self, problem: Problem) -> Estimate:
+    def pull_off_displacement(self, problem: Problem) -> Result:
         """Delta = 1 - 1/q at the smallest P."""
         return _shifted(monomial((_gap_base(float(problem.n)), -1.0 / 6.0)))
 
-    def zero_load_displacement(self, problem: Problem) -> Estimate:
+    def zero_load_displacement(self, problem: Problem) -> Result:
         """Delta where attraction and repulsion balance."""
         return _shifted(_zero_load_gap(float(problem.n)))
 
@@ -103,12 +103,12 @@ class Bradley(ClosedForm):
         return Curve(displacement=-central_gap, load=rigid_load(n, central_gap), columns={"central_gap": central_gap})
 
 
-def _zero_load_gap(n: float) -> Estimate:
+def _zero_load_gap(n: float) -> Result:
     """H0 + 1 where P = 0: the sixth root of B_9 / B_3."""
     b = 2.0 / n
     return monomial((float(beta(9.0 - b, b) / beta(3.0 - b, b)), 1.0 / 6.0))
 
 
-def _shifted(gap_plus_one: Estimate) -> Estimate:
+def _shifted(gap_plus_one: Result) -> Result:
     """1 - (H0 + 1), with the rounding of the subtraction."""
-    return Estimate(1.0 - gap_plus_one.value, gap_plus_one.u_num + FACTOR_ROUNDING * gap_plus_one.value + EPS)
+    return Result(1.0 - gap_plus_one.value, gap_plus_one.u_num + FACTOR_ROUNDING * gap_plus_one.value + EPS)

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from comparisons.models.closed_form import FACTOR_ROUNDING, IN_CONTACT, Estimate
+from comparisons.model import Result
+from comparisons.models.closed_form import FACTOR_ROUNDING, IN_CONTACT
 from comparisons.models.homogeneous_sphere import HomogeneousSphere
 from comparisons.models.maugis_parameter import maugis_parameter
 from comparisons.problem import Problem
@@ -38,9 +39,9 @@ class CarpickOgletreeSalmeron(HomogeneousSphere):
         "its equations relate load and contact radius, without the displacement",
     )
 
-    def pull_off_force(self, problem: Problem) -> Estimate:
+    def pull_off_force(self, problem: Problem) -> Result:
         """-min P (Eq. 12a)."""
         power = 4.04 * maugis_parameter(float(problem.mu)) ** 1.4
         # 7/4 - (x - 1) / (4 (x + 1)), without a difference.
         value = 1.5 + 0.5 / (1.0 + power)
-        return Estimate(value, FACTOR_ROUNDING * value)
+        return Result(value, FACTOR_ROUNDING * value)

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import math
 import time
-from typing import Any, ClassVar, NamedTuple
+from dataclasses import replace
+from typing import Any, ClassVar
 
 from comparisons.model import Curve, NotApplicable, Result
 from comparisons.problem import Problem
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES
 
-__all__ = ["ClosedForm", "Estimate", "Limits", "monomial"]
+__all__ = ["ClosedForm", "Limits", "monomial"]
 
 EPS = 2.0**-52
 
@@ -38,22 +39,7 @@ IN_CONTACT = dict.fromkeys((*JUMPS[:2], *CYCLE), "its equations hold in contact 
 }
 
 
-class Estimate(NamedTuple):
-    """A value with a bound on its numerical error and the work it took.
-
-    Examples
-    --------
-    >>> Estimate(2.0, 1e-16).iterations
-    0
-    """
-
-    value: float
-    u_num: float
-    iterations: int = 0
-    residual: float = 0.0
-
-
-def monomial(*factors: tuple[float, float]) -> Estimate:
+def monomial(*factors: tuple[float, float]) -> Result:
     """Return the product of base**exponent with its rounding bound.
 
     Parameters
@@ -69,14 +55,14 @@ def monomial(*factors: tuple[float, float]) -> Estimate:
     logs = [exponent * math.log(base) if exponent != 0.0 else 0.0 for base, exponent in factors]
     value = math.prod(base**exponent for base, exponent in factors)
     amplification = sum(abs(log) for log in logs) * EPS + sum(abs(e) for _, e in factors) * FACTOR_ROUNDING
-    return Estimate(value, abs(value) * amplification)
+    return Result(value, abs(value) * amplification)
 
 
 class ClosedForm:
     """Base of the closed forms: it checks the problem, calls the method of the quantity and measures the time.
 
     A closed form computes the quantities for which it has a method: `pull_off_force` and the other numbers by their
-    names, which return an `Estimate`, `force_curve`, and `pull_off_profile` for both fields.
+    names, which return a `Result`, `force_curve`, and `pull_off_profile` for both fields.
 
     Attributes
     ----------
@@ -131,14 +117,8 @@ class ClosedForm:
         if quantity not in QUANTITIES:
             raise ValueError(f"quantity {quantity!r} is unknown; the known ones are {', '.join(QUANTITIES)}")
         start = time.perf_counter()
-        estimate: Estimate = self._call(quantity, problem)
-        return Result(
-            value=estimate.value,
-            u_num=estimate.u_num,
-            iterations=estimate.iterations,
-            residual=estimate.residual,
-            seconds=time.perf_counter() - start,
-        )
+        result: Result = self._call(quantity, problem)
+        return replace(result, seconds=time.perf_counter() - start)
 
     def curve(self, problem: Problem) -> Curve:
         """Return the force-displacement curve, or raise as `evaluate` does."""

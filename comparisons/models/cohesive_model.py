@@ -11,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from comparisons.model import Curve, NotApplicable, RadialField, Result
-from comparisons.models.closed_form import EPS, FIELDS, IN_CONTACT, ClosedForm, Estimate, Limits
+from comparisons.models.closed_form import EPS, FIELDS, IN_CONTACT, ClosedForm, Limits
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import STATE_ROUNDING, CohesiveEvents, Event
 from comparisons.models.cohesive_profiles import PROFILE_ROUNDING, CohesiveProfiles, cohesive_profiles
@@ -58,24 +58,22 @@ class CohesiveModel(ClosedForm):
             return JKR().evaluate(problem, quantity)
         return super().evaluate(problem, quantity)
 
-    def pull_off_force(self, problem: Problem) -> Estimate:
+    def pull_off_force(self, problem: Problem) -> Result:
         """-min P over the contact branch, its end point a = 0 included."""
         event = self._events(problem).pull_off()
         rounding = _conditioning(problem) * STATE_ROUNDING * float(event.state.load_scale[0])
         scale = GradedPunch.of(problem).scales(problem.mu).load
-        return Estimate(
-            -event.load * scale, scale * (rounding + event.curvature_error), event.iterations, event.residual
-        )
+        return _of_event(event, -event.load * scale, scale * (rounding + event.curvature_error))
 
-    def pull_off_displacement(self, problem: Problem) -> Estimate:
+    def pull_off_displacement(self, problem: Problem) -> Result:
         """Delta where P is smallest."""
         return _displacement(problem, self._events(problem).pull_off())
 
-    def jump_out_displacement(self, problem: Problem) -> Estimate:
+    def jump_out_displacement(self, problem: Problem) -> Result:
         """Delta at the fold of the contact branch that retreat meets first."""
         return _displacement(problem, self._events(problem).fold())
 
-    def zero_load_displacement(self, problem: Problem) -> Estimate:
+    def zero_load_displacement(self, problem: Problem) -> Result:
         """Delta in contact where P = 0."""
         return _displacement(problem, self._events(problem).zero_load())
 
@@ -142,7 +140,7 @@ def _conditioning(problem: Problem) -> float:
     return 1.0 + (3.0 + problem.k) / (2.0 * problem.n + problem.k - 1.0)
 
 
-def _displacement(problem: Problem, event: Event) -> Estimate:
+def _displacement(problem: Problem, event: Event) -> Result:
     """Return the barred displacement of an event with its bound."""
     state = event.state
     rounding = (_conditioning(problem) * STATE_ROUNDING + EPS) * float(state.displacement_scale[0])
@@ -150,9 +148,8 @@ def _displacement(problem: Problem, event: Event) -> Estimate:
     # Where the slope vanishes by definition (the fold) its rounding is what is left.
     displaced += float(state.displacement_slope_scale[0]) * STATE_ROUNDING * event.w_error
     scale = GradedPunch.of(problem).scales(problem.mu).displacement
-    return Estimate(
-        event.displacement * scale,
-        scale * (rounding + displaced + event.curvature_error),
-        event.iterations,
-        event.residual,
-    )
+    return _of_event(event, event.displacement * scale, scale * (rounding + displaced + event.curvature_error))
+
+
+def _of_event(event: Event, value: float, u_num: float) -> Result:
+    return Result(value, u_num, iterations=event.iterations, residual=event.residual)

@@ -17,8 +17,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from comparisons.model import Curve
-from comparisons.models.closed_form import CYCLE, FACTOR_ROUNDING, JUMPS, ClosedForm, Estimate, Limits, monomial
+from comparisons.model import Curve, Result
+from comparisons.models.closed_form import CYCLE, FACTOR_ROUNDING, JUMPS, ClosedForm, Limits, monomial
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
@@ -30,7 +30,7 @@ MODELS = {"dmt": "DMT", "dmt-strength": "DMTStrength"}
 _POINTS = 401
 
 
-def dmt_pull_off(n: float, cohesive_stress: float) -> Estimate:
+def dmt_pull_off(n: float, cohesive_stress: float) -> Result:
     """Pull-off force n^(2/n) sigma_0^(1 - 2/n) (Eq. 75), sigma_0 in dgamma / z0.
 
     Examples
@@ -64,17 +64,17 @@ class DMT(ClosedForm):
         """sigma_0 = eta(n), in dgamma / z0."""
         return eta(float(problem.n))
 
-    def pull_off_force(self, problem: Problem) -> Estimate:
+    def pull_off_force(self, problem: Problem) -> Result:
         """Rigid pull-off force (Eq. 75)."""
         return dmt_pull_off(float(problem.n), self.cohesive_stress(problem))
 
-    def pull_off_displacement(self, problem: Problem) -> Estimate:
+    def pull_off_displacement(self, problem: Problem) -> Result:
         """Zero: the pull-off sits at the point of first contact."""
         # Refuses what is no power law.
         self.cohesive_stress(problem), GradedPunch.of(problem)
-        return Estimate(0.0, 0.0)
+        return Result(0.0, 0.0)
 
-    def zero_load_displacement(self, problem: Problem) -> Estimate:
+    def zero_load_displacement(self, problem: Problem) -> Result:
         """Delta where Hertz's load balances the adhesion."""
         punch = GradedPunch.of(problem)
         n, k = punch.n, punch.k
@@ -82,7 +82,7 @@ class DMT(ClosedForm):
         power = n / (n + k + 1.0)
         estimate = monomial((punch.flattening, 1.0), (adhesion.value / _hertz(punch, problem.mu), power))
         inherited = power * (adhesion.u_num / adhesion.value + FACTOR_ROUNDING)
-        return Estimate(estimate.value, estimate.u_num + inherited * estimate.value)
+        return Result(estimate.value, estimate.u_num + inherited * estimate.value)
 
     def force_curve(self, problem: Problem) -> Curve:
         """Return the contact branch from a = 0 to a load as compressive as the pull-off is tensile.

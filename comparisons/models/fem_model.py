@@ -140,13 +140,7 @@ class FiniteElements:
         units, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             profiles = [fem_reference.profile(body, accuracy=level) for level in _LEVELS]
-        coarse, fine = (
-            RadialField(
-                profile.radius / units["radius"], profile.pressure / units["traction"], profile.gap / units["gap"]
-            )
-            for profile in profiles
-        )
-        return surface_of(coarse, fine)
+        return surface_of(*profiles, units)
 
     def _physical(self, problem: Problem) -> tuple[Mapping[str, float], fem_reference.Problem]:
         """The units of the results, and the problem of the solver."""

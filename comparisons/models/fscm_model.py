@@ -66,7 +66,4 @@ class FullSelfConsistent:
             if problem.posed.k == 1.0:
                 return gibson_profile(problem.posed)
             event = fscm.Analysis(problem.posed).event("pull_off")
-        coarse, fine = (radial_field(state) for state in (event.check, event.value))
-        return surface_of(
-            RadialField(coarse.radius, coarse.pressure, coarse.gap), RadialField(fine.radius, fine.pressure, fine.gap)
-        )
+        return surface_of(radial_field(event.check), radial_field(event.value))

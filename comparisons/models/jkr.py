@@ -14,8 +14,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from comparisons.model import Curve
-from comparisons.models.closed_form import EPS, IN_CONTACT, ClosedForm, Estimate, monomial
+from comparisons.model import Curve, Result
+from comparisons.models.closed_form import EPS, IN_CONTACT, ClosedForm, monomial
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
@@ -45,7 +45,7 @@ class JKR(ClosedForm):
         "hysteresis_energy": "it needs a jump-in, and surfaces do not attract before contact",
     }
 
-    def pull_off_force(self, problem: Problem) -> Estimate:
+    def pull_off_force(self, problem: Problem) -> Result:
         """-min P (Eq. 57)."""
         punch = GradedPunch.of(problem)
         n, k, s = punch.n, punch.k, punch.s
@@ -56,26 +56,26 @@ class JKR(ClosedForm):
             (problem.mu, 2.0 / n - 1.0),
         )
 
-    def pull_off_displacement(self, problem: Problem) -> Estimate:
+    def pull_off_displacement(self, problem: Problem) -> Result:
         """Delta where P is smallest."""
         punch = GradedPunch.of(problem)
         return _displacement(punch, punch.s + punch.k + 1.0, problem.mu)
 
-    def jump_out_displacement(self, problem: Problem) -> Estimate:
+    def jump_out_displacement(self, problem: Problem) -> Result:
         """Smallest delta on the curve (Eqs. 54-55)."""
         punch = GradedPunch.of(problem)
         return _displacement(punch, punch.s, problem.mu)
 
-    def zero_load_displacement(self, problem: Problem) -> Estimate:
+    def zero_load_displacement(self, problem: Problem) -> Result:
         """Delta in contact where P = 0."""
         punch = GradedPunch.of(problem)
         return _displacement(punch, punch.n + punch.k + 1.0, problem.mu)
 
-    def jump_out_radius(self, problem: Problem) -> Estimate:
+    def jump_out_radius(self, problem: Problem) -> Result:
         """Contact radius at the fold (Eq. 53), in (Q z0)^(1/n); 0 at k = 1."""
         punch = GradedPunch.of(problem)
         if punch.s == 0.0:
-            return Estimate(0.0, 0.0)
+            return Result(0.0, 0.0)
         return monomial(*_radius_power(punch, punch.s, 1.0), (problem.mu, 1.0 / punch.n))
 
     def force_curve(self, problem: Problem) -> Curve:
@@ -108,10 +108,10 @@ def _radius_power(punch: GradedPunch, theta: float, power: float) -> tuple[tuple
     return ((theta * punch.adhesion, exponent), (punch.n * punch.flattening, -exponent))
 
 
-def _displacement(punch: GradedPunch, theta: float, mu: float) -> Estimate:
+def _displacement(punch: GradedPunch, theta: float, mu: float) -> Result:
     """Return the barred displacement at the event `theta`."""
     n, s = punch.n, punch.s
     magnitude = monomial(*_radius_power(punch, theta, s), (punch.adhesion, 1.0), (mu, 1.0))
     factor = (theta - n) / n
     rounding = EPS * (theta + n) / n * magnitude.value
-    return Estimate(factor * magnitude.value, abs(factor) * magnitude.u_num + rounding)
+    return Result(factor * magnitude.value, abs(factor) * magnitude.u_num + rounding)

@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from comparisons.model import Curve, NotApplicable
-from comparisons.models.closed_form import EPS, ClosedForm, Estimate, Limits
+from comparisons.model import Curve, NotApplicable, Result
+from comparisons.models.closed_form import EPS, ClosedForm, Limits
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
@@ -90,12 +90,12 @@ class _Ball:
         largest = min(largest * (1.0 + 8.0 * EPS), _REACH)
         return float(brentq(lambda alpha: rise(alpha) - target, smallest, largest, xtol=1e-300, rtol=4.0 * EPS))
 
-    def displacement_at(self, event: str) -> Estimate:
+    def displacement_at(self, event: str) -> Result:
         """Return delta / z0 with the rounding of its terms and that of alpha."""
         alpha = self.at(event)
         terms = alpha * math.atanh(alpha) + math.sqrt(2.0 * math.pi * self.softness * alpha)
         rounding = 32.0 * EPS * (terms + alpha**2) / (1.0 - alpha**2)
-        return Estimate(self.radius * float(self.displacement(alpha)), self.radius * rounding)
+        return Result(self.radius * float(self.displacement(alpha)), self.radius * rounding)
 
 
 class JKRSphere(ClosedForm):
@@ -126,22 +126,22 @@ class JKRSphere(ClosedForm):
         if not problem.has_power_law or problem.posed.k != 0.0:
             raise NotApplicable(f"{self.name} is for a homogeneous solid, not for the {problem.solid.kind} solid given")
 
-    def pull_off_force(self, problem: Problem) -> Estimate:
+    def pull_off_force(self, problem: Problem) -> Result:
         """-min P."""
         ball = _Ball.of(problem)
         alpha = ball.at("pull_off")
         terms = float(_sneddon(alpha)) + math.sqrt(8.0 * math.pi * ball.softness * alpha**3)
-        return Estimate(-float(ball.load(alpha)), 32.0 * EPS * terms / (math.pi * ball.softness))
+        return Result(-float(ball.load(alpha)), 32.0 * EPS * terms / (math.pi * ball.softness))
 
-    def pull_off_displacement(self, problem: Problem) -> Estimate:
+    def pull_off_displacement(self, problem: Problem) -> Result:
         """Delta where P is smallest."""
         return _Ball.of(problem).displacement_at("pull_off")
 
-    def jump_out_displacement(self, problem: Problem) -> Estimate:
+    def jump_out_displacement(self, problem: Problem) -> Result:
         """Smallest delta on the curve."""
         return _Ball.of(problem).displacement_at("jump_out")
 
-    def zero_load_displacement(self, problem: Problem) -> Estimate:
+    def zero_load_displacement(self, problem: Problem) -> Result:
         """Delta in contact where P = 0."""
         return _Ball.of(problem).displacement_at("zero_load")
 

@@ -22,8 +22,8 @@ from typing import ClassVar
 import scipy
 from scipy.special import beta
 
-from comparisons.model import NotApplicable
-from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, ClosedForm, Estimate, Limits
+from comparisons.model import NotApplicable, Result
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, ClosedForm, Limits
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, attraction_coefficient
@@ -55,19 +55,19 @@ class JumpAsymptotes(ClosedForm):
         "force_curve": "its branches are those of semi-rigid and jkr",
     }
 
-    def jump_in_displacement(self, problem: Problem) -> Estimate:
+    def jump_in_displacement(self, problem: Problem) -> Result:
         """Displacement at the fold of the semi-rigid branch (Eqs. 47-48)."""
         return SemiRigid().jump_in_displacement(problem)
 
-    def jump_in_gap(self, problem: Problem) -> Estimate:
+    def jump_in_gap(self, problem: Problem) -> Result:
         """Central gap at the fold of the semi-rigid branch (Eq. 46)."""
         return SemiRigid().jump_in_gap(problem)
 
-    def jump_out_displacement(self, problem: Problem) -> Estimate:
+    def jump_out_displacement(self, problem: Problem) -> Result:
         """Displacement at the fold of the JKR branch (Eqs. 54-55)."""
         return JKR().jump_out_displacement(problem)
 
-    def hysteresis_energy(self, problem: Problem) -> Estimate:
+    def hysteresis_energy(self, problem: Problem) -> Result:
         """Energy that the two jumps lose."""
         n, k = float(problem.n), float(problem.k)
         jump_in, jump_out = self.jump_in_displacement(problem).value, self.jump_out_displacement(problem).value
@@ -82,7 +82,7 @@ class JumpAsymptotes(ClosedForm):
         unit = scale.load * scale.displacement
         # The ends are folds or roots to rounding; their errors count by the load there, which the scales contain.
         rounding = 4.0 * FACTOR_ROUNDING * (far_scale + unit * near_scale)
-        return Estimate(far - unit * near, rounding)
+        return Result(far - unit * near, rounding)
 
 
 def _far_energy(problem: Problem, jump_out: float) -> tuple[float, float]:

@@ -18,8 +18,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.model import Curve, NotApplicable
-from comparisons.models.closed_form import FACTOR_ROUNDING, IN_CONTACT, Estimate, Limits
+from comparisons.model import Curve, NotApplicable, Result
+from comparisons.models.closed_form import FACTOR_ROUNDING, IN_CONTACT, Limits
 from comparisons.models.homogeneous_sphere import HomogeneousSphere, transition_parameter
 from comparisons.problem import Problem
 
@@ -59,16 +59,16 @@ class PietrementTroyon(HomogeneousSphere):
         "jump_out_displacement": "its equations hold above the pull-off, and the fold lies below"
     }
 
-    def pull_off_force(self, problem: Problem) -> Estimate:
+    def pull_off_force(self, problem: Problem) -> Result:
         """-min P."""
         value = _pull_off(transition_parameter(float(problem.mu)))
-        return Estimate(value, FACTOR_ROUNDING * 2.0)
+        return Result(value, FACTOR_ROUNDING * 2.0)
 
-    def pull_off_displacement(self, problem: Problem) -> Estimate:
+    def pull_off_displacement(self, problem: Problem) -> Result:
         """Delta where P is smallest."""
         return self._displacement(problem, 0.0)
 
-    def zero_load_displacement(self, problem: Problem) -> Estimate:
+    def zero_load_displacement(self, problem: Problem) -> Result:
         """Delta in contact where P = 0."""
         return self._displacement(problem, 1.0)
 
@@ -79,10 +79,10 @@ class PietrementTroyon(HomogeneousSphere):
         force = _pull_off(transition_parameter(float(problem.mu)))
         return Curve(displacement=unit * (grown - lift), load=force * (root**2 - 1.0))
 
-    def _displacement(self, problem: Problem, root: float) -> Estimate:
+    def _displacement(self, problem: Problem, root: float) -> Result:
         grown, lift, unit = self._terms(problem, root)
         # S is a difference of terms up to 3.
-        return Estimate(float(unit * (grown - lift)), float(unit * FACTOR_ROUNDING * (grown + 6.0)))
+        return Result(float(unit * (grown - lift)), float(unit * FACTOR_ROUNDING * (grown + 6.0)))
 
     def _terms(self, problem: Problem, root: Any) -> tuple[Any, Any, float]:
         """Return y^(4/3), S y^(2 beta / 3) and the unit of delta at `root` = sqrt(1 + P / F)."""

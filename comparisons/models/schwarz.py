@@ -15,8 +15,8 @@ import math
 
 import numpy as np
 
-from comparisons.model import Curve
-from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, Estimate
+from comparisons.model import Curve, Result
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.homogeneous_sphere import HomogeneousSphere, transition_parameter
 from comparisons.models.jkr import JKR
@@ -56,20 +56,20 @@ class Schwarz(HomogeneousSphere):
     )
     domain = "n = 2, k = 0; alpha of Carpick, Ogletree and Salmeron with lambda = 1.157 mu"
 
-    def pull_off_force(self, problem: Problem) -> Estimate:
+    def pull_off_force(self, problem: Problem) -> Result:
         """-min P (Eq. 34)."""
         value = 6.0 / (3.0 + transition_parameter(float(problem.mu)) ** 2)
-        return Estimate(value, FACTOR_ROUNDING * value)
+        return Result(value, FACTOR_ROUNDING * value)
 
-    def pull_off_displacement(self, problem: Problem) -> Estimate:
+    def pull_off_displacement(self, problem: Problem) -> Result:
         """Delta where P is smallest: that of JKR with the part w_1."""
         return _of_part(problem, JKR().pull_off_displacement(problem))
 
-    def jump_out_displacement(self, problem: Problem) -> Estimate:
+    def jump_out_displacement(self, problem: Problem) -> Result:
         """Smallest delta on the curve: that of JKR with the part w_1."""
         return _of_part(problem, JKR().jump_out_displacement(problem))
 
-    def zero_load_displacement(self, problem: Problem) -> Estimate:
+    def zero_load_displacement(self, problem: Problem) -> Result:
         """Delta in contact where P = 0."""
         mu = float(problem.mu)
         punch, x = GradedPunch.of(problem), short_range_share(transition_parameter(mu))
@@ -77,7 +77,7 @@ class Schwarz(HomogeneousSphere):
         root = math.sqrt(pull**2 + 8.0 * punch.hertz_load * (1.0 - x))
         a = ((pull + root) / (2.0 * punch.hertz_load)) ** (2.0 / 3.0)
         flat, lift = a**2, punch.adhesion * math.sqrt(x * a)
-        return Estimate(mu * (flat - lift), mu * FACTOR_ROUNDING * (flat + lift))
+        return Result(mu * (flat - lift), mu * FACTOR_ROUNDING * (flat + lift))
 
     def force_curve(self, problem: Problem) -> Curve:
         """Return the contact branch from a = 0 to where JKR of the whole work of adhesion ends.
@@ -96,8 +96,8 @@ class Schwarz(HomogeneousSphere):
         )
 
 
-def _of_part(problem: Problem, of_all: Estimate) -> Estimate:
+def _of_part(problem: Problem, of_all: Result) -> Result:
     """Return a displacement of JKR with the part w_1: displacements grow with the work of adhesion as w^(2/3)."""
     factor = short_range_share(transition_parameter(float(problem.mu))) ** (2.0 / 3.0)
     value = factor * of_all.value
-    return Estimate(value, factor * of_all.u_num + FACTOR_ROUNDING * abs(value) + EPS * abs(value))
+    return Result(value, factor * of_all.u_num + FACTOR_ROUNDING * abs(value) + EPS * abs(value))

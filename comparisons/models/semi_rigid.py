@@ -16,9 +16,9 @@ from typing import ClassVar
 import numpy as np
 from scipy.special import beta, gamma
 
-from comparisons.model import Curve, NotApplicable
+from comparisons.model import Curve, NotApplicable, Result
 from comparisons.models.bradley import rigid_load
-from comparisons.models.closed_form import EPS, ClosedForm, Estimate, Limits, monomial
+from comparisons.models.closed_form import EPS, ClosedForm, Limits, monomial
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 
@@ -47,7 +47,7 @@ def attraction_coefficient(n: float, k: float) -> float:
     return 16.0 / 3.0 * n ** ((1.0 - k) / n - 1.0) * _reach(n, k, 3)
 
 
-def _fold(n: float, k: float, mu: float) -> Estimate:
+def _fold(n: float, k: float, mu: float) -> Result:
     """H0 + 1 at the fold of Eq. 43 (Eq. 46)."""
     b = (1.0 - k) / n
     return monomial(((3.0 - b) * attraction_coefficient(n, k), 1.0 / (4.0 - b)), (mu, (2.0 - b) / (4.0 - b)))
@@ -84,17 +84,17 @@ class SemiRigid(ClosedForm):
         QUANTITIES, "it describes only the approach up to the jump-in, where deformations are small"
     )
 
-    def jump_in_gap(self, problem: Problem) -> Estimate:
+    def jump_in_gap(self, problem: Problem) -> Result:
         """Central gap at the fold (Eq. 46)."""
         fold = _positive_fold(problem)
-        return Estimate(fold.value - 1.0, fold.u_num + EPS)
+        return Result(fold.value - 1.0, fold.u_num + EPS)
 
-    def jump_in_displacement(self, problem: Problem) -> Estimate:
+    def jump_in_displacement(self, problem: Problem) -> Result:
         """Displacement at the fold (Eqs. 47-48)."""
         fold = _positive_fold(problem)
         b = (1.0 - problem.k) / problem.n
         factor = (4.0 - b) / (3.0 - b)
-        return Estimate(1.0 - factor * fold.value, factor * fold.u_num + 4.0 * EPS * factor * fold.value + EPS)
+        return Result(1.0 - factor * fold.value, factor * fold.u_num + 4.0 * EPS * factor * fold.value + EPS)
 
     def force_curve(self, problem: Problem) -> Curve:
         """Return Eqs. 41-42 from H0 = 10 (or twice the fold's, if farther) to the jump-in gap, or to H0 = 0.
@@ -121,7 +121,7 @@ class SemiRigid(ClosedForm):
         )
 
 
-def _positive_fold(problem: Problem) -> Estimate:
+def _positive_fold(problem: Problem) -> Result:
     """H0 + 1 at the fold, refused when it is not out of contact."""
     fold = _fold(float(problem.n), float(problem.k), float(problem.mu))
     if fold.value <= 1.0:

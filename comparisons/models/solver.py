@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
@@ -12,6 +12,9 @@ from comparisons.model import ComputationFailed, NotApplicable, RadialField, Res
 from comparisons.numerics.curve_distance import mesh_difference
 
 __all__ = ["result_of", "surface_of", "translated"]
+
+
+_ONES = {"radius": 1.0, "traction": 1.0, "gap": 1.0}
 
 
 @contextmanager
@@ -54,7 +57,13 @@ def result_of(solution: Any, unit: float = 1.0) -> Result:
     )
 
 
-def surface_of(coarse: RadialField, fine: RadialField) -> RadialField:
-    """Return the surface of the finer mesh; its uncertainty is the distance of the two meshes."""
-    pressure, gap = (mesh_difference(*coarse.shown(name)[:2], *fine.shown(name)[:2]) for name in ("pressure", "gap"))
-    return replace(fine, u_distance=pressure, u_gap_distance=gap)
+def surface_of(coarse: Any, fine: Any, units: Mapping[str, float] = _ONES) -> RadialField:
+    """Return the surface of the finer mesh in `units`; its uncertainty is the distance of the two meshes."""
+    surfaces = [
+        RadialField(state.radius / units["radius"], state.pressure / units["traction"], state.gap / units["gap"])
+        for state in (coarse, fine)
+    ]
+    pressure, gap = (
+        mesh_difference(*surfaces[0].shown(name)[:2], *surfaces[1].shown(name)[:2]) for name in ("pressure", "gap")
+    )
+    return replace(surfaces[1], u_distance=pressure, u_gap_distance=gap)

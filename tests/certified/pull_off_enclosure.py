@@ -11,7 +11,7 @@ changes its sign inside the interval, and P(delta*) - P'(delta*)^2 / (2 m) <= mi
 What is not proved here: that no deeper minimum exists elsewhere on the path.  `branch` proves it for mu = 1/10; `fscm`
 decides it for the others by its complete path.
 
-`python -m tests.certified.pull_off_enclosure` proves the committed values again and prints them.
+The tests prove the committed values again.
 """
 
 from __future__ import annotations
@@ -118,14 +118,3 @@ def pull_off_enclosure(certified: Certified) -> PullOff:
     """Approximate next to the committed displacement, bound and prove."""
     states = approximate_states(certified.form, float(arb(certified.displacement)))
     return minimum(states, panel_bounds(states, certified.panel_count), certified.eta)
-
-
-def _decimal(ball: arb) -> str:
-    return f"{ball.mid().str(16, radius=False)} +/- {ball.rad().str(2, radius=False)}"
-
-
-if __name__ == "__main__":
-    for name, certified in CERTIFIED.items():
-        enclosure = pull_off_enclosure(certified)
-        print(f"{name}: force {_decimal(enclosure.force)}, displacement {_decimal(enclosure.displacement)}, ", end="")
-        print(f"P'' {_decimal(enclosure.curvature)} within {certified.eta:g}", flush=True)

@@ -6,7 +6,6 @@ from flint import arb, ctx, fmpq
 from scipy.integrate import quad
 from scipy.special import ellipkm1
 
-from tests.certified.approximate_states import approximate_states
 from tests.certified.sphere_form import SphereForm, at_infinity, cubic_coefficients
 
 # scipy's adaptive quadrature with a logarithmic singularity at an end point; measured: worst 3e-11.
@@ -50,25 +49,6 @@ def test_the_diagonal_operator_is_the_ring_response(length, r):
     assert float(form.load(series)) == pytest.approx(load, rel=_QUADRATURE)
     far = float(2 * length / form.compliance() * at_infinity(form.deformed(series)))
     assert far == pytest.approx(load, rel=_QUADRATURE)
-
-
-@pytest.mark.parametrize("r", _RADII)
-def test_an_approximate_state_solves_the_integral_equation(r):
-    """The equation of the paper at a few radii, by quadrature: gap, law and ring response without the sphere."""
-    form = SphereForm(fmpq(1, 10), 5, 120)
-    states = approximate_states(form, delta=0.1)
-    cubic = [states.far * b for b in cubic_coefficients(form.degree)]
-    W = form.deformed([a + b for a, b in zip(states.traction, cubic, strict=True)])
-
-    def w(t: float) -> float:
-        x = sigma(form.length, t)
-        return x * values(W, 2 * x * x - 1)
-
-    def traction(t: float) -> float:
-        h = 1 - states.delta + t * t / 2 + w(t)
-        return -8 / 3 * (h**-3 - h**-9)
-
-    assert w(r) == pytest.approx(float(form.compliance()) * deformation(traction, r), rel=_QUADRATURE)
 
 
 def test_the_coefficients_of_sigma_cubed():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from comparisons import create
-from comparisons.models.closed_form import Estimate
+from comparisons.model import Result
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.dmt import DMT
 from comparisons.models.graded_punch import GradedPunch
@@ -74,8 +74,8 @@ def test_the_zero_load_displacement_inherits_the_bound_of_the_adhesion(monkeypat
     problem, model, relative = contact(5.0, 0.6, 0.7), DMT(), 1e-6
     adhesion = model.pull_off_force(problem).value
 
-    def estimate(factor: float, bound: float) -> Estimate:
-        monkeypatch.setattr(model, "pull_off_force", lambda _: Estimate(factor * adhesion, bound * adhesion))
+    def estimate(factor: float, bound: float) -> Result:
+        monkeypatch.setattr(model, "pull_off_force", lambda _: Result(factor * adhesion, bound * adhesion))
         return model.zero_load_displacement(problem)
 
     low, middle, high = (estimate(factor, relative) for factor in (1.0 - relative, 1.0, 1.0 + relative))

@@ -13,11 +13,12 @@ from comparisons.models.jkr_sphere import JKRSphere
 from comparisons.problem import Problem, Section
 from comparisons.problem.evaluation import evaluated
 
+EVENTS = ("pull_off_force", "pull_off_displacement", "jump_out_displacement", "zero_load_displacement")
 LAW = {"work_of_adhesion": 0.05, "z0": 3e-10}
 
 
 def problem_of(
-    softness: float, mu: float = 2.0, punch: str = "ball", solid: str = "power-law", k: float = 0.0
+    softness: float, mu: float = 2.0, punch: str = "ball", solid: str = "power-law", k: float = 0
 ) -> Problem:
     """A problem with w/(E* R) = softness in SI; the Tabor number is that of k = 0."""
     radius = mu * LAW["z0"] / softness ** (2.0 / 3.0)
@@ -49,30 +50,23 @@ def test_pull_off(softness: float, share: float) -> None:
 @pytest.mark.parametrize("softness", [1e-8, 1e-3, 0.05])
 def test_the_curve_has_the_events(softness: float) -> None:
     problem = problem_of(softness, solid="homogeneous")
-    force, pull_off, jump_out, zero = (
-        JKRSphere().evaluate(problem, name).value
-        for name in ("pull_off_force", "pull_off_displacement", "jump_out_displacement", "zero_load_displacement")
-    )
+    force, pull_off, jump_out, zero = (JKRSphere().evaluate(problem, name).value for name in EVENTS)
     curve = JKRSphere().curve(problem)
     lowest, scale = int(np.argmin(curve.load)), np.ptp(curve.displacement)
-    assert curve.load[lowest] == pytest.approx(-force, rel=1e-4)
-    assert curve.load.min() >= -force * (1.0 + 1e-12)
+    assert -force * (1.0 + 1e-12) <= curve.load[lowest] < -force * (1.0 - 1e-4)
     assert curve.displacement[lowest] == pytest.approx(pull_off, abs=0.02 * scale)
-    assert curve.displacement.min() == pytest.approx(jump_out, abs=1e-3 * scale)
-    assert curve.displacement.min() >= jump_out - 1e-12 * scale
-    loads, displacements = curve.load[lowest:], curve.displacement[lowest:]
-    assert np.interp(0.0, loads, displacements) == pytest.approx(zero, abs=1e-3 * scale)
+    assert jump_out - 1e-12 * scale <= curve.displacement.min() < jump_out + 1e-3 * scale
+    at_zero = np.interp(0.0, curve.load[lowest:], curve.displacement[lowest:])
+    assert at_zero == pytest.approx(zero, abs=1e-3 * scale)
 
 
-@pytest.mark.parametrize(
-    "quantity", ["pull_off_force", "pull_off_displacement", "jump_out_displacement", "zero_load_displacement"]
-)
+@pytest.mark.parametrize("quantity", EVENTS)
 def test_a_large_ball_is_the_paraboloid(quantity: str) -> None:
     """The difference falls as (a/R)^2, with the power 2/3 of w/(E* R)."""
     differences = []
     for softness in (8e-6, 1e-6):
-        sphere = result_of(problem_of(softness, punch="sphere"), "jkr", quantity).value
-        differences.append(abs(result_of(problem_of(softness), "jkr-sphere", quantity).value / sphere - 1.0))
+        paraboloid = result_of(problem_of(softness, punch="sphere"), "jkr", quantity).value
+        differences.append(abs(result_of(problem_of(softness), "jkr-sphere", quantity).value / paraboloid - 1.0))
     assert 0.0 < differences[1] < 1e-3
     assert differences[0] / differences[1] == pytest.approx(4.0, rel=0.02)
 
