@@ -139,8 +139,8 @@ class FiniteElements:
     def _surface_at_pull_off(self, problem: Problem) -> RadialField:
         units, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            profiles = [fem_reference.profile(body, accuracy=level) for level in _LEVELS]
-        return surface_of(*profiles, units)
+            coarse, fine = (fem_reference.profile(body, accuracy=level) for level in _LEVELS)
+        return surface_of(coarse, fine, units)
 
     def _physical(self, problem: Problem) -> tuple[Mapping[str, float], fem_reference.Problem]:
         """The units of the results, and the problem of the solver."""
