@@ -25,13 +25,18 @@ def overview_lines(problem: Problem, overview: Json, equivalent: Json | None) ->
     if critical is not None:
         words = "jumps, with hysteresis" if overview["tabor_number"] > critical else "no jumps"
         lines.append(f"  critical Tabor number {critical:.6g}: {words}")
-    lines.append(f"  regime: {overview['regime']}")
+    lines += [f"  regime: {overview['regime']}", f"  pull-off force {_force_text(force)}"]
     if force["value"] is None:
-        return [*lines, f"  pull-off force: {force['status']}: {force['reason']}"]
-    lines.append(f"  pull-off force {si_text(force['value'], force['u_num'], force['unit'])}  ({force['model']})")
+        return lines
     if overview["errors"]:
         lines += ["  errors of the pull-off force of other models:", *_error_lines(overview["errors"], "    ")]
     return lines + [f"  recommended for {limit}: {model}" for limit, model in overview["recommended"].items()]
+
+
+def _force_text(force: Json) -> str:
+    if force["value"] is None:
+        return f"{force['status']}: {force['reason']}"
+    return f"{si_text(force['value'], force['u_num'], force['unit'])}  ({force['model']})"
 
 
 def _error_lines(errors: Sequence[Json], indent: str) -> list[str]:
@@ -54,43 +59,34 @@ def _tabor_number(problem: Problem, of_surface: float, equivalent: Json | None) 
 
 def equivalent_lines(equivalent: Json) -> list[str]:
     """Return the equivalent power law: one line if it does not stand for the solid."""
-    deviation, force = equivalent["compliance_deviation"], equivalent["pull_off_force"]
-    if deviation > LARGEST_DEVIATION:
-        return [f"  no equivalent power law: the best one misses the compliance by {100.0 * deviation:.0f} %"]
-    E0 = _rounded(equivalent["E0"], "Pa", 4)
+    deviation, force = 100.0 * equivalent["compliance_deviation"], equivalent["pull_off_force"]
+    if deviation > 100.0 * LARGEST_DEVIATION:
+        return [f"  no equivalent power law: the best one misses the compliance by {deviation:.0f} %"]
+    E0, k, nu = _rounded(equivalent["E0"], "Pa", 4), equivalent["k"], equivalent["nu"]
     c0, shortest, longest = (_rounded(value, "m", 4) for value in (equivalent["c0"], *equivalent["lengths"]))
-    k, free_k = equivalent["k"], equivalent["free_k"]
-    limited = "" if free_k == k else f" (its nearest admissible value; the fit has {free_k:.3g})"
+    limited = "" if equivalent["free_k"] == k else f" (nearest admissible; the fit has {equivalent['free_k']:.3g})"
+    error = "" if force["error"] is None else f", error {percent_text(force['error'], force['error_u_num'])} %"
     lines = [
-        f"  equivalent power law E0 (z/c0)^k: E0 = {E0}, c0 = {c0}, k = {k:.4g}{limited}, nu = {equivalent['nu']:.4g}",
+        f"  equivalent power law E0 (z/c0)^k: E0 = {E0}, c0 = {c0}, k = {k:.4g}{limited}, nu = {nu:.4g}",
         f"    fitted to the surface compliance over lengths from {shortest} to {longest},",
-        f"    weighted by elastic energy; misses it by {100.0 * deviation:.2g} % (r.m.s.)",
+        f"    weighted by elastic energy; misses it by {deviation:.2g} % (r.m.s.)",
+        f"    its pull-off force {_force_text(force)}{error}",
     ]
-    if force["error"] is None:
-        lines.append(f"    its pull-off force: {force['status']}: {force['reason']}")
-    else:
-        value = si_text(force["value"], force["u_num"], force["unit"])
-        error = percent_text(force["error"], force["error_u_num"])
-        lines.append(f"    its pull-off force {value}  ({force['model']}), error {error} %")
     if not equivalent["closed_forms"]:
         return [*lines, "    no closed form takes this punch or this law"]
-    within = equivalent["closed_form_within"].items()
-    return [
-        *lines,
-        "    errors of the closed forms with this power law:",
-        *_error_lines(equivalent["closed_forms"], "      "),
-        "    " + "; ".join(f"within {limit}: {model or 'none'}" for limit, model in within),
-    ]
+    within = (f"within {limit}: {model or 'none'}" for limit, model in equivalent["closed_form_within"].items())
+    errors = _error_lines(equivalent["closed_forms"], "      ")
+    return [*lines, "    errors of the closed forms with this power law:", *errors, f"    {'; '.join(within)}"]
 
 
 def profile_lines(changes: Sequence[Json]) -> list[str]:
     """Return the changes with other choices for a measured profile."""
     lines = ["  change of the pull-off force with another choice for the measured profile:"]
-    for each in changes:
-        value = _rounded(each["value"], "m" if each["key"] == "smoothing" else "1", 6)
-        failure = f"{each['status']}: {each['reason']}"
-        change = failure if each["change"] is None else f"{percent_text(each['change'], each['u_num'])} %"
-        lines.append(f"    {each['key']} {value}: {change}")
+    for row in changes:
+        value = _rounded(row["value"], "m" if row["key"] == "smoothing" else "1", 6)
+        failure = f"{row['status']}: {row['reason']}"
+        change = failure if row["change"] is None else f"{percent_text(row['change'], row['u_num'])} %"
+        lines.append(f"    {row['key']} {value}: {change}")
     return lines
 
 
@@ -100,28 +96,20 @@ def uncertainty_lines(problem: Problem, stated: Json) -> list[str]:
     if stated["status"] != "ok":
         return [f"uncertainty of {quantity}: {stated['status']}: {stated['reason']}"]
     value, unit, deviation = stated["value"], stated["unit"], stated["standard_deviation"]
-    written = [each.written.strip() for each in problem.uncertain.values()]
-    rows = [
-        (
-            one["parameter"],
-            text,
-            "" if one["elasticity"] is None else f"{one['elasticity']:+.4f}",
-            _rounded(one["contribution"], unit),
-        )
-        for one, text in zip(stated["parameters"], written, strict=True)
-    ]
-    widths = [max(len(row[i]) for row in rows) for i in range(3)]
+    rows = []
+    for row, spread in zip(stated["parameters"], problem.uncertain.values(), strict=True):
+        elasticity = "" if row["elasticity"] is None else f"{row['elasticity']:+.4f}"
+        rows.append((row["parameter"], spread.written.strip(), elasticity, _rounded(row["contribution"], unit)))
+    name, written, number, _ = (max(map(len, column)) for column in zip(*rows, strict=True))
     lines = [
         f"uncertainty of {quantity} = {si_text(value, stated['u_num'], unit)} (fscm) from those of the file",
         "  d ln(value)/d ln(p) and contribution of each parameter p:",
-        *(f"    {a:{widths[0]}}  {b:{widths[1]}}  {c:>{widths[2]}}  {d}" for a, b, c, d in rows),
+        *(f"    {a:{name}}  {b:{written}}  {c:>{number}}  {d}" for a, b, c, d in rows),
     ]
     if deviation is not None:
         share = f" ({100 * deviation / abs(value):.2g} %)" if value else ""
         lines.append(f"  standard deviation {_rounded(deviation, unit)}{share}, of independent parameters")
-    if stated["range"]:
-        lines += _range_lines(stated["range"], unit)
-    return lines
+    return lines + (_range_lines(stated["range"], unit) if stated["range"] else [])
 
 
 def _range_lines(stated: Json, unit: str) -> list[str]:

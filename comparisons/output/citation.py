@@ -18,9 +18,6 @@ _SHORT = 12
 #: Entries of a work, in the order of BibTeX.
 _ENTRIES = ("author", "title", "journal", "volume", "pages", "year", "doi", "url", "note")
 
-#: Distributions of the libraries, and their names in a text.
-_LIBRARIES = {"numpy": "NumPy", "scipy": "SciPy", "scikit-fem": "scikit-fem", "pyamg": "pyamg"}
-
 
 class Work(NamedTuple):
     """A work to cite: its key, and its entries in plain text; `author` has names separated by " and ".
@@ -90,13 +87,10 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
         cited.append(_work("model-" + re.sub("[^A-Za-z0-9-]", "-", name), {"title": title, "note": model["citation"]}))
     for library in software if record else ():
         if library["models"] is None or not models.keys().isdisjoint(library["models"]):
-            facts = {"author": " and ".join(library["authors"]), "note": f"version {_of(record, library['package'])}"}
-            cited.append(_work(library["package"], library | facts))
+            package = library["package"]
+            facts = {"author": " and ".join(library["authors"]), "note": f"version {record['dependencies'][package]}"}
+            cited.append(_work(package, library | facts))
     return cited
-
-
-def _of(record: Mapping[str, Any] | None, package: str) -> str:
-    return str((record or {})["dependencies"][package])
 
 
 def _work(key: str, facts: Mapping[str, Any]) -> Work:
@@ -115,20 +109,19 @@ def methods(record: Mapping[str, Any], references: Mapping[str, float]) -> str:
     """
     models, package = record.get("models") or {}, record["package"]
     named = {name: f"{name} (version {model['version']})" for name, model in models.items()}
-    judged = [text for name, text in named.items() if name not in references]
-    bounds = [
-        f"{named[name]}, whose numerical error is at most {bound:.1g} of its value"
-        for name, bound in references.items()
-        if name in named
-    ]
-    used = [name for name in _LIBRARIES if name in record["dependencies"]]
-    used = [name for name in used if name in ("numpy", "scipy") or "fem" in models]
-    libraries = ", ".join(f"{_LIBRARIES[name]} {_of(record, name)}" for name in used)
+    judged = ", ".join(text for name, text in named.items() if name not in references)
+    present = {name: bound for name, bound in references.items() if name in named}
+    limits = (
+        f"{named[name]}, whose numerical error is at most {bound:.1g} of its value" for name, bound in present.items()
+    )
+    reference = "; ".join(limits)
+    used = ["numpy", "scipy", *(["scikit-fem", "pyamg"] if "fem" in models else [])]
+    libraries = ", ".join(f"{name} {record['dependencies'][name]}" for name in used)
     digest = f", code with the SHA-256 {package['code_sha256'][:_SHORT]}" if "code_sha256" in package else ""
     verdict = record["verdicts"].get("overall")
     sentences = [
-        f"The errors of {_listed(judged)} were computed with fscm-bench {_version(package)}{digest}." if judged else "",
-        f"The reference is {_listed(bounds)}." if bounds else "",
+        f"The errors of {judged} were computed with fscm-bench {_version(package)}{digest}." if judged else "",
+        f"The reference is {reference}." if reference else "",
         "Errors are kappa = (model - reference) / |reference|; the bounds on the numerical errors of model and "
         "reference add to the bound on kappa.",
         f"There are {record['rows']['all']} results.",
@@ -178,7 +171,3 @@ def _version(package: Mapping[str, Any]) -> str:
         return str(package["version"])
     changed = " with changes" if package.get("dirty") else ""
     return f"{package['version']} (commit {package['commit'][:_SHORT]}{changed})"
-
-
-def _listed(items: Sequence[str]) -> str:
-    return ", ".join(items[:-1]) + " and " + items[-1] if len(items) > 1 else "".join(items)

@@ -8,30 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from comparisons.data.paper_values import PaperValue
-from comparisons.judging.gates import load_gates
-from comparisons.judging.judge import judge
 from comparisons.output.errors import largest, relative_error
-from comparisons.paper.studies.error_maps import with_kappa
-from comparisons.problem import Problem
-from comparisons.runs.cases import Grid
-
-GATE = """
-[[gate]]
-id = "JUMP-OUT"
-requirement = "JKR jumps out where the FSCM does."
-quantity = "jump_out_displacement"
-candidate = "jkr"
-reference = "fscm"
-cases = { n = [1, 1] }
-metric = "rel"
-lower = -1
-upper = 1
-max_reference_uncertainty = 1e-3
-basis = "derived"
-grounds = "An example."
-min_cases = 1
-tier = "quick"
-"""
 
 
 def stored(model, mu, value, u_num=0.0, **more):
@@ -83,16 +60,3 @@ def test_largest_error_is_signed_and_says_when_it_is_at_an_end():
     improved, worst = largest(relative_error(pd.DataFrame(rows), "ref"))[columns].values.tolist()
     assert improved == [1, 3, False, pytest.approx(-0.0073, abs=1e-12), "0.73", "agrees"]
     assert worst == [0.1, 3, True, 0.5, "", ""]
-
-
-@pytest.mark.parametrize(("value", "reference"), [(-2.1, -2.0), (-1.9, -2.0), (0.5, -2.0), (1.9, 2.0), (-1.0, 2.0)])
-def test_one_sign_of_kappa_in_tables_gates_and_error_maps(value, reference):
-    """Positive where the model is above the reference, also where both are negative."""
-    case = {"quantity": "jump_out_displacement", "n": 1.0}
-    rows = pd.DataFrame([stored("jkr", 1, value, 1e-9, **case), stored("fscm", 1, reference, 1e-9, **case)])
-    expected = (value - reference) / abs(reference)
-    (kappa,) = relative_error(rows, "fscm")["kappa"]
-    grid = Grid("g", "", "quick", "fscm", ("jkr",), ("jump_out_displacement",), (Problem.dimensionless(1.0, 0.4, 1),))
-    (judged,) = judge(load_gates(GATE), [grid], rows.assign(reason=""))["error"]
-    (mapped,) = with_kappa(rows.head(1).assign(fscm=reference, u_fscm=1e-9))["kappa"]
-    assert kappa == judged == mapped == expected

@@ -13,30 +13,15 @@ from comparisons.output.report.page import make_page
 from comparisons.output.report.stored_run import read_folder
 from comparisons.runs.csv_format import csv_text
 
-from .browsing import (
-    DESKTOP,
-    PHONE,
-    cells,
-    click,
-    find,
-    head,
-    messages,
-    package,
-    ranges,
-    requests,
-    show,
-    size,
-    unfold,
-    wait,
-    width,
-)
+from . import browsing
+from .browsing import DESKTOP, PHONE, cells, click, find, head, messages, ranges, size, unfold, width
 from .hostile_run import SCRIPT
 
 
 def test_it_opens_without_an_error_and_without_the_network_and_admits_no_other_script(browser, page):
-    show(browser, page, *DESKTOP)
+    browsing.show(browser, page, *DESKTOP)
     assert messages(browser) == []
-    assert requests(browser) == {page.as_uri()}
+    assert browsing.requests(browser) == {page.as_uri()}
     assert browser.title.startswith("fscm-bench report: ")
     assert browser.execute_script("return window.hostile") is None
     assert SCRIPT in find(browser, "#plot-kappa .models").text
@@ -50,7 +35,7 @@ def test_a_hostile_name_does_nothing_even_without_the_policy(browser, page, tmp_
     bare = tmp_path / "bare.html"
     policy = r'<meta http-equiv="Content-Security-Policy"[^>]*>'
     bare.write_text(re.sub(policy, "", page.read_text(encoding="utf-8")), encoding="utf-8")
-    show(browser, bare, *DESKTOP)
+    browsing.show(browser, bare, *DESKTOP)
     unfold(browser, "results")
     assert browser.execute_script("return [window.hostile ?? null, document.images.length]") == [None, 0]
 
@@ -72,21 +57,25 @@ def test_tables_sort_and_filter(opened, run_folder):
     assert find(opened, "#table-offenders .count").text == "2 of 7 rows"
 
 
-def test_files_hold_the_rows_that_are_shown_in_their_order(opened, run_folder, tmp_path):
+def test_files_hold_the_rows_that_are_shown_in_their_order(opened, run_folder, tmp_path, typeset):
     for name, table in make_page(read_folder(run_folder)).tables.items():
         opened.execute_script("Tables.choose(arguments[0], null)", name)
         csv, tex = (opened.execute_script("return Files.text(...arguments)", name, kind) for kind in ("csv", "tex"))
         assert csv == csv_text(table.stored.drop(columns="seconds", errors="ignore"))
         assert tex == latex(table.on_paper, table.caption, table.id)
+        # A command has no room on paper.
+        assert "solve -{}-model" not in tex
         if name in ("results", "verdicts", "kappa"):
             assert csv == (run_folder / f"{name}.csv").read_text(encoding="utf-8")
+    offenders = opened.execute_script("return Files.text('offenders', 'tex')")
+    typeset(offenders, (run_folder / "verdicts.tex").read_text(encoding="utf-8"), fits=False)
     find(opened, "#table-offenders .filter").send_keys("limit")
     click(opened, head(opened, "offenders", "E(U)"))
     shown = [float(text) for text in cells(opened, "offenders", "E(U)")]
     opened.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
     for kind in ("csv", "tex"):
         click(opened, find(opened, f"#table-offenders [data-save='{kind}']"))
-        wait((tmp_path / f"offenders.{kind}").exists)
+        browsing.wait((tmp_path / f"offenders.{kind}").exists)
     # As texts: the parser of older versions of pandas rounds some numbers in their last place.
     saved = pd.read_csv(tmp_path / "offenders.csv", dtype=str)
     assert [float(text) for text in saved["error"]] == shown == sorted(shown)
@@ -154,7 +143,7 @@ DARK = """
 
 @pytest.mark.parametrize("rules", [COLOURS, pytest.param(None, marks=pytest.mark.heavy)], ids=["colours", "all"])
 def test_it_is_accessible_and_legible_in_light_and_dark(opened, rules):
-    axe = package("axe_core_python.selenium").Axe()
+    axe = browsing.package("axe_core_python.selenium").Axe()
     for measures, dark in ((DESKTOP, False), (PHONE, True)):
         size(opened, *measures)
         if dark:
