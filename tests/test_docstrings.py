@@ -21,7 +21,6 @@ LONG = {
     "comparisons.paper.studies.error_maps",
     "comparisons.paper.values.printed_values",
     "comparisons.paper.studies.graded_solids",
-    "comparisons.paper.studies.layered_adhesion",
     "comparisons.problem.elastic_energy",
     "comparisons.description.equivalent_power_law",
     "fem_reference.verification.element_checks",

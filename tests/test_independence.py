@@ -21,7 +21,6 @@ ALLOWED = {
     "comparisons.paper.figures.functions": ("fscm",),
     # A solid that is no power law has no dimensionless problem.
     "comparisons.paper.studies.graded_solids": ("fscm", "fem_reference"),
-    "comparisons.paper.studies.layered_adhesion": ("fscm",),
     # The landing of a jump and the surface at pull-off are no quantities of a model; both jumps of one path, in half
     # the time of two computations.
     "comparisons.paper.tasks": ("fscm",),

@@ -12,19 +12,7 @@ from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, LINES, MODEL_LINES, MODEL_NAMES, lettered
 
-__all__ = [
-    "LABELS",
-    "by_model",
-    "crosses",
-    "dashed",
-    "gradient",
-    "held",
-    "legend_below",
-    "level",
-    "line_a_value",
-    "of_model",
-    "panels",
-]
+__all__ = ["LABELS", "by_model", "crosses", "legend_below", "level", "lines_by", "panels"]
 
 #: Labels of axes, by what is on them.
 LABELS = {
@@ -92,7 +80,7 @@ def by_model(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
         axes.plot(rows[x], rows[y], label=MODEL_NAMES[model], **MODEL_LINES[model])
 
 
-def line_a_value(
+def lines_by(
     axes: Axes, table: pd.DataFrame, name: str, x: str, y: str, scale: float = 1.0, label: str = "", **style: Any
 ) -> None:
     """Draw a line for each value of a parameter."""

@@ -19,19 +19,7 @@ from comparisons.paper.cache import CachedCall, Outcome
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text
 
-__all__ = [
-    "FIGURES",
-    "PaperFigure",
-    "Plan",
-    "Tables",
-    "calls_of",
-    "given",
-    "paper_figure",
-    "result_of",
-    "rows_of",
-    "table_of",
-    "together",
-]
+__all__ = ["FIGURES", "PaperFigure", "Plan", "Tables", "keyed", "paper_figure", "result_of", "rows_of", "together"]
 
 T = TypeVar("T")
 K = TypeVar("K")
@@ -88,6 +76,17 @@ def result_of(function: Callable[..., Any], *arguments: float | str) -> Plan[Any
     """Plan the result of one call."""
     results = yield {"": CachedCall.of(function, *arguments)}
     return results[""]
+
+
+def keyed(function: Callable[..., Any], *arguments: str, **key: Any) -> tuple[dict[str, Any], CachedCall]:
+    """Return a call of `rows_of`, whose last arguments are its key.
+
+    Examples
+    --------
+    >>> keyed(pow, x=2, y=3)
+    ({'x': 2, 'y': 3}, CachedCall(function='builtins:pow', arguments=(2, 3)))
+    """
+    return key, CachedCall.of(function, *arguments, *key.values())
 
 
 def rows_of(calls: Iterable[tuple[Mapping[str, Any], CachedCall]], *names: str) -> Plan[pd.DataFrame]:

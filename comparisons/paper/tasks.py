@@ -28,22 +28,7 @@ from fscm import Problem as FscmProblem
 from fscm.laws import LennardJones
 from fscm.solution import FLOOR, SAFETY, EventPair, State
 
-__all__ = [
-    "COHESIVE",
-    "GRADIENTS",
-    "JUMPS",
-    "SHAPES",
-    "TRACTION",
-    "band_width",
-    "cohesive_surface",
-    "curve",
-    "jumps",
-    "named_points",
-    "near_critical",
-    "profile",
-    "quantity",
-    "surface",
-]
+__all__ = ["cohesive_surface", "curve", "jumps", "named_points", "near_critical", "profile", "quantity", "surface"]
 
 Json = dict[str, Any]
 

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, by_model, crosses, gradient, held, legend_below, level, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, rows_of, together
+from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, together
 from comparisons.paper.statements.paths import turning_points
 from comparisons.paper.tasks import GRADIENTS, curve, named_points, quantity
 
@@ -119,7 +119,7 @@ def fig03_s_curve() -> Plan[Tables]:
 
 def curves(cases: Iterable[tuple[float, float, float]]) -> Plan[pd.DataFrame]:
     """Plan the table of the curves of the FSCM in these cases."""
-    calls = (({"n": n, "k": k, "mu": mu}, CachedCall.of(curve, "fscm", n, k, mu)) for n, k, mu in cases)
+    calls = (keyed(curve, "fscm", n=n, k=k, mu=mu) for n, k, mu in cases)
     return rows_of(calls, "status", *_COLUMNS)
 
 
@@ -205,10 +205,7 @@ def _draw_fold_pairs(figure: Figure, table: pd.DataFrame) -> None:
 def finding_fold_pairs() -> Plan[Tables]:
     """Additional turning points of the displacement at mu = 3."""
     cases = product(_FOLDS, ("fscm", "fem"))
-    calls = [
-        ({"model": model, "n": n, "k": k, "mu": mu}, CachedCall.of(curve, model, n, k, mu))
-        for (n, k, mu), model in cases
-    ]
+    calls = [keyed(curve, model=model, n=n, k=k, mu=mu) for (n, k, mu), model in cases]
     table = yield from rows_of(calls, "central_gap", "displacement", "u_displacement")
     turns: list[int] = []
     for _, path in table.groupby(["n", "k", "mu", "model"]):

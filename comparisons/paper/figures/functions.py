@@ -12,9 +12,8 @@ from matplotlib.figure import Figure
 import fscm
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.output.style import COLOURS, MODEL_LINES
-from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import LABELS, legend_below, level, line_a_value, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, rows_of, together
+from comparisons.paper.drawing import LABELS, legend_below, level, lines_by, of_model, panels
+from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, together
 from comparisons.paper.tasks import SHAPES, TRACTION
 
 __all__ = ["RATIOS", "dugdale", "kernel_functions"]
@@ -59,10 +58,10 @@ def kernel_functions(k: float) -> dict[str, list[float | None]]:
 
 def _kernel(figure: Figure, table: pd.DataFrame) -> None:
     left, right = panels(figure, 1, 2, ("", ""), "ratio of radii $s = t/r$")
-    line_a_value(left, table, "k", "s", "phi")
-    line_a_value(left, table[table["k"] < 1.0], "k", "s", "slope", lw=0.7, label="_")
+    lines_by(left, table, "k", "s", "phi")
+    lines_by(left, table[table["k"] < 1.0], "k", "s", "slope", lw=0.7, label="_")
     # At k = 1 Psi jumps at s = 0, too.
-    line_a_value(right, table[(table["k"] < 1.0) | (table["s"] > 0.0)], "k", "s", "psi")
+    lines_by(right, table[(table["k"] < 1.0) | (table["s"] > 0.0)], "k", "s", "psi")
     left.set(ylabel=r"$\Phi_k(s)$ (thick), $\Phi_k'(s)$ (thin)", xlim=(0.0, _FARTHEST), ylim=(0.0, 2.5))
     right.set(ylabel=r"$\Psi_k(s)$", xlim=(0.0, _FARTHEST), ylim=(-1.05, 0.05))
     legend_below(figure, len(_GRADIENTS))
@@ -71,7 +70,7 @@ def _kernel(figure: Figure, table: pd.DataFrame) -> None:
 @paper_figure(_kernel, size=(7.2, 3.8))
 def fig02_kernel_functions() -> Plan[Tables]:
     """The functions Phi_k, its derivative, and Psi_k."""
-    return together({"": rows_of(({"k": k}, CachedCall.of(kernel_functions, k)) for k in _GRADIENTS)})
+    return together({"": rows_of(keyed(kernel_functions, k=k) for k in _GRADIENTS)})
 
 
 def stresses() -> dict[str, list[float]]:

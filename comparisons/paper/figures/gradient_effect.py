@@ -9,9 +9,8 @@ from scipy.optimize import brentq, minimize_scalar
 
 from comparisons.models.jkr import JKR
 from comparisons.output.style import COLOURS
-from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import LABELS, dashed, level, line_a_value, panels
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, rows_of, together
+from comparisons.paper.drawing import LABELS, dashed, level, lines_by, panels
+from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, together
 from comparisons.paper.tasks import SHAPES
 from comparisons.problem import Problem
 
@@ -112,7 +111,7 @@ def _regions() -> Plan[pd.DataFrame]:
 
 def _picture(figure: Figure, table: pd.DataFrame, largest: pd.DataFrame, regions: pd.DataFrame) -> None:
     left, right = panels(figure, 1, 2, ("", ""))
-    line_a_value(left, table, "n", "k", "chi", 100)
+    lines_by(left, table, "n", "k", "chi", 100)
     left.set(xlabel=LABELS["k"], ylabel=r"deviation $\chi$ (%)", xlim=(0, 1), ylim=(0, None))
     left.legend()
     right.plot(largest["n"], 100 * largest["chi_max"], color=COLOURS[0])
@@ -127,8 +126,8 @@ def _picture(figure: Figure, table: pd.DataFrame, largest: pd.DataFrame, regions
 @paper_figure(_picture)
 def fig11_gradient_effect() -> Plan[Tables]:
     """Deviation chi of the JKR pull-off force from the homogeneous solid's, and its largest over k."""
-    largest = rows_of([({}, CachedCall.of(over_shapes))], "n", "chi_max", "k_of_chi_max")
-    by_shape = rows_of(({"n": n}, CachedCall.of(over_gradients, n)) for n in SHAPES)
+    largest = rows_of([keyed(over_shapes)], "n", "chi_max", "k_of_chi_max")
+    by_shape = rows_of(keyed(over_gradients, n=n) for n in SHAPES)
     return together({"": by_shape, "largest": largest, "regions": _regions()})
 
 
@@ -152,5 +151,5 @@ def _ends() -> Plan[pd.DataFrame]:
 @paper_figure(_draw_chi_range, size=(5.0, 3.4))
 def finding_chi_range() -> Plan[Tables]:
     """End of the second range of small chi, for three largest gradient exponents."""
-    calls = [({"last_k": last_k}, CachedCall.of(near_the_end, last_k)) for last_k in _LAST]
+    calls = [keyed(near_the_end, last_k=last_k) for last_k in _LAST]
     return together({"": rows_of(calls, "n", "chi_max"), "ends": _ends()})

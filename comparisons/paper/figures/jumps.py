@@ -11,18 +11,8 @@ from matplotlib.figure import Figure
 from comparisons.models.semi_rigid import jump_in_coefficient
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
 from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import (
-    LABELS,
-    crosses,
-    dashed,
-    held,
-    legend_below,
-    level,
-    line_a_value,
-    of_model,
-    panels,
-)
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, rows_of, table_of, together
+from comparisons.paper.drawing import LABELS, crosses, dashed, held, legend_below, level, lines_by, of_model, panels
+from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, table_of, together
 from comparisons.paper.statements.measures import named, table_of_terms
 from comparisons.paper.tasks import GRADIENTS, SHAPES, jumps, near_critical, quantity
 
@@ -134,8 +124,8 @@ def _beside_asymptotes(figure: Figure, displacements: pd.DataFrame, coefficients
     left.text(0.03, 0.03, words, transform=left.transAxes, fontsize=8)
     left.set(xlim=(0.0, 5.1), xlabel=LABELS["mu"], ylabel=r"displacement at the jumps $\delta/z_0$")
     left.legend()
-    line_a_value(right, coefficients, "n", "k", "C_in")
-    line_a_value(right, coefficients, "n", "k", "C_out", lw=0.8, label="_")
+    lines_by(right, coefficients, "n", "k", "C_in")
+    lines_by(right, coefficients, "n", "k", "C_out", lw=0.8, label="_")
     for limit, text in ((8.0 / 3.0, "8/3"), (2.0, "2")):
         right.plot(1.0, limit, ls="none", marker="o", ms=4, color="0.2", clip_on=False)
         right.annotate(text, (1.0, limit), (6, -3), textcoords="offset points", annotation_clip=False)
@@ -147,7 +137,7 @@ def _beside_asymptotes(figure: Figure, displacements: pd.DataFrame, coefficients
 @paper_figure(_beside_asymptotes, size=(7.2, 3.5))
 def fig09_jump_asymptotes() -> Plan[Tables]:
     """Asymptotes of the jumps beside the FSCM, and their coefficients."""
-    of_shapes = rows_of(({"n": n}, CachedCall.of(coefficients, n)) for n in SHAPES)
+    of_shapes = rows_of(keyed(coefficients, n=n) for n in SHAPES)
     return together({"displacements": _displacements(), "coefficients": of_shapes})
 
 

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
 from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import LABELS, crosses, dashed, held, legend_below, level, line_a_value, of_model, panels
+from comparisons.paper.drawing import LABELS, crosses, dashed, held, legend_below, level, lines_by, of_model, panels
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure, rows_of, together
 from comparisons.paper.statements.measures import named, table_of_terms
 from comparisons.paper.tasks import COHESIVE, GRADIENTS, SHAPES, quantity
@@ -62,7 +62,7 @@ def _draw_falls_first(figure: Figure, table: pd.DataFrame) -> None:
     for axes, name in ((left, _FORCE), (right, _PLACE)):
         exact, fem = of_model(table[table["quantity"] == name], "fscm", "fem")
         style = dashed(GRADIENTS.index(0.4)) if name == _PLACE else {}
-        line_a_value(axes, exact, "k", "mu", "value", label="fscm, ", **style)
+        lines_by(axes, exact, "k", "mu", "value", label="fscm, ", **style)
         crosses(axes, fem["mu"], fem["value"], ms=6, zorder=3, label="fem")
         axes.set(xscale="log")
     left.set(ylabel=LABELS["force"], ylim=(2.1, 2.3))

@@ -11,9 +11,8 @@ from matplotlib.figure import Figure
 
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
 from comparisons.output.style import COLOURS, MODEL_LINES, MODEL_NAMES
-from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import LABELS, by_model, held, legend_below, level, line_a_value, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, rows_of, table_of, together
+from comparisons.paper.drawing import LABELS, by_model, held, legend_below, level, lines_by, of_model, panels
+from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, table_of, together
 from comparisons.paper.tasks import COHESIVE, GRADIENTS, cohesive_surface, profile, quantity, surface
 
 __all__: list[str] = []
@@ -33,15 +32,15 @@ _MARKS = {
 
 
 def _surfaces(cases: Iterable[tuple[float, float]]) -> Plan[Tables]:
-    table = yield from rows_of(({"n": _N, "k": k, "mu": mu}, CachedCall.of(surface, _N, k, mu)) for k, mu in cases)
+    table = yield from rows_of(keyed(surface, n=_N, k=k, mu=mu) for k, mu in cases)
     return {"": table.assign(punch=table["radius"] ** _N / _N - table["displacement"])}
 
 
 def _draw(figure: Figure, table: pd.DataFrame, name: str, words: str, farthest: float, top: float) -> None:
     left, right = panels(figure, 1, 2, (words, words), LABELS["radius"], sharex=True)
-    line_a_value(left, table, name, "radius", "deformation", -1.0)
-    line_a_value(left, table, name, "radius", "punch", **_PUNCH)
-    line_a_value(right, table, name, "radius", "pressure")
+    lines_by(left, table, name, "radius", "deformation", -1.0)
+    lines_by(left, table, name, "radius", "punch", **_PUNCH)
+    lines_by(right, table, name, "radius", "pressure")
     level(right, -THEORETICAL_STRENGTH, ls="--")
     corner = (farthest, -THEORETICAL_STRENGTH)
     right.annotate(r"$-\sigma_{\mathrm{th}}$", corner, (-4, 3), textcoords="offset points", ha="right")

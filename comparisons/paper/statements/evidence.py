@@ -7,20 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
-import pandas as pd
-
-__all__ = [
-    "READING",
-    "REFERENCES",
-    "Evidence",
-    "Number",
-    "by_clause",
-    "clauses",
-    "evidence_frame",
-    "flips",
-    "grouped",
-    "verdict",
-]
+__all__ = ["Evidence", "Number", "by_clause", "clauses", "flips", "verdict"]
 
 T = TypeVar("T")
 K = TypeVar("K")
@@ -198,29 +185,6 @@ def verdict(evidence: Iterable[Evidence]) -> str:
     if FAILS not in outcomes:
         return UNDECIDED
     return IN_PART if HOLDS in outcomes else FALSE
-
-
-def evidence_frame(statement: str, evidence: Iterable[Evidence]) -> pd.DataFrame:
-    """Return one row a comparison, with all its digits."""
-    return pd.DataFrame(
-        {
-            "statement": statement,
-            "clause": row.clause,
-            "own_case": row.own,
-            "beyond_paper": row.beyond,
-            "model": row.model,
-            "what": row.value.what,
-            "value": row.value.value,
-            "u_value": row.value.u,
-            "relation": row.relation,
-            "limit": row.limit.value,
-            "u_limit": row.limit.u,
-            "limit_what": row.limit.what,
-            "comparisons": row.comparisons,
-            "outcome": row.outcome,
-        }
-        for row in evidence
-    )
 
 
 def read_number(evidence: Iterable[Evidence]) -> float | None:

@@ -19,7 +19,6 @@ from comparisons.paper.statements.evidence import (
     Evidence,
     by_clause,
     clauses,
-    evidence_frame,
     flips_text,
     read_number,
     verdict,
@@ -141,6 +140,29 @@ def _number(value: float, u: float) -> str:
     return f"{value:g}" if u == 0.0 else value_text(value, u)
 
 
+def _evidence_frame(statement: str, evidence: Iterable[Evidence]) -> pd.DataFrame:
+    """Return one row a comparison, with all its digits."""
+    return pd.DataFrame(
+        {
+            "statement": statement,
+            "clause": row.clause,
+            "own_case": row.own,
+            "beyond_paper": row.beyond,
+            "model": row.model,
+            "what": row.value.what,
+            "value": row.value.value,
+            "u_value": row.value.u,
+            "relation": row.relation,
+            "limit": row.limit.value,
+            "u_limit": row.limit.u,
+            "limit_what": row.limit.what,
+            "comparisons": row.comparisons,
+            "outcome": row.outcome,
+        }
+        for row in evidence
+    )
+
+
 def readable(table: pd.DataFrame) -> pd.DataFrame:
     """Return the table for reading: empty columns of a row as nothing."""
     return table.fillna("").drop(columns=["id"]).rename(columns=_HEADS)
@@ -164,5 +186,5 @@ def paper_statements() -> Plan[Tables]:
     comparisons = yield from together({statement.id: comparisons_of(statement) for statement in statements})
     evidence = {statement.id: decisive(statement, comparisons[statement.id]) for statement in statements}
     rows = [judged(statement, evidence[statement.id]) for statement in statements]
-    frames = [evidence_frame(name, of_statement) for name, of_statement in evidence.items()]
+    frames = [_evidence_frame(name, of_statement) for name, of_statement in evidence.items()]
     return {"": pd.DataFrame(rows), "evidence": pd.concat(frames, ignore_index=True)}

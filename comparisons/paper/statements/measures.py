@@ -14,21 +14,7 @@ from comparisons.paper.statements.evidence import Number
 from comparisons.paper.tasks import JUMPS, jumps, quantity
 from comparisons.quantities import title_of
 
-__all__ = [
-    "MEASURES",
-    "ROUNDING",
-    "Case",
-    "Measured",
-    "Place",
-    "call",
-    "label",
-    "measure",
-    "measured",
-    "model_of",
-    "named",
-    "table_of_terms",
-    "term",
-]
+__all__ = ["MEASURES", "Place", "call", "label", "measure", "measured", "term"]
 
 #: Parameters of a case with their names, in order.
 Case = tuple[tuple[str, float], ...]

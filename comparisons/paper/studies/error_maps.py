@@ -19,9 +19,8 @@ from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
 
 from comparisons.numerics.bounds import relative_difference, relative_uncertainty
-from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, held, panels
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure, rows_of, together
+from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, rows_of, together
 from comparisons.paper.tasks import quantity
 from fscm.interpolation.atlas import atlas
 
@@ -103,7 +102,7 @@ def errors_along(lines: Iterable[tuple[float, float]], names: Sequence[str]) -> 
         ``n``, ``k``, ``point`` (its number on the line), ``mu``, ``quantity``, ``model``, ``fscm``, ``u_fscm`` (from
         the atlas), ``kappa`` and ``u_kappa``; for jumps also ``critical`` and ``u_critical``.
     """
-    table = yield from rows_of(({"n": n, "k": k}, CachedCall.of(line_errors, n, k)) for n, k in lines)
+    table = yield from rows_of(keyed(line_errors, n=n, k=k) for n, k in lines)
     columns = ["n", "k", "point", "mu", "quantity", "model", "fscm", "u_fscm", "kappa", "u_kappa"]
     critical = ["critical", "u_critical"] if "pull_off_force" not in names else []
     return with_kappa(table[table["quantity"].isin(names)])[[*columns, *critical]].reset_index(drop=True)

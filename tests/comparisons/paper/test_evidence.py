@@ -112,14 +112,11 @@ def sequence(function, u=0.0):
     return [Number(function(mu), u, f"mu = {mu}") for mu in (10.0, 20.0, 40.0)]
 
 
-@pytest.mark.parametrize("power", [0.5, 2.0])
-@pytest.mark.parametrize("end", [-0.2, 0.0])
-def test_a_power_has_its_limit(power, end):
-    assert extrapolated(*sequence(lambda mu: end + 0.7 * mu**-power)).value == pytest.approx(end, abs=1e-14)
+def test_a_power_has_its_limit_whose_bound_is_that_of_the_members():
+    for end, power in ((-0.2, 0.5), (0.0, 2.0)):
+        members = [Number(end + 0.7 * mu**-power, 0.0, "") for mu in (10.0, 20.0, 40.0)]
+        assert extrapolated(*members).value == pytest.approx(end, abs=1e-14)
     assert extrapolated(*sequence(lambda mu: 0.25)).value == 0.25
-
-
-def test_the_bound_of_a_limit_is_that_of_the_members():
     members = sequence(lambda mu: 0.3 + 1.0 / mu, u=1e-9)
     limit, expected = extrapolated(*members), 0.0
     for i, member in enumerate(members):

@@ -4,7 +4,6 @@ import re
 import shlex
 from pathlib import Path
 
-import pandas as pd
 import pytest
 
 from comparisons.cli import main as cli
@@ -23,17 +22,16 @@ ROOT = Path(__file__).parents[3]
 FOLDER = ROOT / PAPER_BASELINE
 STATEMENTS = {statement.id: statement for statement in paper_statements()}
 FINDINGS = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")
-by_id = pytest.mark.parametrize("statement", STATEMENTS.values(), ids=STATEMENTS)
 
 
 @pytest.fixture(scope="module")
-def committed():
-    return pd.read_csv(FOLDER / "paper_statements.csv", keep_default_na=False)
+def table(committed):
+    return committed("paper_statements", keep_default_na=False)
 
 
 @pytest.fixture(scope="module")
-def evidence_table():
-    return pd.read_csv(FOLDER / "paper_statements_evidence.csv", keep_default_na=False)
+def evidence_table(committed):
+    return committed("paper_statements_evidence", keep_default_na=False)
 
 
 def stored(row):
@@ -41,32 +39,24 @@ def stored(row):
     return Evidence(row.clause, row.model, value, row.relation, limit, row.own_case, row.beyond_paper, row.comparisons)
 
 
-@pytest.fixture(scope="module")
-def evidence(evidence_table):
-    return {
-        id: [stored(row) for row in section_text.itertuples()]
-        for id, section_text in evidence_table.groupby("statement")
-    }
+def test_a_committed_verdict_follows_from_its_evidence_and_not_from_other_evidence(table, evidence_table):
+    evidence = {id: [stored(row) for row in rows.itertuples()] for id, rows in evidence_table.groupby("statement")}
+    for expected in table.to_dict("records"):
+        statement, rows = STATEMENTS[expected["id"]], evidence[expected["id"]]
+        assert judged(statement, rows) == expected
+        wide = [row._replace(limit=row.limit._replace(u=1e9)) for row in rows]
+        assert judged(statement, wide)["verdict"] == "not decided"
+        # The value of every row that decides on the other side of its limit, by all references.
+        other = [
+            row._replace(value=row.value._replace(value=2.0 * row.limit.value - row.value.value), model="formula")
+            for row in rows
+            if expected["verdict"] != FALSE or row.outcome == FAILS
+        ]
+        assert judged(statement, other)["verdict"] != expected["verdict"] or expected["verdict"] == IN_PART
 
 
-@by_id
-def test_a_committed_verdict_follows_from_its_evidence_and_not_from_other_evidence(statement, committed, evidence):
-    rows = evidence[statement.id]
-    expected = committed[committed["id"] == statement.id].iloc[0].to_dict()
-    assert judged(statement, rows) == expected
-    wide = [row._replace(limit=row.limit._replace(u=1e9)) for row in rows]
-    assert judged(statement, wide)["verdict"] == "not decided"
-    # The value of every row that decides on the other side of its limit, by all references.
-    other = [
-        row._replace(value=row.value._replace(value=2.0 * row.limit.value - row.value.value), model="formula")
-        for row in rows
-        if expected["verdict"] != FALSE or row.outcome == FAILS
-    ]
-    assert judged(statement, other)["verdict"] != expected["verdict"] or expected["verdict"] == IN_PART
-
-
-def test_the_committed_texts_are_those_of_the_committed_table(committed):
-    for suffix, text in FIGURES["statements"].texts({"": committed}).items():
+def test_the_committed_texts_are_those_of_the_committed_table(table):
+    for suffix, text in FIGURES["statements"].texts({"": table}).items():
         assert (FOLDER / f"paper_statements{suffix}").read_text(encoding="utf-8") == text
 
 
@@ -146,42 +136,32 @@ def test_gradient_exponents_of_which_some_jump_are_not_alike():
 
 
 @pytest.mark.parametrize("id", ["kernel-continuous", "psi-bounded", "eta", "insensitive-ranges"])
-def test_formulas_give_the_committed_verdict(id, committed):
-    assert made_up(id)["verdict"] == committed.set_index("id")["verdict"][id]
+def test_formulas_give_the_committed_verdict(id, table):
+    assert made_up(id)["verdict"] == table.set_index("id")["verdict"][id]
 
 
 @pytest.mark.heavy
-def test_the_verdicts_are_those_committed(made_of, committed):
-    table = made_of(FIGURES["statements"].plan)[""]
+def test_the_verdicts_are_those_committed(made_of, table):
     columns = ["id", "verdict", "holds_in", "own_cases", "fails_for", "beyond_paper"]
-    assert table[columns].to_dict("records") == committed[columns].to_dict("records")
+    computed = made_of(FIGURES["statements"].plan)[""]
+    assert computed[columns].to_dict("records") == table[columns].to_dict("records")
 
 
-def test_every_statement_that_does_not_hold_is_a_finding_with_a_figure_and_a_command(committed):
+def test_every_statement_that_does_not_hold_is_a_finding(table):
     lines = re.findall(r"^Statements: (.*)\.$", FINDINGS, re.MULTILINE)
     listed = [id for line in lines for id in re.findall("`(.+?)`", line)]
-    assert sorted(listed) == sorted(committed["id"][committed["verdict"] != "true"])
-    counts = committed["verdict"].value_counts()
+    assert sorted(listed) == sorted(table["id"][table["verdict"] != "true"])
+    counts = table["verdict"].value_counts()
     sentence = (
         f"{counts['true']} statements are true, {counts['true in part']} true in part and {counts['false']} false"
     )
     assert sentence in FINDINGS
-    sections = [
-        section_text
-        for section_text in re.split(r"^## ", FINDINGS, flags=re.MULTILINE)[1:]
-        if "Statements: " in section_text
-    ]
-    for section in (section for section in sections if not section.startswith("Where a number decides")):
-        (stem,) = re.findall(r"baseline/paper/(\w+)\.png", section)
-        (name,) = re.findall(r"fscm-bench paper --only (\S+)", section)
-        assert FIGURES[name].stem == stem
 
 
-def test_every_number_with_a_bound_and_every_rise_is_in_the_evidence(evidence_table):
+def test_every_number_with_a_bound_and_every_rise_is_in_the_evidence(evidence_table, committed):
     pairs = [(value, f"u_{value}", evidence_table) for value in ("value", "limit")]
-    # The studies beyond the paper.
-    for stem, columns in (("graded_solids", ("fscm", "fem")), ("layered_adhesion", ("found",))):
-        pairs += [(column, f"u_{column}", pd.read_csv(FOLDER / f"{stem}.csv")) for column in columns]
+    # The study beyond the paper.
+    pairs += [(column, f"u_{column}", committed("graded_solids")) for column in ("fscm", "fem")]
     texts = {value_text(*row) for value, u, table in pairs for row in table[[value, u]].dropna().to_numpy()}
     quoted = re.findall(r"\d+\.\d+\(\d+\)", FINDINGS)
     assert len(quoted) > 25

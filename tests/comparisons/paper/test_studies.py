@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import beta
 
-from comparisons.model import ComputationFailed
-from comparisons.paper.studies import coated_jkr
-from comparisons.paper.studies.coated_jkr import coated_compliance, coated_load, coated_pull_off
+import fscm
 from comparisons.paper.studies.error_maps import errors_along
 from comparisons.paper.studies.graded_solids import (
     OFFSET,
@@ -20,14 +18,13 @@ from comparisons.paper.studies.graded_solids import (
     number_of,
     of_power_law,
 )
-from comparisons.paper.studies.layered_adhesion import TABOR_NUMBERS, coated_force, extrapolated, layer_compliance
 from comparisons.paper.tasks import quantity
-from tests.fem_reference.hankel_reference import transform
+from fscm import Coating
+from tests.layered_jkr import Stack, pull_off_force
 
 #: Distance of k and mu from those of a power law with an offset of 1e-6 L: see the test for how it falls.
 LARGEST_OFFSET = 3e-4
-#: The ordinary differential equation behind `transform`: its relative tolerance is 1e-11.
-TRANSFORM_ERROR = 1e-9
+NU = 0.3
 
 
 @pytest.mark.parametrize("names", [["pull_off_force"], ["jump_in_displacement", "jump_out_displacement"]])
@@ -99,63 +96,43 @@ def test_without_jumps_there_is_a_reason():
     assert math.isnan(number_of(results, "jump_out_displacement")[0])
 
 
-@pytest.mark.parametrize(("ratio", "nu", "nu_below"), [(4.0, 0.3, 0.3), (0.2, 0.2, 0.45)])
-def test_the_closed_form_of_the_compliance(ratio, nu, nu_below):
-    """Against an integration of the equations of elasticity over the depth."""
-    q = np.array([0.1, 0.5, 1.0, 3.0])
-    modulus, poisson = (lambda z: np.where(z < 1.0, 1.0, ratio)), (lambda z: np.where(z < 1.0, nu, nu_below))
-    expected = transform(modulus, poisson, q, sharp=(1.0,))
-    compliance = coated_compliance(q, ratio, nu, nu_below) * 2.0 * (1.0 - nu**2)
-    assert compliance == pytest.approx(expected, rel=TRANSFORM_ERROR)
+def coated(ratio, thickness):
+    """A coating on a substrate so many times as stiff; lengths in (w R^2/E*)^(1/3), E* of the coating."""
+    return Stack(((1.0 - NU**2, NU, thickness),), ((1.0 - NU**2) * ratio, NU))
 
 
-@pytest.mark.parametrize("radius", [0.5, 1.5, 3.0])
-def test_the_load_on_a_homogeneous_solid_is_that_of_jkr(radius):
-    expected = 4.0 / 3.0 * radius**3 - math.sqrt(8.0 * math.pi * radius**3)
-    assert coated_load(radius, 1.0, 0.2, 0.3, 0.3) == pytest.approx(expected, rel=1e-12)
+def derived(ratio, thickness):
+    """The pull-off force of JKR in pi w R."""
+    return -pull_off_force(coated(ratio, thickness), 1.0, 1.0).load / math.pi
 
 
-def test_finer_quadrature_changes_the_force_by_less_than_the_bound(monkeypatch):
-    coarse = coated_pull_off(100.0, 0.3, 0.3, 0.3)
-    for name, value in (("_POINTS", 20), ("_PHASE", 3.0), ("_PANEL", 0.2), ("_FIRST", 1e-4)):
-        monkeypatch.setattr(coated_jkr, name, value)
-    fine = coated_pull_off(100.0, 0.3, 0.3, 0.3)
-    assert abs(fine["force"] - coarse["force"]) <= coarse["u_num"]
-
-
-def test_thick_coatings_and_thin_ones():
-    """JKR on the coating alone, whose substrate is felt as (a/h)^3 at least; twice w R pi on a rigid substrate."""
-    assert coated_pull_off(4.0, 40.0, 0.3, 0.3)["force"] == pytest.approx(1.5, abs=1e-3)
-    shares = [2.0 - coated_pull_off(1e6, h, 0.3, 0.3)["force"] for h in (0.3, 0.1)]
-    # Linear in thickness over contact radius, which is 0.263 and 0.113: derived from the edge zone of a thin layer.
-    assert shares[0] / shares[1] == pytest.approx(0.263 / 0.113, rel=0.1)
-
-
-def test_a_minimum_at_an_end_is_no_result():
-    with pytest.raises(ComputationFailed, match="an end of the search"):
-        coated_pull_off(1e-6, 0.5, 0.3, 0.3)
-
-
-def test_the_compliance_of_a_layer_is_that_published():
-    expected = coated_compliance(np.array([0.1]), 4.0, 0.3, 0.3)[0]
-    assert layer_compliance(0.1, 4.0, 0.3, 0.3) == pytest.approx(expected)
-    assert layer_compliance(0.1, 4.0, 0.3, 0.31) != pytest.approx(expected)
+def limit(mu, forces):
+    """The constant beside mu^-2 ln mu, mu^-2, mu^-3 ln mu and mu^-3, and the bound that those of the forces give it."""
+    log = np.log(mu)
+    terms = np.stack([np.ones_like(mu), log / mu**2, 1.0 / mu**2, log / mu**3, 1.0 / mu**3], axis=1)
+    weights = np.linalg.inv(terms)[0]
+    return weights @ forces[:, 0], np.abs(weights) @ forces[:, 1]
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("index", range(3))
-def test_a_coated_solid_approaches_its_own_limit(index, committed):
-    row = committed("layered_adhesion").query("check == 'coated JKR'").iloc[index]
-    layer = row["modulus_ratio"], row["thickness"]
-    value, u_num = extrapolated(TABOR_NUMBERS, [coated_force(*layer, mu) for mu in TABOR_NUMBERS])
-    assert value == pytest.approx(row["found"], abs=u_num)
+@pytest.mark.parametrize(("ratio", "thickness"), [(1.0, 0.5), (4.0, 0.5), (0.25, 0.5), (100.0, 0.3)])
+def test_a_coated_solid_approaches_its_own_limit(ratio, thickness):
+    """The cohesive zone is about L mu^(-3/2) wide, and its tension decays so slowly that a logarithm remains."""
+    mu = np.array([2.0, 4.0, 8.0, 16.0, 32.0, 64.0])
+    solids = [Coating(1.0, ratio, thickness * x**0.5, 0.0, NU) for x in mu]
+    solutions = [
+        fscm.solve(fscm.Problem(2.0, 0.0, x, graded=solid), "pull_off_force")
+        for x, solid in zip(mu, solids, strict=True)
+    ]
+    forces = np.array([(solution.value, solution.u_num) for solution in solutions])
+    (before, _), (value, u_forces) = limit(mu[:-1], forces[:-1]), limit(mu[1:], forces[1:])
+    bound = abs(value - before) + u_forces
+    assert abs(value - derived(ratio, thickness)) <= bound < 1e-5
     # A coating that is one in a thousand thicker is told apart.
-    thicker = coated_pull_off(layer[0], 1.001 * layer[1], 0.3, 0.3)["force"]
-    assert abs(value - row["expected"]) <= u_num < abs(value - thicker)
+    assert ratio == 1.0 or abs(value - derived(ratio, 1.001 * thickness)) > bound
 
 
-def test_the_bound_of_the_limit_covers_a_neglected_term_and_the_bounds_of_the_forces():
-    mu = np.array(TABOR_NUMBERS)
-    value, u_num = extrapolated(mu, [(x, 1e-9) for x in 1.5 + np.log(mu) / mu**2 + (np.log(mu) / mu**2) ** 2])
-    assert 1e-9 < abs(value - 1.5) <= u_num
-    assert 1e-6 < extrapolated(mu, [(1.5 + x**-2, 1e-6) for x in mu])[1] < 1e-5
+def test_a_coated_solid_is_its_coating_if_that_is_thick_and_a_layer_of_springs_if_it_is_thin():
+    """Twice w R pi on a rigid substrate, approached linearly in thickness over contact radius, 0.263 and 0.113."""
+    assert derived(4.0, 40.0) == pytest.approx(1.5, abs=1e-3)
+    assert (2.0 - derived(1e6, 0.3)) / (2.0 - derived(1e6, 0.1)) == pytest.approx(0.263 / 0.113, rel=0.1)
