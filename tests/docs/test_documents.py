@@ -15,15 +15,10 @@ import pytest
 
 import fem_reference
 import fscm
-from comparisons.baseline import read_baseline
 from comparisons.cli import main as cli
 from comparisons.judging.gates import Gate, load_gates
-from comparisons.judging.judge import judge
-from comparisons.judging.selection import skipped_gates
-from comparisons.judging.summary import summarise
 from comparisons.quantities import QUANTITIES
-from comparisons.runs.cases import grids, grids_for, load_grids
-from comparisons.runs.tasks import plan
+from comparisons.runs.cases import load_grids
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
@@ -200,25 +195,6 @@ def test_links_and_names_of_modules_resolve():
 def test_every_quantity_has_a_symbol():
     text = (DOCS / "symbols.md").read_text(encoding="utf-8")
     assert [name for name in QUANTITIES if f"`{name}`" not in text] == []
-
-
-def test_the_gates_of_the_documents_are_judged():
-    (example,) = [text for text in tables_with("gate") if "BETTER-THAN-JKR" in text]
-    rows, curves = read_baseline(ROOT / "results" / "baseline")
-    cases = grids_for(grids("quick"), ["md-improved", "jkr"])
-    planned = {task.key for task in plan(cases, ["md-improved", "jkr"])}
-    keys = rows[["model", "quantity", "n", "k", "mu"]].itertuples(index=False, name=None)
-    rows = rows[[(*key, None, "") in planned for key in keys]]
-    assert skipped_gates(load_gates(example), cases, ["md-improved", "jkr"]) == []
-    judged = summarise(judge(load_gates(example), cases, rows, curves, ["md-improved", "jkr"]))
-    assert judged[["gate", "candidate"]].to_numpy().tolist() == [
-        ["SOFT-PARABOLOID", "md-improved"],
-        ["SOFT-PARABOLOID", "jkr"],
-        ["BETTER-THAN-JKR", "md-improved"],
-    ]
-    assert set(judged["verdict"]) == {"PASS"}
-    with pytest.raises(ValueError, match=r"gate BETTER-THAN-JKR needs jkr, .*: add --model jkr"):
-        skipped_gates(load_gates(example), cases, ["md-improved"])
 
 
 def test_every_key_of_a_gate_is_explained():

@@ -1,7 +1,6 @@
 """Words that the glossary replaces, in code, docs and tests."""
 
 import re
-from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -18,13 +17,17 @@ def replaced_words() -> list[str]:
     return [word for row in rows for word in re.findall(r"`([^`]+)`", row)]
 
 
-def pattern(word: str) -> re.Pattern[str]:
+def patterns() -> list[re.Pattern[str]]:
     """Whole words, but not `ast.walk` and `os.walk`; a capital or an underscore makes it a name, whose case counts."""
-    is_name = word != word.lower() or "_" in word
-    return re.compile(rf"(?<!\w)(?<!\bast\.)(?<!\bos\.){re.escape(word)}(?!\w)", 0 if is_name else re.IGNORECASE)
+    words = replaced_words()
+    names = [word for word in words if word != word.lower() or "_" in word]
+    groups = (names, 0), ([word for word in words if word not in names], re.IGNORECASE)
+    return [
+        re.compile(rf"(?<!\w)(?<!\bast\.)(?<!\bos\.)(?:{'|'.join(map(re.escape, group))})(?!\w)", flags)
+        for group, flags in groups
+    ]
 
 
-@cache
 def texts() -> dict[Path, str]:
     folders = [ROOT / name for name in ("fscm", "fem_reference", "comparisons", "docs", "tests")]
     files = [path for folder in folders for path in folder.rglob("*") if path.suffix in SUFFIXES]
@@ -35,8 +38,10 @@ def texts() -> dict[Path, str]:
 
 
 def test_a_replaced_word_is_not_used():
-    uses = []
-    for word in replaced_words():
-        expression = pattern(word)
-        uses += [f"{path.relative_to(ROOT)}: {word}" for path, text in texts().items() if expression.search(text)]
+    uses = [
+        f"{path.relative_to(ROOT)}: {use[0]}"
+        for path, text in texts().items()
+        for expression in patterns()
+        for use in expression.finditer(text)
+    ]
     assert uses == []

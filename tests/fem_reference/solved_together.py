@@ -8,8 +8,6 @@ from fem_reference._contact.newton import State
 from fem_reference.quantities import TABLE
 from fem_reference.verification.reference_solutions import surface_constant
 
-__all__ = ["COARSEST", "PROBLEM", "problem_with", "pull_off_on_the_coarsest_mesh", "solved"]
-
 #: Error of a pull-off on the coarsest mesh alone, relative: measured worst 9.1e-6 (the displacement of a homogeneous
 #: solid with Poisson's ratio of layers), and 3e-6 of a force.
 COARSEST = 2e-5

@@ -7,7 +7,6 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from fem_reference import NotConverged
 from fem_reference._contact import error_parts
 from fem_reference._contact.error_parts import PARTS, events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
@@ -124,12 +123,3 @@ def test_placement_moves_the_edge_over_the_mesh():
     assert inward.state.size < plain.state.size < outward.state.size
     for moved in (inward, outward):
         assert moved.state.load == pytest.approx(plain.state.load, rel=1e-6)
-
-
-def test_event_that_another_mesh_does_not_have_is_refused():
-    """Here the load of the other problem has no point without load near that of the path."""
-    meshes = _meshes()
-    contact = meshes.fine.contact
-    stiffer = replace(contact, compliance=replace(contact.compliance, matrix=1e-3 * contact.compliance.matrix))
-    with pytest.raises(NotConverged):
-        ResolvedEvents(meshes.fine, stiffer).at("jump_in")

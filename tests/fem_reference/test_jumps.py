@@ -148,10 +148,6 @@ def test_the_parts_of_a_further_jump_are_its_loss(error):
     assert parts == pytest.approx(energy_lost(events, ("jump_out_2", "separated_2")), abs=1e-7 + 10.0 * error**2)
 
 
-def test_two_jumps_have_no_further_parts():
-    assert further_losses(_events(PAIR)) == {}
-
-
 @pytest.mark.parametrize("name", ["one pair", "two jumps on retreat"])
 def test_the_loss_on_meshes_of_their_own_has_every_jump(name, monkeypatch):
     """With the bounds of all parts."""

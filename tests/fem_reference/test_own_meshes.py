@@ -7,9 +7,9 @@ from types import SimpleNamespace
 import pytest
 
 import fem_reference.solution as solution_module
-from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, Solution, solve, solve_together
+from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve, solve_together
 from fem_reference.depth_profiles import ExponentialModulus
-from fem_reference.quantities import LOSSES, TABLE
+from fem_reference.quantities import TABLE
 from tests.fem_reference.profile_solid import ProfileSolid
 
 FORCE, JUMP_IN, JUMP_OUT = NAMES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
@@ -19,10 +19,6 @@ GRADED = Problem(ProfileSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1), PowerPunc
 #: Of a power punch, n = 5, on a solid that softens: by both references, all digits shown.
 ZERO_LOAD = 0.42243083
 CONE = replace(GRADED, solid=ProfileSolid(ExponentialModulus(0.9, 0.3, 5.0), 0.1), punch=PowerPunch(1.0, 1.0))
-
-
-def _solution(u_num):
-    return Solution(1.0, u_num, 1, 1, 0.0, 1.0, (4, 6, 7), (1.0, 1.0, 1.0), {"mesh": u_num})
 
 
 def _own(problem, points, missed=(), monkeypatch=None):
@@ -54,22 +50,6 @@ def test_the_bound_of_a_second_event_holds():
     zero_load = solve_together(problem, (FORCE, "zero_load_displacement"), "quick")["zero_load_displacement"]
     assert zero_load.value == pytest.approx(ZERO_LOAD, abs=zero_load.u_num + 1e-8)
     assert zero_load.u_num < 1e-6
-
-
-def test_a_loss_of_two_edges_is_the_sum_of_both(monkeypatch):
-    """No mesh is fine at both ends of a hysteresis cycle, unless it scales."""
-    requested = []
-
-    def solved(problem, rows, accuracy):
-        requested.append(list(rows))
-        return {name: _solution(1e-8) for name in rows}
-
-    monkeypatch.setattr(solution_module, "_solved_together", solved)
-    two = SimpleNamespace(jumps=(("jump_in", "landing"), ("jump_out", "separated")))
-    monkeypatch.setattr(solution_module, "path_over_meshes", lambda problem, accuracy: two)
-    loss = solution_module._summed(GRADED, {"hysteresis_energy": TABLE["hysteresis_energy"]}, "default")
-    assert requested == [list(LOSSES)]
-    assert (loss["hysteresis_energy"].value, loss["hysteresis_energy"].u_num) == (2.0, 2e-8)
 
 
 @pytest.mark.heavy

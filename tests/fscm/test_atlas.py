@@ -13,15 +13,13 @@ from fscm.interpolation import fitting
 from fscm.interpolation.__main__ import main, nodes_in
 from fscm.interpolation.building import FACTOR, build, layouts, tail_bound
 from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, RELATIVE
-from fscm.interpolation.coordinates import BOX, LEAST_MU, MOST_MU, Coordinates
+from fscm.interpolation.coordinates import BOX, LEAST_MU, MOST_MU
 from fscm.interpolation.design import rounded, sobol
-from fscm.interpolation.fitting import Layout, least_squares
 from fscm.interpolation.storage import stored
 from tests.fscm.marks import heavy
 
 TABLES = Path(__file__).resolve().parents[2] / "results" / "baseline" / "atlas"
 JUMPS = [name for name, composition in QUANTITIES.items() if composition.jumps]
-PLAIN = Coordinates((0.0,) * 5, math.inf, math.inf)
 #: Seed of the random problems of the verification, which are uniform in n, k and the logarithm of mu.
 VERIFICATION_SEED = 13
 
@@ -208,7 +206,7 @@ def test_the_data_follow_from_the_table_of_nodes(names, monkeypatch):
         assert bound == pytest.approx(stored().bounds[key], rel=0.1)
 
 
-def test_the_commands_design_a_sweep_and_collect_its_results(tmp_path, capsys):
+def test_the_commands_design_a_sweep_and_collect_its_results(tmp_path):
     main(["design", str(tmp_path / "sweep.toml"), "2", "4", "8"])
     assert (tmp_path / "sweep.toml").read_text().count("{ n = ") == 8 + 6 + 4
     path = tmp_path / "results.csv"
@@ -224,24 +222,6 @@ def test_the_commands_design_a_sweep_and_collect_its_results(tmp_path, capsys):
     assert list(nodes.columns) == ["n", "k", "mu", "pull_off_force", "u_pull_off_force"]
     assert nodes.to_numpy()[1].tolist() == [2.0, 0.4, 1.0, 1.5, 1e-9]
     assert nodes["pull_off_force"].isna().tolist() == [True, False]
-    with pytest.raises(SystemExit) as stopped:
-        main([])
-    assert stopped.value.code == 2
-    assert "usage" in capsys.readouterr().err
-
-
-def test_a_deviation_is_that_of_the_fit_to_the_other_nodes(monkeypatch):
-    monkeypatch.setattr(fitting, "_RATES", (0.4,))
-    x = np.cos(np.pi * np.random.default_rng(7).uniform(size=40))
-    values = 1.0 / (1.5 + x)
-    fit = least_squares(x[:, None], values, np.ones(40), Layout(PLAIN, (1.0,), 1.0))
-    terms = np.exp(-0.4 * np.arange(fit.terms)) * np.polynomial.chebyshev.chebvander(x, fit.terms - 1)
-    gram = terms @ terms.T
-    gram = gram / (np.trace(gram) / 40) + fitting._RIDGE * np.eye(40)
-    remaining = np.arange(40) != 7
-    multipliers = np.linalg.solve(gram[np.ix_(remaining, remaining)], (values - values.mean())[remaining])
-    predicted = values.mean() + gram[7, remaining] @ multipliers
-    assert fit.deviations[7] == pytest.approx(values[7] - predicted, rel=1e-3, abs=1e-9)
 
 
 @pytest.mark.parametrize(("tail", "most"), [("normal", 0), ("uniform", 0), ("exponential", 40)])

@@ -164,15 +164,6 @@ def test_the_errors_of_the_tail_against_quadrature(law: Mie) -> None:
         )
 
 
-def test_the_gap_at_a_fold_includes_the_place_of_the_fold() -> None:
-    """At jump-in the gap is the parameter itself, exact where it is fixed: the fold's place has all of the error."""
-    model = Analysis(Problem(2.0, 0.4, 1.0))
-    errors = EventErrors(model.event("jump_in").value)
-    assert errors.parameter == "central_gap"
-    assert abs(errors.controlled("central_gap", "central_gap").mesh).sum() < 1e-15
-    assert model.parts("jump_in", "central_gap")["mesh"] > 1e-13
-
-
 @pytest.mark.parametrize(("parameter", "name"), [("displacement", "displacement"), ("gap", "central_gap")])
 def test_the_bounds_of_a_state_on_a_path_that_goes_on_in_another_parameter(parameter: str, name: str) -> None:
     """The same bound of the pull-off force, and one of the place that covers the distance to a finer mesh."""

@@ -75,12 +75,3 @@ def test_rings_are_refused_and_the_limit_is_named(compute):
         compute(problem)
     assert isinstance(refused.value, RingsForm)
     assert f"mu = {ring_limit(problem).mu:.4g}" in str(refused.value)
-
-
-@pytest.mark.heavy
-def test_below_the_limit_the_path_is_traced():
-    problem = rubber(100.0)
-    below = Problem(2, 0.0, 0.99 * ring_limit(problem).mu, graded=problem.graded)
-    force = solve(below, "pull_off_force")
-    assert 1.5 < force.value < 2.0
-    assert force.u_num < 1e-6

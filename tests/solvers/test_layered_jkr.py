@@ -35,7 +35,10 @@ STACKS = {
 }
 
 
-@pytest.mark.parametrize("coating", COATINGS, ids=str)
+FIRST, *OTHERS = COATINGS
+
+
+@pytest.mark.parametrize("coating", [FIRST, *(pytest.param(x, marks=pytest.mark.heavy) for x in OTHERS)], ids=str)
 def test_minima_of_stiff_coatings(coating) -> None:
     minima = minima_with_error(Stack((coating,), SOFT), WORK, RADIUS)
     radii, forces, by_rings = np.array(COATINGS[coating]).T
