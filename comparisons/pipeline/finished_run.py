@@ -138,7 +138,7 @@ def kept_texts(folder: Path, cases: Cases, gates: Gates | None) -> dict[Path, by
     return texts
 
 
-def _remove_stale(folder: Path, kept: Collection[Path], *, judged: bool) -> None:
+def _remove_stale(folder: Path, present: Collection[Path], *, judged: bool) -> None:
     """Remove files that an earlier run of the folder has written and that this one does not have."""
     try:
         written = read_record(folder / RECORD)["files"]
@@ -147,7 +147,7 @@ def _remove_stale(folder: Path, kept: Collection[Path], *, judged: bool) -> None
     for name in written:
         path = path_inside(folder, name)
         is_input = name in (GATES_TEXT, GRID_TEXT) or name.startswith(f"{INPUTS}/")
-        if (is_input and path not in kept) or name in COMPARISON_FILES or (is_of_verdicts(name) and not judged):
+        if (is_input and path not in present) or name in COMPARISON_FILES or (is_of_verdicts(name) and not judged):
             path.unlink(missing_ok=True)
 
 

@@ -328,9 +328,9 @@ def _computed(gates: list[Gate], cases: Cases, models: Sequence[str] | None) -> 
     """Return the standing gates without those whose cases verify the references: chosen models do not compute them."""
     if models is None or cases.tier is None:
         return gates
-    every = grids(cases.tier)
+    standing = grids(cases.tier)
     return [
         gate
         for gate in gates
-        if gate.candidate not in models or cases_of(gate, cases.grids, models) or not cases_of(gate, every, models)
+        if gate.candidate not in models or cases_of(gate, cases.grids, models) or not cases_of(gate, standing, models)
     ]

@@ -14,7 +14,7 @@ from comparisons.pipeline.inputs import Cases, RunInputs, domains_of, load_cases
 from comparisons.registry import identify
 from comparisons.runs.computation import checked_jobs, complete, folder_for
 from comparisons.runs.record import now
-from comparisons.runs.shards import Shard
+from comparisons.runs.shards import parse_shard, tasks_of_shard
 from comparisons.runs.workers import backend_of
 
 __all__ = ["run"]
@@ -101,15 +101,16 @@ def run(
     """
     checked_jobs(jobs)
     workers = backend_of(backend, scheduler)
-    part = None if shard is None else Shard.parse(shard)
+    if shard is not None:
+        parse_shard(shard)
     # Before anything is computed or written, every model is loaded and every text is read.
     inputs = _inputs(cases, gates, models, random, seed)
-    if part is not None and inputs.gates is not None:
-        raise ValueError(f"shard {part} of a run cannot be judged: only cases without gates are computed in shards")
+    if shard is not None and inputs.gates is not None:
+        raise ValueError(f"shard {shard} of a run cannot be judged: only cases without gates are computed in shards")
     started = now()
     target = folder_for(folder)
     kept_texts(target, inputs.cases, inputs.gates)
-    tasks = inputs.plan() if part is None else part.of(inputs.plan())
+    tasks = inputs.plan() if shard is None else tasks_of_shard(shard, inputs.plan())
     by_gates = inputs.cases.tier is not None and (models is not None or gates is not None)
     needed = (lambda rows: inputs.needed({row.key: row.status for row in rows})) if by_gates else None
     completed = complete(tasks, target, jobs, retry_failed, workers, needed)

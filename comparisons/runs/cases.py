@@ -211,7 +211,7 @@ def cases_text() -> str:
     return _DATA.joinpath("cases.toml").read_text(encoding="utf-8")
 
 
-def grids_for(every: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
+def grids_for(standing: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
     """Return the grids that a run computes: without those of verification if it has models of its own.
 
     Examples
@@ -219,7 +219,7 @@ def grids_for(every: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]
     >>> all(VERIFICATION not in grid.tags for grid in grids_for(grids("quick"), ["jkr"]))
     True
     """
-    return [grid for grid in every if models is None or VERIFICATION not in grid.tags]
+    return [grid for grid in standing if models is None or VERIFICATION not in grid.tags]
 
 
 def grids(tier: str) -> list[Grid]:

@@ -60,7 +60,7 @@ def is_row_of(task: Task | None, row: Row) -> bool:
     """Whether a stored row is that of a task: of the same problem, by the same version of an external model."""
     return (
         task is not None
-        and row.digest == task.digest
+        and row.digest == task.problem.digest
         and (task.external is None or task.external.version == row.model_version)
     )
 

@@ -38,11 +38,14 @@ def drop_changed(planned: Mapping[Key, Task], store: Store[Row]) -> dict[str, An
         tasks = sorted((planned[key] for key in stored if key[0] == model), key=lambda task: str(task.key))
         sample = random.Random(seed).sample(tasks, min(AT_MOST, len(tasks)))
         again = {task: evaluate_task(task) for task in sample}
-        differences = [_difference(task, stored[task.key], row) for task, row in again.items()]
-        if difference := next(filter(None, differences), ""):
+        differing = [task for task, row in again.items() if not same(stored[task.key], row)]
+        for task in differing[:1]:
             dropped = store.drop(lambda row, model=model: row.model == model)  # type: ignore[misc]
-            log(f"{model} has changed ({difference}): its stored results ({dropped}) are all computed again")
-        models[model] = {"same": not difference, "tasks": [task.as_json() for task in sample]}
+            log(
+                f"{model} has changed ({task.quantity} at {task.problem.label} was {_text(stored[task.key])} and is "
+                f"{_text(again[task])}): its stored results ({dropped}) are all computed again"
+            )
+        models[model] = {"same": not differing, "tasks": [task.as_json() for task in sample]}
     return {"seed": seed, "models": models} if models else None
 
 
@@ -67,10 +70,6 @@ def _same_curve(stored: tuple[list[float], list[float], float], now: tuple[list[
     ranges = np.ptp(before, axis=1, keepdims=True)
     distances = np.hypot(*((after - before) / np.where(ranges == 0, 1.0, ranges)))
     return bool((distances <= stored[2] + now[2]).all())
-
-
-def _difference(task: Task, stored: Row, now: Row) -> str:
-    return "" if same(stored, now) else f"{task.label} was {_text(stored)} and is {_text(now)}"
 
 
 def _text(row: Row) -> str:

@@ -150,9 +150,9 @@ class Store(Generic[_Item]):
         part = {"started": self._started, "code": self._code, **(environment or self._environment)}
         self._write([_Entry(item, json.dumps(part), time.perf_counter() - self._clock)])
 
-    def take(self, other: Store[_Item], wanted: Callable[[_Item], bool]) -> None:
+    def take(self, source: Store[_Item], wanted: Callable[[_Item], bool]) -> None:
         """Store items of another store, with the parts that computed them."""
-        self._write([entry for entry in other._entries.values() if wanted(entry.item)])
+        self._write([entry for entry in source._entries.values() if wanted(entry.item)])
 
     def drop(self, unwanted: Callable[[_Item], bool]) -> int:
         """Remove items; return how many."""

@@ -42,19 +42,9 @@ class Task:
         return self.model, self.quantity, *self.problem.key
 
     @property
-    def digest(self) -> str:
-        """Of its problem."""
-        return self.problem.digest
-
-    @property
     def problem_key(self) -> tuple[str, Problem]:
         """Model and problem: its quantities are computed together, from one path."""
         return self.model, self.problem
-
-    @property
-    def label(self) -> str:
-        """The quantity and the problem, for a sentence."""
-        return f"{self.quantity} at {self.problem.label}"
 
     def as_json(self) -> dict[str, Any]:
         """Return its form in the record of a run."""

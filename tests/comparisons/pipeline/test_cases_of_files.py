@@ -166,6 +166,11 @@ def test_a_comparison_has_the_problems(run, tmp_path):
     table = pd.read_csv(tmp_path / "compared" / "comparison.csv")
     assert table["kappa"].to_numpy() == pytest.approx(-0.25, abs=1e-9)
     assert table["problem"].isna().sum() == 1
+    # The keys beside their problem, the unit beside the value.
+    names = (
+        "quantity model n k mu nu problem solid.E value u_num unit reference reference_value u_reference kappa u_kappa"
+    )
+    assert [name.partition(" ")[0] for name in pd.read_csv(tmp_path / "compared" / "kappa.csv")] == names.split()
 
 
 @pytest.mark.parametrize("options", [[], ["--tier", "quick", "--gates", "x.toml"]])

@@ -1,6 +1,7 @@
 """Stored results: exact, ordered, and never half written."""
 
 import csv
+import errno
 import io
 import math
 import os
@@ -73,9 +74,9 @@ def test_the_tables_do_not_depend_on_the_order_of_completion(seed):
         for nu in POISSON_RATIOS
     ]
     refused = row("jkr", "force_curve", **REFUSED)
-    for made, ordered in ((frame, rows), (curve_frame, [*curves, refused])):
+    for table_of, ordered in ((frame, rows), (curve_frame, [*curves, refused])):
         shuffled = random.Random(seed).sample(ordered, len(ordered))
-        pd.testing.assert_frame_equal(made(shuffled), made(ordered))
+        pd.testing.assert_frame_equal(table_of(shuffled), table_of(ordered))
     table = curve_frame([*curves, refused])
     assert table["nu"].tolist()[:-1] == [nu for nu in POISSON_RATIOS for _ in range(POINTS)]
     assert table["x"].tolist()[:-1] == table["point"].tolist()[:-1] == list(range(POINTS)) * len(POISSON_RATIOS)
@@ -118,3 +119,13 @@ def test_paths_that_cannot_be_written_are_refused(tmp_path):
         with pytest.raises(ValueError, match=f"{path} cannot be written"):
             check(path)
     assert os.listdir(tmp_path) == ["file"]
+
+
+@pytest.mark.parametrize("check", [prepare_folder, lambda path: writable_file(path / "a.csv")])
+def test_no_other_path_helps_against_a_full_disk(tmp_path, monkeypatch, check):
+    def full(**options):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr("comparisons.runs.atomic_files.tempfile.TemporaryFile", full)
+    with pytest.raises(OSError, match=f"{tmp_path}.* cannot be written"):
+        check(tmp_path)

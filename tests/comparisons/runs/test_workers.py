@@ -4,17 +4,19 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from concurrent.futures import BrokenExecutor
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
 import threadpoolctl
 
+from comparisons.model import Result
 from comparisons.problem import Problem
 from comparisons.runs import computation, workers
 from comparisons.runs.computation import compute
-from comparisons.runs.tasks import Task, evaluate_task
+from comparisons.runs.tasks import Task, evaluate, evaluate_task
 from comparisons.runs.workers import LOST, each, processes
 
 
@@ -63,10 +65,17 @@ def test_processes_that_cannot_work_are_given_up(monkeypatch):
         list(each(end, ["always"] * 5, 2, lost=str))
 
 
+def nap(seconds):
+    time.sleep(seconds)
+    return os.getpid()
+
+
 def test_processes_end_with_the_call_also_those_at_work():
-    outputs = processes(threads, range(100), 2)
-    _, (process, _) = next(outputs)
+    outputs = processes(nap, [0, 600, 600], 2)
+    _, process = next(outputs)
+    started = time.monotonic()
     outputs.close()
+    assert time.monotonic() - started < 60
     with pytest.raises(ProcessLookupError):
         os.kill(process, 0)
 
@@ -129,6 +138,23 @@ def test_a_task_that_ends_its_process_costs_its_own_row():
     assert tried == [[2, 2], [1, 1]]
     assert [rows[task.key].status for task in TASKS] == ["failed", "not-applicable", "ok", "not-applicable"]
     assert rows[TASKS[0].key].reason == LOST
+
+
+@dataclass
+class Timed:
+    """A model that states the time of its computation."""
+
+    seconds: float
+    name, version, citation, domain = "timed", "1", "none", "tests"
+
+    def evaluate(self, problem, quantity):
+        return Result(1.0, 0.0, seconds=self.seconds)
+
+
+def test_the_time_of_a_row_is_that_of_the_model_or_else_measured():
+    sphere = Problem.dimensionless(2, 0, 1)
+    assert evaluate(Timed(7.0), "pull_off_force", sphere).seconds == 7.0
+    assert 0.0 < evaluate(Timed(0.0), "pull_off_force", sphere).seconds < 7.0
 
 
 def test_a_row_does_not_depend_on_what_its_process_computed_before():
