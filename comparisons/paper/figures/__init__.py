@@ -1,1 +1,1 @@
-"""Figures of the paper, one module each."""
+"""Figures of the paper and of the findings on it, those of the same data in one module."""

@@ -55,7 +55,7 @@ class Number(NamedTuple):
 
     value: float
     u: float
-    what: str
+    title: str
 
 
 class Evidence(NamedTuple):
@@ -96,7 +96,7 @@ class Evidence(NamedTuple):
     @property
     def is_read(self) -> bool:
         """Whether the limit reads a word."""
-        return self.limit.what == READING
+        return self.limit.title == READING
 
     @property
     def outcome(self) -> str:

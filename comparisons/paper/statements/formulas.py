@@ -60,8 +60,8 @@ def largest_psi(at: Place) -> Measured:
     low, high = (1e-6, float(where[2])) if where[0] == "up" else (float(where[1]), float(where[3]))
     s = np.geomspace(low, high, 2001)
     s = s if where[0] == "from" else np.concatenate([[0.0], s])
-    what = f"largest |Psi_k| for s {' '.join(where)}, k = {at.k:g}"
-    return np.abs(fscm.Psi(at.k, s)).max(), _KERNEL_ROUNDING, what
+    title = f"largest |Psi_k| for s {' '.join(where)}, k = {at.k:g}"
+    return np.abs(fscm.Psi(at.k, s)).max(), _KERNEL_ROUNDING, title
 
 
 @_formula("")

@@ -132,8 +132,8 @@ def _share(row: Evidence) -> float:
 def _sentence(row: Evidence) -> str:
     limit = _number(row.limit.value, row.limit.u)
     compared = f"{_number(row.value.value, row.value.u)} {row.relation} {limit} {row.outcome}"
-    against = "" if row.is_read or not row.limit.what else f" against {row.limit.what}"
-    return f"{row.model}: {row.value.what}{against}: {compared}"
+    against = "" if row.is_read or not row.limit.title else f" against {row.limit.title}"
+    return f"{row.model}: {row.value.title}{against}: {compared}"
 
 
 def _number(value: float, u: float) -> str:
@@ -149,13 +149,13 @@ def _evidence_frame(statement: str, evidence: Iterable[Evidence]) -> pd.DataFram
             "own_case": row.own,
             "beyond_paper": row.beyond,
             "model": row.model,
-            "what": row.value.what,
+            "what": row.value.title,
             "value": row.value.value,
             "u_value": row.value.u,
             "relation": row.relation,
             "limit": row.limit.value,
             "u_limit": row.limit.u,
-            "limit_what": row.limit.what,
+            "limit_what": row.limit.title,
             "comparisons": row.comparisons,
             "outcome": row.outcome,
         }

@@ -53,20 +53,20 @@ def _limit(test: Test) -> Number:
     return Number(float(test.get("limit", test.get("within"))), 0.0, test["of"] if "limit" in test else READING)
 
 
-def _compared(test: Test, family: Family, values: list[Number], others: list[Number]) -> list[Evidence]:
+def _compared(test: Test, family: Family, values: list[Number], limits: list[Number]) -> list[Evidence]:
     """The value is on one side of a limit, or of another value."""
-    limits = others or [_limit(test)]
-    return [Evidence(family.clause, family.model, values[0], test.get("relation", "<"), limits[0])]
+    (limit,) = limits or [_limit(test)]
+    return [Evidence(family.clause, family.model, values[0], test.get("relation", "<"), limit)]
 
 
-def _ordered(test: Test, family: Family, values: list[Number], others: list[Number]) -> list[Evidence]:
+def _ordered(test: Test, family: Family, values: list[Number], limits: list[Number]) -> list[Evidence]:
     """The value rises or falls along one parameter."""
     relation = {"rises": ">", "falls": "<"}[test["direction"]]
     pairs = pairwise(values) if test.get("neighbours") else combinations(values, 2)
     return [Evidence(family.clause, family.model, later, relation, earlier) for earlier, later in pairs]
 
 
-def _vanishing(test: Test, family: Family, values: list[Number], others: list[Number]) -> list[Evidence]:
+def _vanishing(test: Test, family: Family, values: list[Number], limits: list[Number]) -> list[Evidence]:
     """The values vanish along a parameter, in its order."""
     return vanishes(family.clause, values, _limit(test), family.model)
 
@@ -93,8 +93,8 @@ def judged_by(test: Test) -> Plan[list[Evidence]]:
     )
     rows: list[Evidence] = []
     for family in families:
-        values, *others = ([numbers[text, family.model, case] for case in family.cases] for text in terms)
-        rows += _KINDS[test["kind"]](test, family, values, others[0] if others else [])
+        values, *limits = ([numbers[text, family.model, case] for case in family.cases] for text in terms)
+        rows += _KINDS[test["kind"]](test, family, values, limits[0] if limits else [])
     if test.get("largest"):
         return [max(rows, key=lambda row: row.value.value)._replace(comparisons=len(rows))]
     return rows
@@ -112,21 +112,21 @@ def extrapolated(earliest: Number, second: Number, third: Number) -> Number:
     0.3
     """
     bend = earliest.value + third.value - 2.0 * second.value
-    what = f"limit of the sequence that ends with {third.what}"
+    title = f"limit of the sequence that ends with {third.title}"
     if bend == 0.0:
-        return Number(third.value, third.u, what)
+        return Number(third.value, third.u, title)
     limit = (earliest.value * third.value - second.value**2) / bend
     # Derivatives by the three members.
     parts = (third.value - limit, 2.0 * (limit - second.value), earliest.value - limit)
     u = sum(abs(slope / bend) * member.u for slope, member in zip(parts, (earliest, second, third), strict=True))
-    return Number(limit, u, what)
+    return Number(limit, u, title)
 
 
 def vanishes(clause: str, values: Sequence[Number], limit: Number, model: str = "fscm") -> list[Evidence]:
     """Compare the size of every number with that of the one before it, and their extrapolated limit with a number."""
 
     def size(value: Number, of: str) -> Number:
-        return Number(abs(value.value), value.u, f"size of {of}{value.what}")
+        return Number(abs(value.value), value.u, f"size of {of}{value.title}")
 
     sizes = [size(value, "") for value in values]
     rows = [Evidence(clause, model, later, "<", earlier) for earlier, later in pairwise(sizes)]
@@ -148,12 +148,12 @@ def alike(test: Test) -> Plan[list[Evidence]]:
         lacking = [case for case in cases if results[model, case]["status"] == "not-applicable"]
         having = [case for case in cases if case not in lacking]
         if lacking and having:
-            result, what = results[model, having[0]], f"{title_of(name)}, {label(having[0])}"
-            value = Number(result["value"], result["u_num"], what)
+            result, title = results[model, having[0]], f"{title_of(name)}, {label(having[0])}"
+            value = Number(result["value"], result["u_num"], title)
             limit = Number(0.0, 0.0, f"no jump at k = {', '.join(f'{dict(case)[along]:g}' for case in lacking)}")
         else:
-            what = f"gradient exponents unlike the others, {clause}: {len(having)} of {len(cases)} have jumps"
-            value, limit = Number(0.0, 0.0, what), Number(1.0, 0.0, "one of them")
+            title = f"gradient exponents unlike the others, {clause}: {len(having)} of {len(cases)} have jumps"
+            value, limit = Number(0.0, 0.0, title), Number(1.0, 0.0, "one of them")
         rows.append(Evidence(clause, model, value, "<", limit))
     return rows
 

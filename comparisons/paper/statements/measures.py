@@ -128,9 +128,9 @@ def measured(text: str, reference: str, case: Case) -> Plan[Number]:
     """Plan the number of a term, as ``relative_error pull_off_force jkr``, by a reference in a case."""
     (title, _, needs, function), arguments = _measure_of(text)
     at = Place(reference, case, arguments)
-    made = yield from together({index: need(at) for index, need in enumerate(needs)})
-    value, u, *what = function(at, *made.values())
-    return Number(float(value), float(u), what[0] if what else f"{at.text(title)}, {at.label}")
+    results = yield from together({index: need(at) for index, need in enumerate(needs)})
+    value, u, *titles = function(at, *results.values())
+    return Number(float(value), float(u), titles[0] if titles else f"{at.text(title)}, {at.label}")
 
 
 def named(n: float, k: float, mu: float) -> Case:
@@ -166,12 +166,12 @@ def _quantity(at: Place) -> Plan[Any]:
 def quantity_of(at: Place, result: dict[str, Any]) -> Measured:
     """A quantity of the reference, or of another model."""
     name = at.arguments[0]
-    what = f"{title_of(name)}, {at.label}"
+    title = f"{title_of(name)}, {at.label}"
     if name in result:
-        return result[name], result[f"u_{name}"], what
+        return result[name], result[f"u_{name}"], title
     if result["status"] != "ok":
-        return np.nan, np.nan, f"{what}: {result['reason']}"
-    return result["value"], result["u_num"], what
+        return np.nan, np.nan, f"{title}: {result['reason']}"
+    return result["value"], result["u_num"], title
 
 
 @measure("displacement at jump-in minus that at jump-out", term("jump_in_displacement"), term("jump_out_displacement"))
@@ -188,7 +188,7 @@ def jump_in_deformation(at: Place, gap: Number, displacement: Number) -> Measure
 
 @measure("", term("{0}"))
 def size(at: Place, number: Number) -> Measured:
-    return abs(number.value), number.u, f"size of {number.what}"
+    return abs(number.value), number.u, f"size of {number.title}"
 
 
 def signed(value: Number, exact: Number) -> tuple[float, float]:
@@ -214,27 +214,27 @@ def _exact(at: Place) -> Plan[Number]:
 
 @measure("", term("{0} {1}"), _exact)
 def signed_error(at: Place, value: Number, exact: Number) -> Measured:
-    what = f"relative error of {at.arguments[1]} against {_against(at)}: {value.what}"
-    return *signed(value, exact), what
+    title = f"relative error of {at.arguments[1]} against {_against(at)}: {value.title}"
+    return *signed(value, exact), title
 
 
 @measure("", term("{0} {1}"), _exact)
 def relative_error(at: Place, value: Number, exact: Number) -> Measured:
-    kappa, u, what = signed_error(at, value, exact)
-    return abs(kappa), u, what
+    kappa, u, title = signed_error(at, value, exact)
+    return abs(kappa), u, title
 
 
 @measure("", term("{0} {1}"), term("{0}"))
 def difference(at: Place, value: Number, exact: Number) -> Measured:
-    what = f"difference of {at.arguments[1]} from {at.reference}: {value.what}"
-    return exact.value - value.value, exact.u + value.u, what
+    title = f"difference of {at.arguments[1]} from {at.reference}: {value.title}"
+    return exact.value - value.value, exact.u + value.u, title
 
 
 @measure("", term("{0}"), term("{0}", k=lambda _: 0.0))
 def gradient_error(at: Place, graded: Number, homogeneous: Number) -> Measured:
     """Deviation from the homogeneous solid of the same Tabor number."""
     kappa, u = signed(graded, homogeneous)
-    return abs(kappa), u, f"relative error of the graded solid against k = 0: {graded.what}"
+    return abs(kappa), u, f"relative error of the graded solid against k = 0: {graded.title}"
 
 
 @measure("", term("{0}"), term("{0}", mu=lambda mu: 2.0 * mu))
@@ -259,5 +259,5 @@ def _critical(at: Place) -> Plan[Any]:
 @measure("", _critical)
 def critical_difference(at: Place, critical: dict[str, Any]) -> Measured:
     printed = float(at.arguments[0])
-    what = f"difference of the critical Tabor number {critical['value']:.6f} from {printed:g}"
-    return abs(critical["value"] - printed), critical["u_num"], what
+    title = f"difference of the critical Tabor number {critical['value']:.6f} from {printed:g}"
+    return abs(critical["value"] - printed), critical["u_num"], title

@@ -1,1 +1,1 @@
-"""Studies beyond the paper: error maps, error bands, surface modulus."""
+"""Studies beyond the paper: error maps, solids that are no power law."""

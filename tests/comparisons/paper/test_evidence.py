@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from comparisons.paper.statements import paths, surfaces
 from comparisons.paper.statements.evidence import (
     FAILS,
     FALSE,
@@ -26,8 +27,8 @@ from comparisons.paper.statements.kinds import extrapolated, vanishes
 from comparisons.paper.statements.paths import count_jumps, turning_points
 
 
-def comparison(value, limit=0.0, u=0.0, u_limit=0.0, relation="<", model="fscm", clause="n = 2", what="other"):
-    return Evidence(clause, model, Number(value, u, "value"), relation, Number(limit, u_limit, what))
+def comparison(value, limit=0.0, u=0.0, u_limit=0.0, relation="<", model="fscm", clause="n = 2", title="other"):
+    return Evidence(clause, model, Number(value, u, "value"), relation, Number(limit, u_limit, title))
 
 
 @pytest.mark.parametrize(
@@ -52,7 +53,7 @@ def test_each_clause_model_and_kind_of_limit_keeps_the_largest_failure_before_wh
     (decisive,) = by_clause(rows)
     assert (decisive.value.value, decisive.outcome, decisive.comparisons) == (2.0, FAILS, 4)
     assert [row.outcome for row in by_clause(rows[:2])] == [UNDECIDED]
-    more = [comparison(-2.0, clause="n = 1"), comparison(-3.0, model="fem"), comparison(-4.0, what=READING)]
+    more = [comparison(-2.0, clause="n = 1"), comparison(-3.0, model="fem"), comparison(-4.0, title=READING)]
     assert [row.value.value for row in by_clause([*rows, *more])] == [2.0, -2.0, -3.0, -4.0]
     with pytest.raises(ValueError, match="no comparison"):
         by_clause([])
@@ -74,9 +75,10 @@ def test_a_failure_needs_both_references(values, outcome):
     assert clauses(comparison(value, model=model) for model, value in values.items()) == {"n = 2": outcome}
 
 
-def read(*values, limit=2.0, relation="<", u=0.0, what=READING):
+def read(*values, limit=2.0, relation="<", u=0.0, title=READING):
     return [
-        comparison(value, limit, u, relation=relation, clause=f"mu = {i}", what=what) for i, value in enumerate(values)
+        comparison(value, limit, u, relation=relation, clause=f"mu = {i}", title=title)
+        for i, value in enumerate(values)
     ]
 
 
@@ -90,7 +92,7 @@ def read(*values, limit=2.0, relation="<", u=0.0, what=READING):
         # Within its bound nothing is decided.
         (read(3.0, u=0.5), {TRUE: 1.75}),
         (read(1e-9, u=1.0), {}),
-        (read(1.0, what="another computed number"), {}),
+        (read(1.0, title="another computed number"), {}),
     ],
 )
 def test_the_nearest_factor_of_every_other_verdict(evidence, expected):
@@ -105,7 +107,7 @@ def test_the_nearest_factor_of_every_other_verdict(evidence, expected):
 )
 def test_a_factor_is_rounded_away_from_one(value, text):
     assert flips_text(read(value, u=1.0 if value < 1.0 else 0.0)) == text
-    assert flips_text(read(1.0, what="")) == ""
+    assert flips_text(read(1.0, title="")) == ""
 
 
 def sequence(function, u=0.0):
@@ -155,6 +157,35 @@ def test_only_what_falls_to_zero_vanishes(function, u, outcomes):
 )
 def test_turns_and_jumps_are_those_that_a_machine_sees(corners, turns, jumps):
     path = np.interp(np.linspace(0, len(corners) - 1, 20 * len(corners)), range(len(corners)), corners)
-    # Ripples within twice the bound are no turns.
-    ripples = 1e-3 * np.sin(60.0 * np.arange(len(path)))
-    assert (len(turning_points(path + ripples, 2e-3)), count_jumps(path + ripples, 2e-3)) == (turns, jumps)
+    assert (len(turning_points(path, 2e-3)), count_jumps(path, 2e-3)) == (turns, jumps)
+
+
+def test_a_fall_within_twice_the_bound_is_no_turn():
+    falls = [turning_points(np.array([0.0, 1.0, 1.0 - fall, 2.0]), 0.1) for fall in (0.15, 0.25)]
+    assert falls == [[], [1, 2]]
+
+
+def test_measures_of_a_surface():
+    """Its edge is at r = 2, its pile-up at r = 2, and the gap is linear inside."""
+    columns = {
+        "radius": [0.0, 1.0, 2.0, 3.0],
+        "deformation": [0.5, 0.2, -0.3, -0.1],
+        "pressure": [1.0, 0.0, -1.0, -0.5],
+        "gap": [-0.2, 0.0, 0.2, 1.0],
+    }
+    shape = {name: np.array(values) for name, values in columns.items()}
+    shape |= {f"u_{name}": np.full(4, 1e-3) for name in columns}
+    assert surfaces.pile_up_height(None, shape) == pytest.approx((0.8, 2e-3))
+    assert surfaces.centre_deformation(None, shape) == pytest.approx((0.5, 1e-3))
+    assert surfaces.pile_up_distance(None, shape) == pytest.approx((0.0, 0.5))
+    assert surfaces.step_outside(None, shape) == pytest.approx((0.2, 2e-3))
+    mean, u = surfaces.gap_inside(None, shape)
+    assert mean == pytest.approx(0.1, abs=u)
+
+
+def test_measures_of_a_path():
+    path = {"central_gap": [20.0, 10.0, 0.0], "displacement": [-19.0, -9.8, 0.0], "load": [-0.1, -0.2, -2.0]}
+    path |= {"u_displacement": 1e-3, "u_load": 1e-3}
+    assert paths.gap_step(None, path) == (-10.0, 2e-3)
+    assert paths.far_deformation(None, path) == pytest.approx((0.05, 1e-4))
+    assert paths.far_load(None, path) == pytest.approx((0.1, 1e-3))
