@@ -8,7 +8,7 @@ problem n = 2, k = 0 with the Tabor number mu, and a force of pi is one unit of 
 from __future__ import annotations
 
 import math
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import distributions
 from importlib.util import find_spec
 
 import numpy as np
@@ -43,13 +43,8 @@ def installed() -> bool:
 
 def versions() -> dict[str, str]:
     """Return the versions of the package and of those below it, as far as they are installed."""
-    numbers = {}
-    for name in _DISTRIBUTIONS:
-        try:
-            numbers[name] = version(name)
-        except PackageNotFoundError:
-            continue
-    return numbers
+    numbers = {distribution.name.lower(): distribution.version for distribution in distributions()}
+    return {name: numbers[name.lower()] for name in _DISTRIBUTIONS if name.lower() in numbers}
 
 
 def pull_off(mu: float, half_width: float, points: int, displacement: float) -> tuple[float, int]:

@@ -14,7 +14,7 @@ from comparisons.bench.part import Numbers, Settings
 from fscm.problem import Problem
 from fscm.stieltjes import StieltjesScheme, find_event
 
-__all__ = ["FSCM_ACCURACIES", "edge_width", "measure", "setting_text", "solved"]
+__all__ = ["FSCM_ACCURACIES", "edge_width", "measure", "solved"]
 
 #: Relative errors that `fscm` accepts, from the coarsest to the finest.
 FSCM_ACCURACIES = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
@@ -38,24 +38,6 @@ def measure(settings: Settings) -> Numbers:
         ``half_width`` and ``points`` (adhesion).
     """
     return _MODELS[settings["model"]](settings)
-
-
-def setting_text(settings: Settings) -> str:
-    """Return in words with which setting of its solver a problem is solved.
-
-    Examples
-    --------
-    >>> setting_text({"model": "fscm-stieltjes", "segments": 2500}), setting_text({"model": "fscm", "accuracy": 1e-6})
-    ('N = 2500', '1e-06')
-    """
-    accuracy = settings.get("accuracy")
-    texts = {
-        "fscm-stieltjes": "N = {segments:.0f}",
-        "adhesion": "{points:.0f} x {points:.0f}",
-    }
-    return texts.get(settings["model"], "{accuracy}" if isinstance(accuracy, str) else "{accuracy:.0e}").format(
-        **settings
-    )
 
 
 def _problem(settings: Settings, repetition: int = 0) -> Problem:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from comparisons.bench import adhesion_package
 from comparisons.bench.drawing import Panel, lines
 from comparisons.bench.part import Part, Settings
-from comparisons.bench.pull_off import FSCM_ACCURACIES, measure, setting_text
+from comparisons.bench.pull_off import FSCM_ACCURACIES, measure
 
 __all__ = ["CERTIFIED", "WORK_PRECISION", "time_ratios"]
 
@@ -39,11 +39,11 @@ def plan(full: bool) -> list[Settings]:
     """Return the solvers with all their settings."""
     squares = _SQUARES if adhesion_package.installed() else ()
     solvers: list[Settings] = [
-        *({"model": "fscm", "accuracy": accuracy} for accuracy in FSCM_ACCURACIES),
-        *({"model": "fem", "accuracy": name} for name in _ELEMENTS),
-        *({"model": "fscm-stieltjes", "segments": segments} for segments in _SEGMENTS),
+        *({"model": "fscm", "setting": f"{accuracy:.0e}", "accuracy": accuracy} for accuracy in FSCM_ACCURACIES),
+        *({"model": "fem", "setting": name, "accuracy": name} for name in _ELEMENTS),
+        *({"model": "fscm-stieltjes", "setting": f"N = {segments}", "segments": segments} for segments in _SEGMENTS),
         *(
-            {"model": "adhesion", "half_width": half_width, "points": points}
+            {"model": "adhesion", "setting": f"{points} x {points}", "half_width": half_width, "points": points}
             for half_width, points in (squares if full else squares[:-1])
         ),
     ]
@@ -56,13 +56,12 @@ def plan(full: bool) -> list[Settings]:
 
 
 def ratios(rows: pd.DataFrame) -> pd.DataFrame:
-    """Add to every row its setting in words, its error, the bound of the reference, and the ratio to `fscm`.
+    """Add to every row its error, the bound of the reference, and the ratio to `fscm`.
 
     ``error`` is the distance from the reference relative to it; it is only known to within ``u_reference``.  ``ratio``
     is CPU time over that of the fastest `fscm` whose error is certainly smaller; missing where there is none.
     """
     rows = rows.copy()
-    rows.insert(rows.columns.get_loc("model") + 1, "setting", [setting_text(row) for row in rows.to_dict("records")])
     is_reference = (rows["model"] == "fscm") & (rows["accuracy"] == min(FSCM_ACCURACIES)) & (rows["status"] == "ok")
     references = rows[is_reference].set_index("mu")
     value, bound = (rows["mu"].map(references[name]) for name in ("value", "u_num"))
