@@ -17,17 +17,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from comparisons.problem.problem import Problem
 
-__all__ = [
-    "FARTHEST_GAP",
-    "ComputationFailed",
-    "Curve",
-    "HasCurve",
-    "HasProfile",
-    "Model",
-    "NotApplicable",
-    "RadialField",
-    "Result",
-]
+__all__ = ["ComputationFailed", "Curve", "HasCurve", "HasProfile", "Model", "NotApplicable", "RadialField", "Result"]
 
 Array = NDArray[np.float64]
 

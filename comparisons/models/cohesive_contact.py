@@ -236,8 +236,8 @@ class CohesiveContact:
         log_theta = -0.5 * np.logaddexp(0.0, 2.0 * w)
         alpha2, theta2 = np.exp(2.0 * log_alpha), np.exp(2.0 * log_theta)
         weight = rule.weight
-        log_rest = rule.log_z / p if p > 0.0 else np.full_like(rule.log_z, -np.inf)
-        rest, y = np.exp(log_rest), -np.expm1(log_rest)
+        log_remainder = rule.log_z / p if p > 0.0 else np.full_like(rule.log_z, -np.inf)
+        remainder, y = np.exp(log_remainder), -np.expm1(log_remainder)
         xi2 = alpha2[:, None] + theta2[:, None] * y
         q = alpha2[:, None] / xi2
         with np.errstate(divide="ignore"):
@@ -249,8 +249,8 @@ class CohesiveContact:
         half_lift = 0.5 * self.lift
         front = half_lift * self.punch.stiffness * np.exp(2.0 * s * log_theta)
         # The slopes are those of front * integral; d log(front)/dw = -2 s alpha^2 sits in their first term.
-        drift = -2.0 * s * (alpha2[:, None] + theta2[:, None] * q * rest)
-        gain, loss = n * theta2[:, None] * (rise * q * rest), drift * excess - n * theta2[:, None] * alpha_n
+        drift = -2.0 * s * (alpha2[:, None] + theta2[:, None] * q * remainder)
+        gain, loss = n * theta2[:, None] * (rise * q * remainder), drift * excess - n * theta2[:, None] * alpha_n
         # The stress coefficient multiplies T ~ theta^(2s) once more.
         stress_drift = drift - 2.0 * s * alpha2[:, None]
         xi_load = (alpha2[:, None] + theta2[:, None] * rule.complement) ** -s

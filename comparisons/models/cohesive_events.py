@@ -193,8 +193,8 @@ def _end_of_scan(contact: CohesiveContact) -> float:
     """
     punch = contact.punch
     n, k, s = punch.n, punch.k, punch.s
-    first = contact.at(np.array([-np.inf]))
-    zone = -float(first.load[0])
+    touching = contact.at(np.array([-np.inf]))
+    zone = -float(touching.load[0])
     jkr = 2.0 * punch.stiffness * punch.adhesion / (1.0 + k) / punch.hertz_load
     log_a = np.log(jkr) / (n - s)
     if zone > 0.0:  # it underflows as k -> 1 with Lambda > 1

@@ -184,14 +184,14 @@ def _gap_part(contact: CohesiveContact, state: ContactState, start: float, end: 
     n, s = punch.n, punch.s
     a, c, L = _radii(state)
     width = L if (start, end) == (a, c) else float(np.sqrt((end - start) * (end + start)))
-    log_rest = FINE.log_z / s
-    rest, y = np.exp(log_rest), -np.expm1(log_rest)
+    log_remainder = FINE.log_z / s
+    remainder, y = np.exp(log_remainder), -np.expm1(log_remainder)
     x2 = start**2 + width**2 * y
     lift = np.full_like(y, contact.amplitude(L))
     if start < c:
         share = (width / L) ** 2
-        lift *= contact.opening((c - end) * (c + end) / L**2 + share * rest, share * y)
+        lift *= contact.opening((c - end) * (c + end) / L**2 + share * remainder, share * y)
     excess = punch.flattening * (x2 ** (0.5 * n) - a**n) + lift
     beyond = (r - end) * (r + end) / width**2
-    kernel = (rest / (beyond + rest)) ** (1.0 - s) if beyond > 0.0 else 1.0
+    kernel = (remainder / (beyond + remainder)) ** (1.0 - s) if beyond > 0.0 else 1.0
     return float(punch.stiffness * width ** (2.0 * s) * ((kernel * x2**-s * excess) @ FINE.weight))

@@ -72,10 +72,10 @@ def gibson_curve(problem: Problem) -> Curve:
     )
 
 
-def _between(first: float, last: float) -> list[float]:
-    """Gaps from `first` to `last`, both exactly, closer where the gap is smaller."""
-    gaps = np.geomspace(1.0 + first, 1.0 + last, _POINTS) - 1.0
-    return [first, *map(float, gaps[1:-1]), last]
+def _between(start: float, end: float) -> list[float]:
+    """Gaps from `start` to `end`, both exactly, closer where the gap is smaller."""
+    gaps = np.geomspace(1.0 + start, 1.0 + end, _POINTS) - 1.0
+    return [start, *map(float, gaps[1:-1]), end]
 
 
 def _end(solid: GibsonSolid, entry: float) -> float:
@@ -99,18 +99,18 @@ def gibson_profile(problem: Problem) -> RadialField:
     solid = GibsonSolid(problem)
     local = LocalEquilibrium(problem.law, problem.compliance)
     delta = solid.solution("pull_off_displacement").value
-    near, far = local.near(-delta), local.far(-delta)
-    in_contact = local.front is not None and -delta < local.front.level and solid.load(near) <= solid.load(far)
+    inner, outer = local.near(-delta), local.far(-delta)
+    in_contact = local.front is not None and -delta < local.front.level and solid.load(inner) <= solid.load(outer)
     if local.front and in_contact:
-        gap = np.concatenate([_towards(near, local.front.near), _towards(local.front.far, _FARTHEST_GAP)])
+        gap = np.concatenate([_towards(inner, local.front.near), _towards(local.front.far, _FARTHEST_GAP)])
     else:
-        gap = _towards(far, _FARTHEST_GAP)
+        gap = _towards(outer, _FARTHEST_GAP)
     level = np.array([local.level(float(H)) for H in gap])
     radius = (problem.n * np.maximum(level + delta, 0.0)) ** (1.0 / problem.n)
     # The two levels of the front are one, but for rounding.
     return RadialField(np.maximum.accumulate(radius), problem.law.traction(gap), gap, _U_DISTANCE, _U_DISTANCE)
 
 
-def _towards(first: float, last: float) -> Array:
-    """Gaps from `first` to `last`, closer at the first, where the radius rises steeply with the gap."""
-    return first + (last - first) * np.linspace(0.0, 1.0, _POINTS) ** 2
+def _towards(start: float, end: float) -> Array:
+    """Gaps from `start` to `end`, closer at the start, where the radius rises steeply with the gap."""
+    return start + (end - start) * np.linspace(0.0, 1.0, _POINTS) ** 2

@@ -76,13 +76,13 @@ class JumpAsymptotes(ClosedForm):
                 f"at mu = {problem.mu:g} the asymptote of the jump-in, {jump_in:.4g}, is not above that of the "
                 f"jump-out, {jump_out:.4g}: there is no cycle between them"
             )
-        far, far_scale = _far_energy(problem, jump_out)
-        near, near_scale = _contact_energy(GradedPunch(n, k), jump_in / problem.mu)
+        approach, approach_scale = _far_energy(problem, jump_out)
+        contact, contact_scale = _contact_energy(GradedPunch(n, k), jump_in / problem.mu)
         scale = GradedPunch(n, k).scales(problem.mu)
         unit = scale.load * scale.displacement
         # The ends are folds or roots to rounding; their errors count by the load there, which the scales contain.
-        rounding = 4.0 * FACTOR_ROUNDING * (far_scale + unit * near_scale)
-        return Result(far - unit * near, rounding)
+        rounding = 4.0 * FACTOR_ROUNDING * (approach_scale + unit * contact_scale)
+        return Result(approach - unit * contact, rounding)
 
 
 def _far_energy(problem: Problem, jump_out: float) -> tuple[float, float]:
@@ -110,18 +110,18 @@ def _contact_energy(punch: GradedPunch, jump_in: float) -> tuple[float, float]:
     n, k, s = punch.n, punch.k, punch.s
     D, K = punch.flattening, punch.adhesion
     pull = punch.stiffness * K / (1.0 + k)
-    first = (s * K / (n * D)) ** (1.0 / (n - s)) if s > 0.0 else 0.0
+    fold = (s * K / (n * D)) ** (1.0 / (n - s)) if s > 0.0 else 0.0
 
     def distance(a: float) -> float:
         return D * a**n - K * a**s - jump_in
 
-    last = 2.0 * max(first, 1.0)
-    while distance(last) < 0.0:
-        last *= 2.0
-    a = float(scipy.optimize.brentq(distance, first, last, xtol=4.0 * EPS, rtol=4.0 * EPS))
+    upper = 2.0 * max(fold, 1.0)
+    while distance(upper) < 0.0:
+        upper *= 2.0
+    a = float(scipy.optimize.brentq(distance, fold, upper, xtol=4.0 * EPS, rtol=4.0 * EPS))
     heavy, light = n + k + 1.0, s + k + 1.0
     terms = [
-        sign * factor * _power_integral(first, a, power)
+        sign * factor * _power_integral(fold, a, power)
         for sign, factor, power in (
             (1.0, punch.hertz_load * n * D, heavy + n),
             (-1.0, punch.hertz_load * s * K, heavy + s),

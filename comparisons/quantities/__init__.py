@@ -2,20 +2,9 @@
 
 from __future__ import annotations
 
-from comparisons.quantities.quantity import Axis, CurveQuantity, Kind, Points, Quantity, ScalarQuantity
+from comparisons.quantities.quantity import Axis, CurveQuantity, Kind, Points, ScalarQuantity
 
-__all__ = [
-    "ALL_QUANTITIES",
-    "CURVES",
-    "QUANTITIES",
-    "Axis",
-    "CurveQuantity",
-    "Kind",
-    "Points",
-    "Quantity",
-    "ScalarQuantity",
-    "title_of",
-]
+__all__ = ["ALL_QUANTITIES", "CURVES", "QUANTITIES", "CurveQuantity", "Kind", "Points", "ScalarQuantity", "title_of"]
 
 _DISPLACEMENT = Axis("displacement", "δ", "displacement", "displacement", "δ / z₀", r"\delta / z_0")
 _RADIUS = Axis("radius", "r", "radius", "radius", "r / (Q z₀)^(1/n)", r"r / (Q z_0)^{1/n}")

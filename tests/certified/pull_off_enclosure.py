@@ -105,8 +105,8 @@ def minimum(states: ApproximateStates, bounds: list[PanelBounds], eta: float) ->
         slope = abs(centre.first).upper()
         # A comparison with a number that is not finite is False.
         if not (centre.load.is_finite() and m > 0 and slope < m * arb(eta)):
-            shown = f"P' = {centre.first.str(5)}, P'' = {interval.second.str(5)}"
-            raise NotProved(f"no change of the sign of P' is proved: {shown}")
+            slopes = f"P' = {centre.first.str(5)}, P'' = {interval.second.str(5)}"
+            raise NotProved(f"no change of the sign of P' is proved: {slopes}")
         return PullOff(
             force=-centre.load.union(centre.load - slope * slope / (2 * m)),
             displacement=arb(states.delta) + arb(0, (slope / m).upper()),

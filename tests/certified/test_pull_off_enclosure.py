@@ -59,11 +59,11 @@ def test_a_smaller_degree_proves_fewer_digits_of_the_same_value(states, bounds):
 
 def test_the_interval_contains_the_states_inside_it_and_is_not_loose(states, bounds):
     """Load and derivatives of a state near the end of the interval; W against the polynomial in delta at points."""
-    whole = enclose(states, bounds, arb(ETA), arb(1e-5))
+    interval = enclose(states, bounds, arb(ETA), arb(1e-5))
     inside = approximate_states(FORM, states.delta + 0.9 * ETA)
     point = enclose(inside, panel_bounds(inside, COUNT), arb(0), TUBE)
     for name in ("load", "first", "second"):
-        assert getattr(whole, name).contains(getattr(point, name))
+        assert getattr(interval, name).contains(getattr(point, name))
     with ctx.workprec(200):
         t = arb(inside.delta) - arb(states.delta)
         series = zip(inside.traction, states.traction, states.first, states.second, strict=True)
@@ -73,7 +73,7 @@ def test_the_interval_contains_the_states_inside_it_and_is_not_loose(states, bou
             for j in range(-20, 21)
         ]
     # Measured: 0.03 of the bound.
-    assert whole.distance / 70 < max(values) < whole.distance
+    assert interval.distance / 70 < max(values) < interval.distance
 
 
 def test_a_bad_approximation_widens_the_ball_but_does_not_move_it_off_the_value(states, bounds):

@@ -54,8 +54,8 @@ def test_the_bounds_of_a_panel_cover_its_points(states, bounds, index):
     panel, bound = panels(COUNT)[index], bounds[index]
     largest = [arb(0)] * 3
     with ctx.workprec(BITS):
-        for place in map(arb, PLACES):
-            x = panel.centre + panel.half * place
+        for t in map(arb, PLACES):
+            x = panel.centre + panel.half * t
             Pi, gap, W = along(states, x)
             defect = Pi - law(x, gap)
             for order, factor in enumerate((1, 1, 2)):
@@ -79,8 +79,8 @@ def test_the_slopes_of_a_tube_cover_its_points(states, bounds, index, move, radi
     with ctx.workprec(BITS):
         slopes = _slopes(bound, arb(move), arb(radius))
         limits = (slopes.first, slopes.second, slopes.third)
-        for place in map(arb, PLACES):
-            x = panel.centre + panel.half * place
+        for t in map(arb, PLACES):
+            x = panel.centre + panel.half * t
             _, gap, _ = along(states, x)
             for sign in (-1, 1):
                 n = gap[0] + sign * x * x * (arb(move) + x * arb(radius))

@@ -35,9 +35,9 @@ def ring(k: float, r: float, t: Array, distance: Array) -> Array:
         F = 2 / np.pi * ellipkm1(y)
     else:
         z = np.minimum(y, 0.5)
-        near = gamma(-k) / gamma(b) ** 2 * hyp2f1(a, a, 1 + k, z)
-        near += z**-k * gamma(k) / gamma(a) ** 2 * hyp2f1(b, b, 1 - k, z)
-        F = np.where(y < 0.3, near, hyp2f1(a, a, 1.0, np.minimum(x2, 0.75)))
+        about_one = gamma(-k) / gamma(b) ** 2 * hyp2f1(a, a, 1 + k, z)
+        about_one += z**-k * gamma(k) / gamma(a) ** 2 * hyp2f1(b, b, 1 - k, z)
+        F = np.where(y < 0.3, about_one, hyp2f1(a, a, 1.0, np.minimum(x2, 0.75)))
     return np.where(r < t, t**-k, t * r ** -(k + 1.0)) * F
 
 

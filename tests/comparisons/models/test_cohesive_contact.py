@@ -101,21 +101,6 @@ def test_a_state_satisfies_the_printed_equations(printed, n, k, Lambda, w) -> No
     assert abs(float(state.load[0] - P)) < 2e-14 * state.load_scale[0]
 
 
-@TRACTIONS
-@pytest.mark.parametrize(
-    ("n", "k", "Lambda", "w"),
-    [(2.0, 0.4, 0.6, -0.5), (0.8, 0.2, 0.01, -3.0), (5.0, 0.3, 0.02, -4.0), (1.5, 0.6, 8.0, 4.0)],
-)
-def test_slopes_are_derivatives_of_the_printed_equations(printed, n, k, Lambda, w) -> None:
-    state = contact_of(printed, n, k, Lambda).at(np.array([w]))
-    with mp.workdps(40):
-        h = mp.mpf(10) ** -8
-        before, after = (printed_state(printed, n, k, Lambda, w + side * h) for side in (-1, 1))
-        delta, load = (float((y - x) / (2 * h)) for x, y in zip(before, after, strict=True))
-    assert abs(state.displacement_slope[0] - delta) < 1e-13 * state.displacement_slope_scale[0]
-    assert abs(state.load_slope[0] - load) < 1e-13 * state.load_slope_scale[0]
-
-
 @pytest.mark.parametrize(
     ("model", "printed", "n", "k", "mu"),
     [
