@@ -8,7 +8,6 @@ import pytest
 from comparisons.domain import Domain, declared_domain
 from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
-from comparisons.judging.selection import needed_keys
 from comparisons.judging.summary import summarise
 from comparisons.pipeline.inputs import load_cases, read_gates
 from comparisons.problem import Problem
@@ -120,64 +119,19 @@ not_applicable = "leave-out"
 """
 
 
-def judged(statuses, domain, gate=GATE, reference="ok"):
-    """The verdicts on a candidate with these statuses at mu = 0.1, 0.5, 1 and 2."""
+def test_not_applicable_is_a_failure_inside_the_declared_domain_and_outside_it_nothing_counts():
+    """Outside, a row counts for nothing even if it has a value."""
     grids = load_grids(GRID)
-    cases = grids[0].cases
-    rows = frame([evaluate_task(Task("bradley", "pull_off_force", case)) for case in cases])
-    rows.loc[:, "status"] = reference
-    candidate = rows.copy().assign(model="jkr", status=statuses)
+    rows = frame([evaluate_task(Task("bradley", "pull_off_force", case)) for case in grids[0].cases])
+    candidate = rows.assign(model="jkr", status=["ok", "ok", "not-applicable", "ok"])
     candidate.loc[candidate["status"] != "ok", ["value", "u_num"]] = math.nan
-    domains = {} if domain is None else {"jkr": Domain.of(domain)}
-    return judge(load_gates(gate), grids, pd.concat([rows, candidate]), None, ["jkr"], domains)
-
-
-def test_not_applicable_is_a_failure_inside_the_declared_domain_and_left_out_outside():
-    table = judged(["ok", "ok", "not-applicable", "not-applicable"], {**FORCE, "mu": [0.1, 1]})
+    domains = {"jkr": Domain.of({**FORCE, "mu": [0.1, 1]})}
+    table = judge(load_gates(GATE), grids, pd.concat([rows, candidate]), None, ["jkr"], domains)
     assert table["verdict"].tolist() == ["PASS", "PASS", "FAIL", "NOT-APPLICABLE"]
-    assert table["status"].tolist() == ["ok", "ok", "not-applicable", "outside"]
     assert table["reason"].iloc[2].endswith("(inside the domain that the model declares)")
     summary = summarise(table).iloc[0]
     counts = summary[["asked", "answered", "not_applicable", "failed", "outside"]].tolist()
     assert (summary["verdict"], counts) == ("FAIL", [3, 2, 1, 0, 1])
-
-
-@pytest.mark.parametrize(
-    ("statuses", "domain", "reference", "verdicts"),
-    [
-        # Without a declared domain it is left out, as the gate states.
-        (["ok", "ok", "not-applicable", "ok"], None, "ok", ["PASS", "PASS", "NOT-APPLICABLE", "PASS"]),
-        # A row outside the domain counts for nothing even if it has a value.
-        (["ok"] * 4, {**FORCE, "mu": [0.1, 1]}, "ok", ["PASS"] * 3 + ["NOT-APPLICABLE"]),
-        # Where the reference has no value either, not applicable is right.
-        (["not-applicable"] * 4, FORCE, "not-applicable", ["NOT-APPLICABLE"] * 4),
-    ],
-)
-def test_what_counts_beside_the_domain(statuses, domain, reference, verdicts):
-    assert judged(statuses, domain, reference=reference)["verdict"].tolist()[:4] == verdicts
-
-
-def test_the_reference_is_computed_where_a_model_refuses_what_it_promises():
-    grids, gates = load_grids(GRID), load_gates(GATE)
-    refused = ("jkr", "pull_off_force", 2.0, 0.0, 1.0, None, "")
-    reference = ("bradley", *refused[1:])
-    statuses = {refused: "not-applicable"}
-    assert reference not in needed_keys(gates, grids, ["jkr"], statuses)
-    assert reference in needed_keys(gates, grids, ["jkr"], statuses, {"jkr": Domain.of(FORCE)})
-
-
-@pytest.mark.parametrize(("share", "verdict"), [(0.5, "PASS"), (0.51, "FAIL")])
-def test_min_coverage_is_a_share_of_the_evaluated_cases(share, verdict):
-    gate = GATE.replace("min_cases = 1", f"min_cases = 1\nmin_coverage = {share}")
-    summary = summarise(judged(["ok", "ok", "not-applicable", "not-applicable"], None, gate)).iloc[0]
-    assert summary["verdict"] == verdict
-    assert verdict == "PASS" or "a value in 2 of the 4 cases" in summary["reason"]
-
-
-@pytest.mark.parametrize("share", [0, -0.1, 1.1, math.nan])
-def test_a_min_coverage_that_is_no_share_is_refused(share):
-    with pytest.raises(ValueError, match=rf"GIVEN: min_coverage = {share}"):
-        load_gates(GATE.replace("min_cases = 1", f"min_cases = 1\nmin_coverage = {share}"))
 
 
 def test_a_run_of_a_closed_form_has_no_standing_gate_whose_cases_it_does_not_compute():

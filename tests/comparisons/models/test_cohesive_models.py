@@ -10,14 +10,12 @@ import numpy as np
 import pytest
 from scipy.special import beta
 
-import fscm
 from comparisons import create
 from comparisons.model import NotApplicable
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_model import CohesiveModel
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
-from fscm import LennardJones, PowerLaw, PowerPunch
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "double_hertz" / "double_hertz.py"
 EVENTS = ("pull_off_force", "pull_off_displacement", "zero_load_displacement", "jump_out_displacement")
@@ -40,18 +38,6 @@ def test_the_cohesive_stresses() -> None:
     assert stresses == {"md-original": pytest.approx(STRENGTH, rel=1e-15), "md-jin": 1.0}
     assert create("double-hertz-n-k").cohesive_stress(contact(2, 0.4, 1)) == pytest.approx(STRENGTH, rel=1e-15)
     assert round(create("md-improved").cohesive_stress(contact(2, 0.4, 1)), 3) == 0.588
-
-
-@pytest.mark.parametrize(("n", "k", "nu"), [(2.0, 0.4, 0.3), (5.0, 0.6, 0.45)])
-def test_the_maugis_number_of_jin_is_his_tabor_number(n: float, k: float, nu: float) -> None:
-    """Eqs. 30 and 68 in physical units without b/(1-k): their ratio is sigma_0 z0 / dgamma, as with the factor."""
-    Q, E0, c0, dgamma, z0, sigma = 1.3, 2.0, 0.7, 0.11, 0.05, 0.11 / 0.05
-    modulus, root = E0 / (1 - nu**2), 1 / (2 * n + k - 1)
-    tabor = (Q ** (1 - k) * c0 ** (n * k) * dgamma**n / (modulus**n * z0 ** (2 * n + k - 1))) ** root
-    maugis = sigma * (Q ** (1 - k) * c0 ** (n * k) * dgamma ** (1 - n - k) / modulus**n) ** root
-    assert maugis == pytest.approx(tabor, rel=1e-13)
-    ours = fscm.Problem(PowerLaw(E0, c0, k, nu), PowerPunch(n, Q), LennardJones(dgamma, z0)).mu
-    assert not math.isclose(ours, tabor, rel_tol=1e-3)
 
 
 @pytest.mark.parametrize(("n", "k"), [(1.0, 0.0), (2.0, 0.4), (5.0, 0.2)])

@@ -57,18 +57,6 @@ def test_events_and_curve_are_those_of_the_printed_curve(n: float, k: float, mu:
     assert curve.load[-1] >= -P
 
 
-@CASES
-def test_printed_closed_forms(n: float, k: float, mu: float) -> None:
-    """Eqs. 54-55 and 57 letter by letter."""
-    B, cos, pi = float(mp.beta(n / 2, 0.5 + k / 2)), np.cos(k * np.pi / 2), np.pi
-    base = (cos / (2 * pi * (1 - k))) ** (n - 2) * ((k + 3) / (n * B)) ** (k + 3)
-    force = 2 * (2 * n + k - 1) / ((1 + k) * (n + k + 1)) * base ** (1 / (2 * n + k - 1)) * mu ** ((2 - n) / n)
-    C_out = 0.5 * (2 * n + k - 1) * (2 * pi * (1 - k) / (n**2 * cos)) ** (n / (2 * n + k - 1))
-    C_out *= ((1 - k) / B) ** ((1 - k) / (2 * n + k - 1))
-    assert value(n, k, mu) == pytest.approx(force, rel=1e-12)
-    assert value(n, k, mu, "jump_out_displacement") == pytest.approx(-C_out * mu, rel=1e-12)
-
-
 @pytest.mark.parametrize(("n", "printed"), [(1.0, 4.4), (1.5, 40.8), (2.0, 33.3), (5.0, 4.2)])
 def test_printed_sensitivity_to_the_gradient(n: float, printed: float) -> None:
     """Eq. 58 and Fig. 11(a), percent; k stops at 0.999, as 40.8 % at n = 1.5 does (the limit k = 1 is 40.89 %)."""
