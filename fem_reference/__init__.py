@@ -25,4 +25,5 @@ if TYPE_CHECKING:
     from fem_reference._lazy import *
 
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
-__all__ += [name for module in (laws, profiles, punch, solids, tabulated_law) for name in module.__all__]
+_STATED = (laws, profiles, punch, solids, tabulated_law)
+__all__ += [name for module in _STATED for name in module.__all__]

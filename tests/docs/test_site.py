@@ -13,6 +13,7 @@ import pytest
 import comparisons
 import fem_reference
 import fscm
+from comparisons.problem.kinds import KINDS
 from comparisons.runs.environment import NOT_INSTALLED
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -105,6 +106,13 @@ def test_links_of_the_pages_from_other_files_resolve():
     for name, text in pages.items():
         for link in re.findall(r"\]\(([^)#\s]+)", text):
             assert "://" in link or (DOCS / "_generated" / link).resolve().exists() or link in pages, (name, link)
+
+
+def test_the_page_of_problem_files_has_a_table_of_every_kind():
+    text = extension("kind_tables").with_tables((DOCS / "problem_files.md").read_text(encoding="utf-8"))
+    for section, kinds in KINDS.items():
+        rows = text.partition(f"## [{section}]")[2].partition("\n## ")[0].splitlines()
+        assert [name for name in kinds if sum(row.startswith(f"| `{name}` |") for row in rows) != 1] == []
 
 
 @pytest.mark.lint

@@ -12,17 +12,10 @@ from comparisons.runs.record import read_record
 from .test_run import interrupt_after, run
 
 
-def test_stored_failures_are_used_and_this_is_said(small_grid, tmp_path, capsys):
-    assert run(tmp_path, "--model", "ten-percent", "fails") == 4
+def test_stored_failures_are_used_and_computed_again_on_request(small_grid, tmp_path, monkeypatch, capsys):
+    models = ("--model", "ten-percent", "fails")
+    assert run(tmp_path, *models) == 4
     assert "stored failures" not in capsys.readouterr().err
-    assert run(tmp_path, "--model", "ten-percent", "fails") == 4
-    message = capsys.readouterr().err
-    assert "0 computations" in message
-    assert "4 stored failures of fails are used; --retry-failed computes them again" in message
-
-
-def test_stored_failures_are_computed_again_when_it_is_asked_for(small_grid, tmp_path, monkeypatch, capsys):
-    assert run(tmp_path, "--model", "ten-percent", "fails") == 4
     computed = []
 
     def counted(tasks, jobs, backend):
@@ -30,11 +23,12 @@ def test_stored_failures_are_computed_again_when_it_is_asked_for(small_grid, tmp
         return compute(tasks, jobs, backend)
 
     monkeypatch.setattr(computing, "compute", counted)
-    assert run(tmp_path, "--model", "ten-percent", "fails", "--retry-failed") == 4
+    assert run(tmp_path, *models) == 4
+    assert computed == []
+    assert "4 stored failures of fails are used; --retry-failed" in capsys.readouterr().err
+    assert run(tmp_path, *models, "--retry-failed") == 4
     assert computed == ["fails"] * 4
-    message = capsys.readouterr().err
-    assert "4 computations on 1 processes, 8 are stored" in message
-    assert "stored failures" not in message
+    assert "stored failures" not in capsys.readouterr().err
     table = read_table(tmp_path / "results.parquet")
     assert not table.duplicated(["model", "quantity", "n", "k", "mu"]).any()
 

@@ -49,29 +49,6 @@ def test_quiet_prints_failures_alone(toys, tmp_path, capsys):
     assert captured.err.endswith("5 more computations failed; the tables have their reasons\n")
 
 
-def test_a_latin_hypercube_of_one_model(tmp_path):
-    text = """
-[[grid]]
-id = "alone"
-title = "One model, without another to compare it with"
-reference = "jkr"
-models = ["jkr"]
-quantities = ["pull_off_force"]
-[grid.latin_hypercube]
-count = 7
-seed = 1
-n = [1, 6]
-k = [0, 0.8]
-mu = [0.01, 10]
-"""
-    assert sweep(tmp_path, text) == 0
-    rows = read_table(tmp_path / "out" / "results.parquet")
-    assert rows["status"].tolist() == ["ok"] * 7
-    assert read_table(tmp_path / "out" / "kappa.parquet").empty
-    assert (tmp_path / "out" / "grid.toml").read_text() == text
-    assert main(["report", str(tmp_path / "out")]) == 0
-
-
 @pytest.mark.parametrize(
     ("text", "why"),
     [

@@ -57,15 +57,6 @@ def test_a_power_law_with_a_tiny_offset_is_itself():
     assert law["compliance_deviation"] < 2e-3
 
 
-@pytest.mark.heavy
-def test_a_thick_coating_is_a_homogeneous_solid():
-    coating = {"E_coating": 1e9, "E_substrate": 10e9, "thickness": 1e-5, "transition": 0.0, "nu": 0.3}
-    law = equivalent(on("coating", coating))
-    assert law["k"] == pytest.approx(0.0, abs=2e-3)
-    assert law["E0"] == pytest.approx(1e9, rel=2e-3)
-    assert abs(law["pull_off_force"]["error"]) < 1e-3
-
-
 def test_a_fit_beyond_the_largest_exponent_stops_there():
     xi = np.geomspace(1e6, 1e8, 9)
     k, free_k, deviation, compliance = least_wrong(

@@ -92,6 +92,30 @@ def test_both_solvers_have_the_same_problem(solid, punch, law, written):
         assert np.allclose(ratio, 1.0, rtol=1e-12)
 
 
+#: Heights of the punches of `SECTIONS` at the radius r in nm, in nm.
+HEIGHTS = {
+    "sphere": lambda r: r**2 / 200,
+    "ball": lambda r: 100 - np.sqrt(100**2 - r**2),
+    "cone": lambda r: r / math.tan(math.radians(70)),
+    "power-law": lambda r: r**3 / (3 * 1e4),
+    "rounded-cone": lambda r: 0.5 * (np.sqrt(r**2 + 15**2) - 15),
+    "rounded-flat": lambda r: np.maximum(r - 5, 0) ** 2 / 200,
+}
+
+
+@pytest.mark.parametrize("punch", HEIGHTS)
+def test_a_punch_has_the_heights_of_its_formula(punch, written):
+    shape = written(solid="homogeneous", punch=punch, law="mie").build(fem_reference).punch
+    r = np.linspace(0.0, 40.0, 30)
+    assert np.allclose(shape.height(1e-9 * r), 1e-9 * HEIGHTS[punch](r), rtol=1e-12, atol=1e-24)
+
+
+def test_the_range_of_a_table_is_the_work_over_the_largest_tension(written):
+    """For the 9-3 law this tension is 16 sqrt(3)/27 w/z0."""
+    law = written(solid="homogeneous", punch="sphere", law="table").build(fscm).law
+    assert law.z0 == pytest.approx(0.4e-9 / (16 * math.sqrt(3) / 27), rel=1e-3)
+
+
 def test_the_force_of_the_power_law_is_that_of_the_physical_problem(written):
     read = written(solid="power-law", punch="sphere", law="lennard-jones-9-3")
     solid, law = fscm.PowerLaw(1e9, 1e-7, 0.3, 0.3), fscm.LennardJones(0.05, 4e-10)
