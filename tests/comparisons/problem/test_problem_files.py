@@ -113,7 +113,7 @@ def test_a_punch_has_the_heights_of_its_formula(punch, written):
 def test_the_range_of_a_table_is_the_work_over_the_largest_tension(written):
     """For the 9-3 law this tension is 16 sqrt(3)/27 w/z0."""
     law = written(solid="homogeneous", punch="sphere", law="table").build(fscm).law
-    assert law.z0 == pytest.approx(0.4e-9 / (16 * math.sqrt(3) / 27), rel=1e-3)
+    assert law.z0 == pytest.approx(0.4e-9 / (16 * math.sqrt(3) / 27), rel=5e-3)
 
 
 def test_the_force_of_the_power_law_is_that_of_the_physical_problem(written):
