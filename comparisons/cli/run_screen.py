@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Protocol
 
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note
@@ -13,16 +13,9 @@ from comparisons.runs.rows import Row
 __all__ = ["print_end"]
 
 
-class _Finished(Protocol):
-    @property
-    def folder(self) -> Path: ...
-    @property
-    def failures(self) -> tuple[Row, ...]: ...
-
-
-def print_end(finished: _Finished, files: str = "results are") -> int:
+def print_end(failures: Sequence[Row], folder: Path, files: str = "results are") -> int:
     """Print the first failures and where the files are; return the exit status without gates."""
-    for line in failure_lines(finished.failures):
+    for line in failure_lines(failures):
         log(line)
-    note(f"{files} in {finished.folder}")
-    return FAILED if finished.failures else OK
+    note(f"{files} in {folder}")
+    return FAILED if failures else OK

@@ -16,7 +16,7 @@ def with_tables(text: str) -> str:
 
     Examples
     --------
-    >>> with_tables("<!-- kinds of law -->").splitlines()[2].split(" | ")[2]
+    >>> with_tables("<!-- kinds of law -->").splitlines()[2].split(" | ")[2].strip(" |")
     '`work_of_adhesion [J/m^2], z0 [m]`'
     """
     return re.sub(r"<!-- kinds of (\w+) -->", lambda match: _table(match[1]), text)

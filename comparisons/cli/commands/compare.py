@@ -50,4 +50,4 @@ def call(args: argparse.Namespace) -> int:
         console = output()
         for table in terminal_tables(finished.table, finished.summary, args.every, console.width):
             console.print(table)
-    return print_end(finished, "comparison.csv, comparison.png and the results are")
+    return print_end(finished.failures, finished.folder, "comparison.csv, comparison.png and the results are")

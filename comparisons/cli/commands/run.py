@@ -63,7 +63,7 @@ def call(args: argparse.Namespace) -> int:
         _print_errors(finished, verbose=args.verbose, with_paper=args.gates is None)
     if judgement is not None:
         print_verdicts(judgement, verbose=args.verbose, quiet=args.quiet)
-    status = print_end(finished)
+    status = print_end(finished.failures, finished.folder)
     if judgement is None:
         return FAILED
     if not judgement.verdicts.empty:

@@ -86,4 +86,4 @@ def show(finished: FinishedRun, *, with_summary: bool) -> int:
         console, tables = output(), finished.tables
         for table in sweep_tables(tables.results, tables.curves, tables.kappa):
             console.print(table)
-    return print_end(finished)
+    return print_end(finished.failures, finished.folder)
