@@ -70,10 +70,7 @@ def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
     if registry.get_root_units(source_unit)[1] != registry.get_root_units(aim)[1]:
         target_unit = target if power == 1.0 else f"{target}^({power:g})"
         raise NotAValue(f"has the unit {unit}, which is not one of {target_unit}")
-    factor = float(registry.Quantity(1.0, source_unit).to(aim).magnitude)
-    # pint multiplies factors one after the other: a power of ten has lost its last digit.
-    ten = float(f"1e{round(math.log10(factor))}")
-    return ten if abs(factor / ten - 1.0) < _ROUNDING else factor
+    return float(registry.Quantity(1.0, source_unit).to(aim).magnitude)
 
 
 def in_si(value: object, target: str, power: float = 1.0) -> float:

@@ -176,6 +176,21 @@ def test_bad_tables(name, tmp_path, capsys):
     refused(tmp_path, capsys, *parts)
 
 
+@pytest.mark.parametrize(("share", "is_refused"), [(0.95, True), (1.05, False)])
+def test_a_profile_reaches_as_high_as_the_contact(share, is_refused, tmp_path, capsys):
+    """To (1 + mu) z0, here of a paraboloid with a radius of 2.5 um."""
+    path = tmp_path / "pad.toml"
+    path.write_text(GOOD)
+    height = share * (1.0 + load_problem(path).posed.mu) * 0.4e-9
+    rows = "".join(f"{r!r},{r**2 / 5e-6!r}\n" for r in np.linspace(0.0, math.sqrt(5e-6 * height), 50).tolist())
+    path.write_text(GOOD.replace(PUNCH, PUNCH_TABLE))
+    (tmp_path / "profile.csv").write_text(f"r,height\n{rows}")
+    if is_refused:
+        refused(tmp_path, capsys, "line 11", "inside the contact")
+    else:
+        assert load_problem(path).punch.kind == "table"
+
+
 def test_a_file_that_is_missing_and_a_folder(tmp_path, capsys):
     refused(tmp_path, capsys, "pad.toml: the problem file cannot be read (No such file or directory)")
     (tmp_path / "pad.toml").mkdir()
