@@ -2,7 +2,6 @@
 
 import os
 import threading
-from contextlib import suppress
 
 import pytest
 
@@ -65,24 +64,20 @@ def test_every_command_refuses_it_in_one_sentence(command, kind, swept, tmp_path
 
 
 def test_a_pipe_is_not_waited_for(tmp_path):
-    """Its writer has a text ready: a reader that waits would return it."""
+    """No program writes into it."""
     pipe = tmp_path / "pipe.toml"
     os.mkfifo(pipe)
+    sentences = []
 
-    def write():
-        with suppress(BrokenPipeError):
-            pipe.write_text(GRID)
-
-    writer = threading.Thread(target=write)
-    writer.start()
-    try:
-        with pytest.raises(ValueError, match="pipe"):
+    def read():
+        with pytest.raises(ValueError, match="pipe") as refusal:
             read_text(pipe, "the sweep file")
-    finally:
-        # The writer may still wait for a reader.
-        while writer.is_alive():
-            os.close(os.open(pipe, os.O_RDONLY | os.O_NONBLOCK))
-            writer.join(0.01)
+        sentences.append(str(refusal.value))
+
+    reader = threading.Thread(target=read, daemon=True)
+    reader.start()
+    reader.join(10.0)
+    assert len(sentences) == 1
 
 
 def test_a_file_of_the_largest_size_is_read(tmp_path):
@@ -100,7 +95,7 @@ def test_paths_in_a_folder_and_paths_that_lead_out(tmp_path):
     (folder / "loop").symlink_to("../loop")
     (folder / "c").symlink_to("b/d")
     (tmp_path / "link").symlink_to("folder")
-    for name in ("../a", "/etc/hostname", "b/../../a", "out", "loop", "b/up/a", "a\0b", ".."):
+    for name in ("../a", "/etc/hostname", "b/../../a", "b/../a", "out", "loop", "b/up/a", "a\0b", ".."):
         with pytest.raises(ValueError, match="leads out of the folder"):
             path_inside(folder, name)
     for name in ("a", "b/d", "./b//d", "c"):
