@@ -24,6 +24,10 @@ from fem_reference.tabulated_law import *
 if TYPE_CHECKING:
     from fem_reference._lazy import *
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
+__getattr__, _, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
 _STATED = (laws, profiles, punch, solids, tabulated_law)
 __all__ += [name for module in _STATED for name in module.__all__]
+
+
+def __dir__() -> list[str]:
+    return __all__

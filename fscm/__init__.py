@@ -38,6 +38,10 @@ from fscm.tabulated_modulus import *
 if TYPE_CHECKING:
     from fscm._lazy import *
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
+__getattr__, _, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
 _STATED = (custom_punch, custom_solid, laws, layers, measured_punch, punch, solids, tabulated_law, tabulated_modulus)
 __all__ += [name for module in _STATED for name in module.__all__]
+
+
+def __dir__() -> list[str]:
+    return __all__

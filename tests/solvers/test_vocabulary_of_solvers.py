@@ -21,6 +21,12 @@ MORE = {
 }
 
 
+def test_the_names_of_a_package_are_listed_once():
+    for package in (fscm, fem_reference):
+        assert sorted(package.__all__) == sorted(set(dir(package)))
+        assert {*NAMES, "solve"} <= set(package.__all__)
+
+
 def test_a_class_has_the_same_arguments_in_both():
     for name in NAMES:
         lists = [tuple(inspect.signature(getattr(package, name)).parameters) for package in (fscm, fem_reference)]
