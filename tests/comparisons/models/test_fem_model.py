@@ -76,6 +76,23 @@ def test_the_critical_tabor_number_is_that_of_the_modulus_and_has_the_bound_of_i
     assert FiniteElements().evaluate(PROBLEM.at({"mu": 1e-9}), "critical_tabor_number") == result
 
 
+def test_the_surface_is_in_the_units_of_the_problem_and_its_bounds_are_the_distance_of_two_levels(monkeypatch):
+    problem = PROBLEM.at({"mu": 0.6})
+    units, x = FiniteElements()._scaled(problem).units, np.linspace(0.0, 1.0, 60)
+
+    def profile(body, accuracy):
+        gap = 12.0 * x * {"quick": 1.01, "default": 1.0}[accuracy]
+        return SimpleNamespace(
+            radius=3.0 * x * units["radius"], pressure=-x * units["traction"], gap=gap * units["gap"]
+        )
+
+    monkeypatch.setattr(fem_reference, "profile", profile)
+    surface = FiniteElements().pull_off_profile(problem)
+    largest = surface.radius.max(), -surface.pressure.min(), surface.gap.max()
+    assert largest == pytest.approx((3.0, 1.0, 12.0), rel=1e-13)
+    assert surface.u_gap_distance > 1e-3
+
+
 @pytest.mark.heavy
 @pytest.mark.parametrize("levels", [("quick", "quick"), _LEVELS], ids=str)
 def test_gap_and_pressure_at_pull_off_are_those_of_the_integral_equation(monkeypatch, levels):
