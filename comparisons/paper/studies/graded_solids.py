@@ -28,12 +28,9 @@ from comparisons.numerics.bounds import relative_difference
 from comparisons.output.style import COLOURS
 from comparisons.paper.drawing import panels
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, together
-from comparisons.problem import Problem as AnyProblem
-from comparisons.problem import Section
+from comparisons.problem import Problem, Section
 from comparisons.problem.elastic_energy import energy_spectrum
 from comparisons.problem.equivalent_solid import least_wrong, power_law_of
-from comparisons.problem.kinds import KINDS
-from fscm import LennardJones, NoSuchEvent, NotConverged, PowerLaw, PowerPunch, Problem, solve_together
 
 __all__ = ["SERIES", "by_elements", "by_fscm", "case_of", "equivalent_of", "number_of", "of_power_law"]
 
@@ -69,7 +66,8 @@ COATING = (0.8, 0.25)
 #: Of every problem; no scale is 1, so that a wrong power of one shows.
 SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
 
-_PUNCH, _LAW = PowerPunch(_N, SCALES["Q"]), LennardJones(SCALES["work_of_adhesion"], SCALES["z0"])
+_PUNCH = Section("sphere", {"R": SCALES["Q"]})
+_LAW = Section("lennard-jones-9-3", {name: SCALES[name] for name in ("work_of_adhesion", "z0")})
 
 #: Quantities of the table.
 QUANTITIES = (
@@ -91,27 +89,21 @@ _DIGITS = 6
 
 
 class GradedCase(NamedTuple):
-    """A solid for both references, and the simpler solids beside it.
+    """A solid under the sphere, and the simpler solids beside it.
 
     Attributes
     ----------
+    problem : Problem
+        As of a problem file.
     mu : float
         Tabor number with the modulus of the surface.
     depth : tuple of float
         k and mu of the solid at great depth.
-    section : Section
-        The solid as in a problem file.
     """
 
+    problem: Problem
     mu: float
     depth: tuple[float, float]
-    section: Section
-
-
-def _scaled(k: float, mu: float) -> tuple[PowerLaw, Any]:
-    """The power law of a Tabor number in the scales of all, and the units."""
-    physical = Problem(_N, k, mu).in_units(nu=_NU, **SCALES)
-    return physical.solid, physical.units  # type: ignore[return-value]
 
 
 def case_of(kind: str, parameter: float) -> GradedCase:
@@ -128,21 +120,19 @@ def case_of(kind: str, parameter: float) -> GradedCase:
     >>> round(case_of("exponential", 1.0).depth[1], 6)
     0.793701
     """
-    if kind == "offset power law":
-        graded, units = _scaled(*OFFSET)
-        z_s = parameter * units["radius"]
-        E = graded.E0 * (z_s / graded.c0) ** OFFSET[0]
-        mu_surface = Problem(PowerLaw(E, SCALES["c0"], 0.0, _NU), _PUNCH, _LAW).mu
-        offset = {"E0": graded.E0, "c0": graded.c0, "k": OFFSET[0], "z_s": z_s, "nu": _NU}
-        return GradedCase(mu_surface, OFFSET, Section("offset-power-law", offset))
     mu, ratio = EXPONENTIAL if kind == "exponential" else COATING
-    surface, units = _scaled(0.0, mu)
-    E, length = surface.E0, parameter * units["radius"]
+    power_law = OFFSET if kind == "offset power law" else (0.0, mu)
+    graded = fscm.Problem(_N, *power_law).in_units(nu=_NU, **SCALES)
+    E, length = graded.solid.E0, parameter * graded.units["radius"]  # type: ignore[union-attr]
+    if kind == "offset power law":
+        offset = {"E0": E, "c0": SCALES["c0"], "k": OFFSET[0], "z_s": length, "nu": _NU}
+        problem = Problem(Section("offset-power-law", offset), _PUNCH, _LAW)
+        return GradedCase(problem, problem.posed.mu, OFFSET)
     if kind == "exponential":
         solid = {"E_surface": E, "E_depth": ratio * E, "length": length, "nu": _NU}
     else:
         solid = {"E_coating": E, "E_substrate": ratio * E, "thickness": length, "transition": 0.0, "nu": _NU}
-    return GradedCase(mu, (0.0, mu / ratio ** (2.0 / 3.0)), Section(kind, solid))
+    return GradedCase(Problem(Section(kind, solid), _PUNCH, _LAW), mu, (0.0, mu / ratio ** (2.0 / 3.0)))
 
 
 def by_fscm(kind: str, parameter: float) -> Json:
@@ -169,9 +159,7 @@ def by_fscm(kind: str, parameter: float) -> Json:
     >>> round(value, 6), u_num < 1e-7
     (1.42152, True)
     """
-    section = case_of(kind, parameter).section
-    problem = Problem(KINDS["solid"][section.kind].build(fscm, section), _PUNCH, _LAW)
-    return _solved(problem.dimensionless)
+    return _solved(case_of(kind, parameter).problem.posed)
 
 
 def of_power_law(k: float, mu: float) -> Json:
@@ -182,14 +170,14 @@ def of_power_law(k: float, mu: float) -> Json:
     >>> round(of_power_law(0.0, 1.0)["pull_off_force"][0], 8)
     1.67066478
     """
-    return _solved(Problem(_N, k, mu))
+    return _solved(fscm.Problem(_N, k, mu))
 
 
-def _solved(problem: Problem) -> Json:
-    with translated(NoSuchEvent, NotConverged):
-        events = solve_together(problem, QUANTITIES)
+def _solved(problem: fscm.Problem) -> Json:
+    with translated(fscm.NoSuchEvent, fscm.NotConverged):
+        events = fscm.solve_together(problem, QUANTITIES)
     return {
-        name: str(event) if isinstance(event, NoSuchEvent) else [event.value, event.u_num]
+        name: str(event) if isinstance(event, fscm.NoSuchEvent) else [event.value, event.u_num]
         for name, event in events.items()
     }
 
@@ -214,18 +202,13 @@ def by_elements(event: str, kind: str, parameter: float) -> Json:
     >>> by_elements("jump-out", "offset power law", 100.0)["jump_out_displacement"]
     'the displacement rises all along the path: this solid is too stiff for jumps'
     """
-    case, scales = case_of(kind, parameter), _scaled(0.0, 1.0)[1]
-    problem = fem_reference.Problem(
-        KINDS["solid"][case.section.kind].build(fem_reference, case.section),
-        fem_reference.PowerPunch(n=_N, Q=SCALES["Q"]),
-        fem_reference.LennardJones(work_of_adhesion=SCALES["work_of_adhesion"], z0=SCALES["z0"]),
-    )
+    problem = case_of(kind, parameter).problem
     with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-        events = fem_reference.solve_together(problem, EVENTS[event], "quick")
+        events = fem_reference.solve_together(problem.build(fem_reference), EVENTS[event], "quick")
     return {
         name: str(solution)
         if isinstance(solution, fem_reference.NoSuchEvent)
-        else [number / scales[_UNITS.get(name, "displacement")] for number in (solution.value, solution.u_num)]
+        else [number / problem.units[_UNITS.get(name, "displacement")] for number in (solution.value, solution.u_num)]
         for name, solution in events.items()
     }
 
@@ -248,9 +231,7 @@ def equivalent_of(kind: str, parameter: float) -> tuple[float, float]:
     >>> round(k, 3), round(mu, 3)
     (0.398, 1.997)
     """
-    punch = Section("sphere", {"R": SCALES["Q"]})
-    law = Section("lennard-jones-9-3", {name: SCALES[name] for name in ("work_of_adhesion", "z0")})
-    problem = AnyProblem(case_of(kind, parameter).section, punch, law)
+    problem = case_of(kind, parameter).problem
     spectrum = energy_spectrum(problem)
     k, _, _, surface = least_wrong(spectrum)
     posed = power_law_of(problem, k, surface, spectrum)
@@ -332,10 +313,9 @@ def _of_solid(kind: str, parameter: float) -> Plan[dict[str, Json]]:
     simpler = {"surface": (0.0, case.mu), "depth": case.depth}
     plans |= {column: result_of(of_power_law, *power_law) for column, power_law in simpler.items()}
     results = yield from together(plans)
-    for column, (k, mu) in simpler.items():
-        results[column] |= {"k": k, "mu": mu}
+    solved = {column: {"k": k, "mu": mu} | results[column] for column, (k, mu) in simpler.items()}
     elements = {name: value for event in events for name, value in results[event].items()}
-    return results | {"fem": elements}
+    return results | solved | {"fem": elements}
 
 
 def _row(solid: tuple[str, float], results: dict[str, Json], name: str) -> dict[str, Any]:
