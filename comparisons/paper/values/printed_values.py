@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,18 +11,17 @@ import pandas as pd
 
 from comparisons.data.paper_values import PaperValue
 from comparisons.data.paper_values import paper_values as printed_values
-from comparisons.models.closed_form import EPS
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import CohesiveEvents
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
-from comparisons.models.jkr import JKR
-from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
+from comparisons.models.semi_rigid import SemiRigid
 from comparisons.numerics.number_text import LEAST_SHOWN, value_text
 from comparisons.output.terminal import records
 from comparisons.paper.figures.gradient_effect import LAST_K, insensitive_regions, largest_chi
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, texts_of, together
-from comparisons.paper.tasks import SHAPES, TRACTION, quantity
+from comparisons.paper.statements.measures import ROUNDING, measured, named
+from comparisons.paper.tasks import SHAPES, TRACTION
 from comparisons.paper.values.scheme_forces import HEIGHT, exact_force
 from comparisons.paper.values.tabor_curve import TaborCurve, largest_error, tabor_numbers
 from comparisons.problem import Problem
@@ -31,8 +30,6 @@ from fscm.laws import LennardJones
 __all__ = ["COMPUTED", "Computed", "cohesive_forces", "first_or_last_step", "judged", "paper_values"]
 
 _K = 0.4
-#: Relative rounding of a closed form: a few Gamma functions at 2e-15 each.
-_ROUNDING = 64.0 * EPS
 #: Rounding of chi in percent, and of the ends of its regions, which are roots to 1e-10.
 _CHI_ROUNDING, _REGION_ROUNDING = 1e-11, 1e-9
 #: Degrees of the series in log(mu); the closed forms cost little.
@@ -55,42 +52,35 @@ class Computed(NamedTuple):
     u_scheme: float = math.nan
 
 
-def _closed(formula: Callable[[PaperValue], float]) -> Callable[[PaperValue], Plan[Computed]]:
-    def plan(paper_value: PaperValue) -> Plan[Computed]:
-        yield {}
-        value = formula(paper_value)
-        return Computed(value, _ROUNDING * abs(value))
+def _measured(text: str) -> Callable[[PaperValue], Plan[Computed]]:
+    """Plan a term at a case without Tabor number; of all shapes, if the limit is the same, what is farthest off."""
+
+    def plan(printed: PaperValue) -> Plan[Computed]:
+        k = 0.0 if math.isnan(printed.k) else printed.k
+        shapes = SHAPES if math.isnan(printed.n) else (printed.n,)
+        numbers = yield from together({n: measured(text, "fscm", named(n, k, 1.0)) for n in shapes})
+        farthest = max(numbers.values(), key=lambda number: abs(number.value - printed.value))
+        return Computed(farthest.value, farthest.u)
 
     return plan
 
 
-def _of_model(model: str, name: str) -> Callable[[PaperValue], Plan[Computed]]:
-    """Whose Tabor number is not used."""
-
-    def plan(paper_value: PaperValue) -> Plan[Computed]:
-        k = 0.0 if math.isnan(paper_value.k) else paper_value.k
-        result = yield from result_of(quantity, model, name, paper_value.n, k, 1.0)
-        return Computed(result["value"], result["u_num"])
-
-    return plan
+def _strength(paper_value: PaperValue) -> Plan[Computed]:
+    """The largest tension of the law, not the constant that the models use."""
+    yield {}
+    value = -float(TRACTION(np.array(LennardJones().peak_gap)))
+    return Computed(value, ROUNDING * abs(value))
 
 
-def _farthest(values: Sequence[float], paper_value: PaperValue) -> float:
-    """Return the value that is farthest from the printed one: the limit is the same for all shape indices."""
-    return max(values, key=lambda value: abs(value - paper_value.value))
-
-
-def _jump_out(n: float) -> float:
-    return -JKR().evaluate(Problem.dimensionless(n, 1.0, 1.0), "jump_out_displacement").value
-
-
-def _exponent(paper_value: PaperValue) -> float:
+def _exponent(paper_value: PaperValue) -> Plan[Computed]:
     """Slope of log(1 - displacement) over log(mu); the difference of two logarithms loses a digit."""
+    yield {}
     low, high = (
         math.log(1.0 - SemiRigid().evaluate(case, "jump_in_displacement").value)
         for case in (Problem.dimensionless(paper_value.n, paper_value.k, mu) for mu in (1.0, math.e**7))
     )
-    return (high - low) / 7.0
+    value = (high - low) / 7.0
+    return Computed(value, ROUNDING * abs(value))
 
 
 def cohesive_forces(n: float, k: float, stress: float) -> list[float]:
@@ -162,14 +152,14 @@ def _insensitive_region(paper_value: PaperValue) -> Plan[Computed]:
 
 #: How each number is computed, by its name.
 COMPUTED: dict[str, Callable[[PaperValue], Plan[Computed]]] = {
-    "theoretical_strength": _closed(lambda _: -float(TRACTION(np.array(LennardJones().peak_gap)))),
-    "bradley_pull_off": _of_model("bradley", "pull_off_force"),
-    "critical_tabor_number": _of_model("fscm", "critical_tabor_number"),
-    "eta": _closed(lambda paper_value: eta(paper_value.n)),
-    "jump_in_limit": _closed(lambda printed: _farthest([jump_in_coefficient(n, 1.0) for n in SHAPES], printed)),
-    "jump_out_limit": _closed(lambda printed: _farthest([_jump_out(n) for n in SHAPES], printed)),
-    "jump_in_prefactor": _closed(lambda paper_value: jump_in_coefficient(paper_value.n, paper_value.k)),
-    "jump_in_exponent": _closed(_exponent),
+    "theoretical_strength": _strength,
+    "bradley_pull_off": _measured("pull_off_force bradley"),
+    "critical_tabor_number": _measured("critical_tabor_number"),
+    "eta": _measured("eta_of"),
+    "jump_in_limit": _measured("coefficient_in"),
+    "jump_out_limit": _measured("coefficient_out"),
+    "jump_in_prefactor": _measured("coefficient_in"),
+    "jump_in_exponent": _exponent,
     "largest_relative_error": _largest_relative_error,
     "largest_chi": _largest_chi,
     "insensitive_region": _insensitive_region,
