@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import fields
 from typing import Any
 
 import pandas as pd
@@ -41,10 +42,7 @@ SAME_AGAIN, DIFFERS = f"{CARD}SAME-AGAIN", f"{CARD}DIFFERS"
 _NUMERICAL = ("fscm", "fem", "atlas")
 
 #: Columns of numbers of a table of verdicts.
-_NUMBERS = (
-    *("n", "k", "mu", "nu", "value", "u_num", "reference_value", "u_reference"),
-    *("error", "uncertainty", "lower", "upper"),
-)
+_NUMBERS = [field.name for field in fields(Judged) if "float" in str(field.type)]
 
 #: Id of a gate -> its requirement, and its grounds.
 _REQUIREMENTS = {

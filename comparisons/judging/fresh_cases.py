@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 from zlib import crc32
@@ -27,7 +27,7 @@ from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.cases import TIERS, Grid
 from comparisons.runs.tasks import Task, plan
 
-__all__ = ["RANDOM", "FreshCases", "Part", "Undrawn", "draw"]
+__all__ = ["RANDOM", "FreshCases", "Part", "draw"]
 
 #: The end of the id of a gate that is judged in fresh cases, and the tag of their grids.
 RANDOM = "-RANDOM"
@@ -49,16 +49,6 @@ class Part(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Undrawn:
-    """A gate with standing cases in a part of the domain of a model (`candidate`) that has no room for fresh ones."""
-
-    gate: str
-    candidate: str
-    quantity: str
-    reason: str
-
-
-@dataclass(frozen=True, slots=True)
 class FreshCases:
     """The fresh cases of a run.
 
@@ -69,17 +59,19 @@ class FreshCases:
     seed : int
         From which the same cases follow again.
     parts : tuple of Part
-    undrawn : tuple of Undrawn
+    undrawn : tuple of dict
+        `gate`, `candidate`, `quantity` and `reason` where standing cases of a gate are in a part of the domain of a
+        model that has no room for fresh ones.
     """
 
     count: int
     seed: int
     parts: tuple[Part, ...]
-    undrawn: tuple[Undrawn, ...] = ()
+    undrawn: tuple[dict[str, str], ...] = ()
 
     def plan(self, external: Mapping[str, ExternalIdentity]) -> list[Task]:
         """Return the tasks of all parts."""
-        return plan([part.grid for part in self.parts], None, external)
+        return plan([drawn.grid for drawn in self.parts], None, external)
 
     def as_json(self) -> dict[str, Any]:
         """Return the form in the record of a run: the cases themselves, since other versions may draw others."""
@@ -92,8 +84,7 @@ class FreshCases:
             }
             for gate, grid in self.parts
         ]
-        undrawn = [asdict(gate) for gate in self.undrawn]
-        return {"count": self.count, "seed": self.seed, "parts": parts, "undrawn": undrawn}
+        return {"count": self.count, "seed": self.seed, "parts": parts, "undrawn": list(self.undrawn)}
 
     @classmethod
     def of_json(cls, stored: Mapping[str, Any], gates: Iterable[Gate], folder: Path) -> FreshCases:
@@ -104,7 +95,7 @@ class FreshCases:
             if gate := gates_by_id.get(entry["gate"]):
                 cases = tuple(_stored_problem(case, folder) for case in entry["cases"])
                 parts.append(_part(gate, entry["candidate"], entry["reference"], cases))
-        undrawn = tuple(Undrawn(**gate) for gate in stored["undrawn"] if gate["gate"] in gates_by_id)
+        undrawn = tuple(entry for entry in stored["undrawn"] if entry["gate"] in gates_by_id)
         return cls(stored["count"], stored["seed"], tuple(parts), undrawn)
 
 
@@ -148,7 +139,7 @@ def draw(
     [('GIVEN-PULL-OFF-FORCE-RANDOM', 'atlas', 3)]
     """
     parts: list[Part] = []
-    undrawn: list[Undrawn] = []
+    undrawn: list[dict[str, str]] = []
     passed_over = 0
     # Tags select cases that were chosen for a gate of one model, as those near a limit: no others are like them.
     drawn_for = [gate for gate in gates if gate.candidate == GIVEN or "tags" not in gate.cases]
@@ -165,7 +156,8 @@ def draw(
             continue
         if drawn.untested:
             reason = _no_room(gate.candidate, len(drawn.untested), len(standing))
-            undrawn.append(Undrawn(gate.id, gate.candidate, gate.quantity, reason))
+            names = {"gate": gate.id, "candidate": gate.candidate, "quantity": gate.quantity}
+            undrawn.append(names | {"reason": reason})
         elif not drawn.cases:
             log(f"{gate.id} has no fresh cases: the domain of {gate.candidate} has none that it can be judged in")
         by_reference: dict[str, list[Problem]] = {}

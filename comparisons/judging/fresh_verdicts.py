@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import pandas as pd
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from comparisons.judging.card_gates import verdict_on_model
 from comparisons.judging.decision import Verdict
-from comparisons.judging.fresh_cases import RANDOM, Undrawn
+from comparisons.judging.fresh_cases import RANDOM
 from comparisons.judging.judge import verdict_table
 
 __all__ = ["WORSE", "compare_with_standing", "judge_undrawn"]
@@ -20,19 +20,21 @@ __all__ = ["WORSE", "compare_with_standing", "judge_undrawn"]
 WORSE = 10.0
 
 
-def judge_undrawn(undrawn: Iterable[Undrawn]) -> pd.DataFrame:
+def judge_undrawn(undrawn: Iterable[Mapping[str, str]]) -> pd.DataFrame:
     """Return INCONCLUSIVE for each gate with standing cases that no fresh case can be drawn beside.
 
     Examples
     --------
-    >>> table = judge_undrawn([Undrawn("A", "mine", "pull_off_force", "its domain is points")])
+    >>> gate = {"gate": "A", "candidate": "mine", "quantity": "pull_off_force", "reason": "its domain is points"}
+    >>> table = judge_undrawn([gate])
     >>> table[["gate", "verdict"]].astype(str).values.tolist()
     [['A-RANDOM', 'INCONCLUSIVE']]
     """
-    of_gates = ((f"{gate.gate}{RANDOM}", gate.candidate, gate.reason, gate.quantity) for gate in undrawn)
+    verdict, names = Verdict.INCONCLUSIVE, ("candidate", "reason", "quantity")
+    entries = ((f"{entry['gate']}{RANDOM}", *(entry[name] for name in names)) for entry in undrawn)
     return verdict_table(
-        verdict_on_model(id, candidate, Verdict.INCONCLUSIVE, reason, quantity=quantity)
-        for id, candidate, reason, quantity in of_gates
+        verdict_on_model(id, candidate, verdict, reason, quantity=quantity)
+        for id, candidate, reason, quantity in entries
     )
 
 

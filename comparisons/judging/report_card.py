@@ -53,11 +53,11 @@ def _checks(card: Mapping[str, Any], rows_of_model: pd.DataFrame) -> list[tuple[
         for finding in card["check_model"]
         if finding["status"] in ("wrong", "failed")
     ]
-    kept = f"kept: {statuses.count('ok')} of {statuses.count('ok') + len(wrong)} checks"
+    checks = f"kept: {statuses.count('ok')} of {statuses.count('ok') + len(wrong)} checks"
     return [
         ("evaluated again", again),
         ("digits", reasons[0] or "not those of the reference"),
-        ("check-model", "; not kept: ".join([kept, *(["; ".join(wrong)] if wrong else [])])),
+        ("check-model", "; not kept: ".join([checks, *(["; ".join(wrong)] if wrong else [])])),
     ]
 
 

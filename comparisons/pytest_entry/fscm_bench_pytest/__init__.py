@@ -110,8 +110,8 @@ class _Collection:
 class GatesFile(pytest.File):
     """A gates file: its items are the gates in their cases, and what else the run finds."""
 
-    def __init__(self, *, gates: _Collection, **other: Any) -> None:
-        super().__init__(**other)
+    def __init__(self, *, gates: _Collection, **arguments: Any) -> None:
+        super().__init__(**arguments)
         self._gates = gates
         self._verdicts: dict[str, tuple[str, str]] | None = None
         self._failure = ""
@@ -154,8 +154,8 @@ class GateItem(pytest.Item):
     PASS is a pass, XFAIL an expected failure, NOT-APPLICABLE is skipped; ERROR, FAIL, XPASS and INCONCLUSIVE fail.
     """
 
-    def __init__(self, *, requirement: str, **other: Any) -> None:
-        super().__init__(**other)
+    def __init__(self, *, requirement: str, **arguments: Any) -> None:
+        super().__init__(**arguments)
         self._requirement = requirement
 
     def runtest(self) -> None:

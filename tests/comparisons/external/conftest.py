@@ -188,7 +188,7 @@ def installed_example(tmp_path, monkeypatch):
     for module in tables["tool"]["setuptools"]["py-modules"]:
         shutil.copy(EXAMPLE / f"{module}.py", info.parent)
     (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {project['version']}\n")
-    entries = "".join(f"{name} = {place}\n" for name, place in project["entry-points"][GROUP].items())
+    entries = "".join(f"{name} = {target}\n" for name, target in project["entry-points"][GROUP].items())
     (info / "entry_points.txt").write_text(f"[{GROUP}]\n{entries}")
     monkeypatch.syspath_prepend(info.parent)
     return project["name"]

@@ -32,10 +32,10 @@ def findings_of(spec):
 
 def test_a_right_model_passes(capsys):
     assert main(["check-model", f"{EXAMPLE / 'double_hertz.py'}:DoubleHertz"]) == 0
-    shown = " ".join(capsys.readouterr().out.split())
-    assert "is right in the limit rigid: off Bradley" in shown
-    assert "is right in the limit jkr: off JKR" in shown
-    assert "3 of 3 calibration values" in shown
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "is right in the limit rigid: off Bradley" in printed
+    assert "is right in the limit jkr: off JKR" in printed
+    assert "3 of 3 calibration values" in printed
 
 
 @pytest.mark.parametrize(

@@ -68,10 +68,10 @@ def test_what_is_wrong_is_refused_with_its_place(write_data, capsys, monkeypatch
         data_model.Problem, "dimensionless", lambda *case, **numbers: built.append(case) or real(*case, **numbers)
     )
     assert main(["solve", "--model", str(folder), *FORCE]) == 2
-    shown = capsys.readouterr()
-    assert sentence in shown.err
-    assert shown.err.count("\n") == 1
-    assert shown.out == ""
+    printed = capsys.readouterr()
+    assert sentence in printed.err
+    assert printed.err.count("\n") == 1
+    assert printed.out == ""
     # A file of 1 kB must not cost a minute and 400 MB.
     assert len(built) <= 1 + len(ROWS)
 

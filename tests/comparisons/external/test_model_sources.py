@@ -188,6 +188,8 @@ DEFECTS = (
     ("echo 1.7", "wrote '1.7', which is not one JSON object"),
     (ok("NaN"), "wrote NaN, which is not a finite number"),
     (ok("1e999"), "value = inf must be a finite"),
+    (ok("null"), "value = "),
+    (ok(more=', "size": 1e19'), "size = 1e"),
     (ok(more=', "unum": 1'), "unknown key 'unum'"),
     ("""echo '{"status": "ok", "value": 1.7}'""", "u_num missing"),
     ("""echo '{"value": 1.7, "u_num": 0}'""", "status = None"),

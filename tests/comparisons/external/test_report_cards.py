@@ -66,6 +66,11 @@ def test_a_gate_that_the_domain_does_not_meet_or_of_a_single_case_has_no_fresh_c
     assert (fresh.parts, fresh.undrawn) == ((), ())
 
 
+def test_poissons_ratio_is_left_to_the_models():
+    fresh = cases_of(drawn(None, 5, grid=GRID.replace("mu = [0.1, 1]", "mu = [0.1, 1]\nnu = [0, 0.3]")))
+    assert [*map(set, (case.parameters for case in fresh))] == [{"n", "k", "mu"}] * 5
+
+
 def box(n, k, mu, width):
     """A table of a domain around a case."""
     ranges = {"k": [k * (1 - width), k * (1 + width)], "mu": [mu * (1 - width), mu * (1 + width)]}
@@ -92,10 +97,10 @@ FULL = {"quantities": ["pull_off_force"], "n": [1, 5], "k": [0, 0.4], "mu": [0.1
 )
 def test_standing_cases_without_room_beside_them_leave_a_gate_inconclusive(tables, untested):
     fresh = drawn(tables)
-    assert [gate.gate for gate in fresh.undrawn] == ["GIVEN"] * bool(untested)
-    assert all(f"{untested} of 12" in gate.reason for gate in fresh.undrawn)
+    assert [gate["gate"] for gate in fresh.undrawn] == ["GIVEN"] * bool(untested)
+    assert all(f"{untested} of 12" in gate["reason"] for gate in fresh.undrawn)
     for case in cases_of(fresh):
-        n, k, mu = min(STANDING, key=lambda known: abs(known[2] / case.mu - 1) + abs(known[1] - case.k))
+        n, k, mu = min(STANDING, key=lambda numbers: abs(numbers[2] / case.mu - 1) + abs(numbers[1] - case.k))
         assert (abs(case.n - n) > 0.05) or (abs(case.k - k) > 0.005) or (abs(case.mu / mu - 1) > 0.05)
 
 
@@ -155,10 +160,10 @@ def finished(tmp_path_factory):
 
 @pytest.mark.parametrize("name", MODELS)
 def test_each_kind_of_model_has_its_verdict(finished, name):
-    *_, verdict, part = MODELS[name]
+    *_, verdict, piece = MODELS[name]
     lines = dict(card_lines(name, finished.verdicts, finished.cards[name], finished.inputs.domains.get(name)))
     assert lines["verdict"].startswith(verdict), lines
-    assert part in str(lines)
+    assert piece in str(lines)
     if verdict == "FAIL: ":
         assert "the gate requires 90 %" in lines["verdict"]
     if name == "honest":
@@ -230,3 +235,8 @@ def test_data_have_a_card_without_evaluations(one_run, write_data):
 def test_wrong_options_are_refused_with_their_name(options, tmp_path, capsys):
     assert main(["run", "--out", str(tmp_path / "out"), *options.split()]) == 2
     assert "--random" in capsys.readouterr().err
+
+
+def test_the_sentence_on_a_model_in_error_has_the_reason():
+    broken = {"candidate": "mine", "gate": "A", "verdict": "ERROR", "reason": "mine has no row", "error": None}
+    assert verdict_sentence("mine", pd.DataFrame([broken])) == "ERROR: mine has no row"

@@ -19,9 +19,9 @@ ROOT = Path(__file__).resolve().parents[3]
 def package(tmp_path, capsys):
     folder = tmp_path / "my-model"
     assert main(["new-model", str(folder)]) == 0
-    shown = capsys.readouterr()
-    assert f"check-model {folder / 'my_model.py'}:MyModel" in shown.err
-    assert sorted(shown.out.splitlines()) == sorted(str(path) for path in folder.rglob("*") if path.is_file())
+    printed = capsys.readouterr()
+    assert f"check-model {folder / 'my_model.py'}:MyModel" in printed.err
+    assert sorted(printed.out.splitlines()) == sorted(str(path) for path in folder.rglob("*") if path.is_file())
     return folder
 
 

@@ -67,14 +67,14 @@ def test_what_a_run_an_editor_or_git_writes_does_not_count(folder):
     (folder / "link").symlink_to(folder)
     os.mkfifo(folder / "pipe")
     # As in ``fscm-bench run --model stranger.py:Model > output.txt``.
-    kept = os.dup(1)
+    stdout = os.dup(1)
     with (folder / "output.txt").open("w") as file:
         os.dup2(file.fileno(), 1)
     try:
         after = of_folder(folder)
     finally:
-        os.dup2(kept, 1)
-        os.close(kept)
+        os.dup2(stdout, 1)
+        os.close(stdout)
     assert (after.version, after.hashed) == (before.version, before.hashed)
 
 

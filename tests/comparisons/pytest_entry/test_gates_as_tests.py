@@ -71,11 +71,11 @@ def test_each_gate_and_case_is_a_test(small_grid, pytester):
             "PASSES of refuses: 0 cases were evaluated, 4 are declared",
         ]
     )
-    shown = result.stdout.str()
-    assert "it has no such [thing]" in shown
-    assert "it is twelve percent" in shown
-    assert "Traceback" not in shown
-    assert "expected_verdicts.py" not in shown
+    output = result.stdout.str()
+    assert "it has no such [thing]" in output
+    assert "it is twelve percent" in output
+    assert "Traceback" not in output
+    assert "expected_verdicts.py" not in output
 
 
 def test_one_gate_can_be_chosen_and_the_folder_kept(small_grid, pytester):
