@@ -69,7 +69,9 @@ def test_a_defect_is_a_failed_row_with_a_reason_and_the_next_one_is_right(write_
 
 def test_one_that_loops_for_ever_is_ended_and_evaluated_no_more(write_model, monkeypatch):
     monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "0.3")
-    model = create(write_model("while True:\n    pass"))
+    model = create(write_model(f"while problem.mu == 1:\n    pass\n{GOOD}"))
+    # A result in time ends a row of overdue ones.
+    assert [row_of(model, mu).status for mu in (1, 1, 2)] == ["failed", "failed", "ok"]
     reasons = [row_of(model).reason for _ in range(PATIENCE + 1)]
     assert all("within 0.3 s (FSCM_BENCH_TIME_LIMIT)" in reason for reason in reasons[:PATIENCE])
     assert reasons[-1].startswith("not evaluated: it ran out of time")

@@ -211,8 +211,9 @@ def test_a_model_that_knows_the_problems_by_heart_is_wrong_in_fresh_ones(run, tm
     assert main(["judge", str(tmp_path / "out")]) == 1
 
 
-def test_problems_without_a_range_have_no_fresh_ones(run, tmp_path):
-    (tmp_path / "cases.toml").write_text(PADS.partition("vary")[0])
+@pytest.mark.parametrize("vary", ["", 'vary = { "solid.E" = ["2 MPa"] }'])
+def test_problems_without_a_range_have_no_fresh_ones(run, tmp_path, vary):
+    (tmp_path / "cases.toml").write_text(PADS.partition("vary")[0] + vary)
     assert run("--random", "6", value=by_heart(tmp_path, "2 MPa"), least=1) == 3
     judged = verdicts(tmp_path)
     assert judged.loc[judged["gate"] == "PADS-RANDOM", "verdict"].tolist() == ["INCONCLUSIVE"]
