@@ -126,3 +126,11 @@ def test_newton_refuses_a_hopeless_start():
     y = np.append(np.zeros(contact.unknowns), [50.0, 1.0])
     with pytest.raises(NotConverged, match="Newton stopped at a residual"):
         newton(contact, y, Size(1.0), CentralGap(-50.0))
+
+
+def test_a_distant_rigid_punch_has_the_load_of_bradley():
+    """Ten lengths away, the load of the 9-3 tail beyond the mesh included."""
+    contact = _contact(E0=50.0)
+    apart = np.zeros(contact.unknowns + 2)
+    apart[-2:] = -10.0, 1.0
+    assert contact.load(apart) == pytest.approx(-8 / 3 * np.pi / 11**2, rel=1e-5)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fscm import Analysis, Problem, displacement_cycle, equilibria, trace
-from fscm._completeness import completed
+from fscm._completeness import completed, may_hide
 from fscm._path_end import LeastLoad, displacement_of_compression
 from fscm._whole_path import path_until
 from fscm.custom_punch import CustomPunch
@@ -79,6 +79,15 @@ def test_a_path_whose_end_has_no_bound_is_not_known_to_be_complete() -> None:
     problem = Problem(2, 0, 20.0, punch=CustomPunch(lambda r: -8 * np.expm1(-(r**2)) + r**2 / 50, growth=2))
     with pytest.raises(NotConverged, match="cannot be told where its last tension is"):
         Analysis(problem).solution("pull_off_force")
+
+
+@pytest.mark.parametrize(
+    ("change", "start", "end", "hides"),
+    [(1.0, 1.0, 1.0, False), (-0.1, 1.0, 1.0, True), (0.0, 1.0, -1.0, False), (1.0, 0.01, -0.01, True)],
+)
+def test_what_may_hide(change: float, start: float, end: float, hides: bool) -> None:
+    assert may_hide(1.0, change, start, end) is hides
+    assert may_hide(-1.0, change, -start, -end) is hides
 
 
 def test_steps_over_a_pair_of_folds_are_found() -> None:
