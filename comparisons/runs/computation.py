@@ -108,7 +108,7 @@ def complete(
         again = row.status == "failed" and (retry_failed or row.reason == LOST or bool(planned[row.key].external))
         return is_row_of(planned.get(row.key), row) and not again
 
-    with rows_in(folder) as store, store.interruptible():
+    with rows_in(folder) as store:
 
         def rows_of_plan() -> dict[Key, Row]:
             return {row.key: row for row in store.items if row.key in planned}
@@ -118,7 +118,8 @@ def complete(
             return [key for key in planned if key in keys]
 
         store.drop(lambda row: row.key in planned and not counts(row))
-        evaluated_again = drop_changed(planned, store)
+        with store.interruptible():
+            evaluated_again = drop_changed(planned, store)
         stored = rows = rows_of_plan()
         log_failures_used(Counter(row.model for row in stored.values() if row.status == "failed"))
         workers = f"{jobs} processes" if backend is processes else "a Dask cluster"

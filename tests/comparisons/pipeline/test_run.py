@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+from itertools import islice
 
 import pytest
 
@@ -12,6 +13,8 @@ from comparisons.data.file_names import RUN_FILES, VERDICT_FILES
 from comparisons.pipeline.figures import make_figures
 from comparisons.pipeline.judgement import judge_folder
 from comparisons.pipeline.run import run
+from comparisons.runs import computation
+from comparisons.runs.computation import compute
 from comparisons.runs.record import check_files, read_record
 from tests.comparisons.conftest import GRID as STANDING
 
@@ -91,6 +94,19 @@ def test_wrong_arguments_are_refused_before_anything_is_written(toys, tmp_path, 
     with pytest.raises(ValueError, match=re.escape(named)):
         run(**arguments, folder=tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+def test_an_interruption_is_told_once_and_loses_nothing(small_grid, tmp_path, monkeypatch, capsys):
+    def interrupted(tasks, jobs, backend):
+        yield from islice(compute(tasks, jobs, backend), 5)
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(computation, "compute", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            run("quick", folder=tmp_path)
+    assert capsys.readouterr().err.count("5 finished computations are safe") == 1
+    assert run("quick", folder=tmp_path).counts["resumed"] == 5
 
 
 def test_the_figures_of_the_paper_have_a_record(tmp_path):
