@@ -117,14 +117,12 @@ def test_the_certified_values_are_those_that_the_tests_prove():
         assert flint.arb(*interval).contains(proved[mu].mid())
 
 
-def test_long_settings_are_measured_at_one_tabor_number_unless_all_are_wanted(tables):
-    def tabor_numbers(full, **wanted):
-        return [row["mu"] for row in work_precision.plan(full) if wanted.items() <= row.items()]
-
-    assert tabor_numbers(False, segments=2500) == [1.0]
-    assert tabor_numbers(True, segments=2500) == [0.1, 0.5, 1.0]
-    assert tabor_numbers(False, points=512) == []
-    assert tabor_numbers(True, points=512) == [0.1, 0.5, 1.0]
+@pytest.mark.parametrize(
+    ("wanted", "few", "full"), [({"segments": 2500}, [1.0], [0.1, 0.5, 1.0]), ({"points": 512}, [], [0.1, 0.5, 1.0])]
+)
+def test_long_settings_are_measured_at_one_tabor_number_unless_all_are_wanted(wanted, few, full, tables):
+    plans = [work_precision.plan(False), work_precision.plan(True)]
+    assert [[row["mu"] for row in plan if wanted.items() <= row.items()] for plan in plans] == [few, full]
 
 
 def test_without_the_package_adhesion_nothing_of_it_is_measured_and_that_is_said(monkeypatch):
