@@ -1,10 +1,14 @@
 """The plugin of pytest: gates as tests, and nothing at all without its options."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from comparisons.pipeline.expected_verdicts import verdicts_of_run
+from comparisons.judging.card_gates import verdict_on_model
+from comparisons.judging.decision import Verdict
+from comparisons.judging.judge import Judged, verdict_table
+from comparisons.pipeline import expected_verdicts
 
 from ..conftest import GATES
 
@@ -18,7 +22,7 @@ PLUGIN = "fscm_bench_pytest"
 def small_grid(small_grid, tmp_path, pytester):
     """The four cases of toy models, after one run: pytester drops every module that a run inside it imports first."""
     (tmp_path / "first.toml").write_text(GATES)
-    verdicts = verdicts_of_run(tmp_path / "first.toml", ["ten-percent"], "quick", tmp_path / "first")
+    verdicts = expected_verdicts.verdicts_of_run(tmp_path / "first.toml", ["ten-percent"], "quick", tmp_path / "first")
     assert {verdict for verdict, _ in verdicts.values()} == {"PASS"}
     (tmp_path / "first.toml").unlink()
 
@@ -92,6 +96,16 @@ def test_an_ini_file_names_them(small_grid, pytester):
     pytester.runpytest_inprocess("-p", PLUGIN).assert_outcomes(passed=6)
     # Tests that are named come alone.
     pytester.runpytest_inprocess("-p", PLUGIN, "test_an_ini_file_names_them.py").assert_outcomes(passed=1)
+
+
+def test_a_model_that_is_inconclusive_as_a_whole_is_no_pass(small_grid, tmp_path, monkeypatch):
+    (tmp_path / "gates.toml").write_text(GATES)
+    gate = Judged("TEN-PERCENT", "pull_off_force", "ten-percent", "exact", 2.0, 0.0, 1.0, verdict=Verdict.PASS)
+    card = verdict_on_model("CARD-DIFFERS", "ten-percent", Verdict.INCONCLUSIVE, "copied")
+    judgement = SimpleNamespace(verdicts=verdict_table([gate, card]), inputs=SimpleNamespace(specs={}))
+    monkeypatch.setattr(expected_verdicts, "run", lambda *_, **__: SimpleNamespace(judgement=judgement))
+    verdicts = expected_verdicts.verdicts_of_run(tmp_path / "gates.toml", ["ten-percent"], "quick", tmp_path)
+    assert verdicts["other verdicts"][0] == "FAIL"
 
 
 CASES = """
