@@ -28,7 +28,7 @@ from comparisons.runs.atomic_files import atomic
 from comparisons.runs.frames import write_table
 from comparisons.runs.rows import Key
 
-__all__ = ["GATE_COLUMNS", "command", "gate_lines", "gates_sentence", "unexpected", "write_verdicts"]
+__all__ = ["GATE_COLUMNS", "command", "gate_lines", "gates_sentence", "unexpected", "verdict_counts", "write_verdicts"]
 
 #: Names of gates that are listed in one sentence.
 _NAMES = 12
@@ -100,7 +100,7 @@ def gates_sentence(gates: pd.DataFrame, verdicts: pd.DataFrame) -> str:
     """
     of_user = without_card_gates(gates)
     of_cards = gates.drop(of_user.index)
-    cards = _counts(of_cards[of_cards["verdict"] != Verdict.PASS])
+    cards = verdict_counts(of_cards[of_cards["verdict"] != Verdict.PASS])
     ending = f"; report cards: {cards}" if cards else ""
     if of_user.empty:
         return f"No gate was evaluated{ending}"
@@ -108,11 +108,12 @@ def gates_sentence(gates: pd.DataFrame, verdicts: pd.DataFrame) -> str:
     parts = [f"{count[Verdict.PASS]} of {len(of_user)} gates pass", f"{count[Verdict.XFAIL]} fail as declared"]
     if count[Verdict.NOT_APPLICABLE]:
         parts.append(f"{count[Verdict.NOT_APPLICABLE]} apply to no case")
-    parts.append(": ".join(filter(None, [f"{len(surprising)} unexpected", _counts(surprising)])))
-    return f"{', '.join(parts)} (cases: {_counts(without_card_gates(verdicts))}){ending}"
+    parts.append(": ".join(filter(None, [f"{len(surprising)} unexpected", verdict_counts(surprising)])))
+    return f"{', '.join(parts)} (cases: {verdict_counts(without_card_gates(verdicts))}){ending}"
 
 
-def _counts(rows: pd.DataFrame) -> str:
+def verdict_counts(rows: pd.DataFrame) -> str:
+    """Return how many rows have each verdict, worst first."""
     count = Counter(rows["verdict"])
     return ", ".join(f"{count[verdict]} {verdict}" for verdict in Verdict if count[verdict])
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -19,7 +18,7 @@ from comparisons.output.plots import Plot
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.table import CASE as CASE_COLUMNS
 from comparisons.output.table import Column, Record, Table, columns, key_columns, numbers, physical_text, words
-from comparisons.output.verdicts import command
+from comparisons.output.verdicts import command, verdict_counts
 from comparisons.runs.case_columns import with_problem
 from comparisons.runs.rows import CASE
 
@@ -42,11 +41,7 @@ def _small(column: Column, small: Callable[[Record], str], kind: str = "") -> Co
 def gates(stored: Stored) -> Iterator[Table]:
     """Yield one row for each gate and candidate, worst first, and the report cards of the given models."""
     facts = {row["id"]: row for row in stored.gates.to_dict("records")}
-    counts = {key: Counter(rows) for key, rows in stored.verdicts.groupby(["gate", "candidate"])["verdict"]}
-
-    def cases(row: Record) -> str:
-        count = counts[row["gate"], row["candidate"]]
-        return ", ".join(f"{count[verdict]} {verdict}" for verdict in Verdict if count[verdict])
+    counts = {key: verdict_counts(rows) for key, rows in stored.verdicts.groupby(["gate", "candidate"])}
 
     def grounds(row: Record) -> str:
         fact = facts.get(row["gate"])
@@ -57,22 +52,25 @@ def gates(stored: Stored) -> Iterator[Table]:
         *columns("verdict"),
         _small(gate, lambda row: facts.get(row["gate"], {}).get("requirement", ""), "prose"),
         *columns("candidate", "reference"),
-        Column("cases", cases, kind="prose", small=lambda row: row["reason"] or ""),
+        Column(
+            "cases",
+            lambda row: counts[row["gate"], row["candidate"]],
+            kind="prose",
+            small=lambda row: row["reason"] or "",
+        ),
         *columns("coverage", "E(U)"),
         _small(limits, grounds, "prose"),
     ]
     yield Table("matrix", "Gates, worst first, each with its worst error", layout, stored.summary)
-    recorded_cards, domains = stored.record.get("cards", {}), stored.record.get("domains", {})
-    lines = [
-        (name, *line)
-        for name in given_models(stored.record["arguments"].get("model"), stored.verdicts)
-        for line in card_lines(
-            name, stored.verdicts, recorded_cards.get(name), Domain.of_json(domains[name]) if name in domains else None
-        )
-    ]
-    card = [*columns("model"), words("item", "item"), words("result", "result", "prose")]
-    rows = pd.DataFrame(lines, columns=["model", "item", "result"])
-    yield Table("cards", "Report cards of the given models", card, rows)
+    cards, domains = stored.record.get("cards", {}), stored.record.get("domains", {})
+    lines: list[tuple[str, str, str]] = []
+    for name in given_models(stored.record["arguments"].get("model"), stored.verdicts):
+        domain = Domain.of_json(domains[name]) if name in domains else None
+        lines += [(name, *line) for line in card_lines(name, stored.verdicts, cards.get(name), domain)]
+    card = [*columns("model"), words("item"), words("result", kind="prose")]
+    yield Table(
+        "cards", "Report cards of the given models", card, pd.DataFrame(lines, columns=["model", "item", "result"])
+    )
 
 
 def worst_cases(stored: Stored) -> Iterator[Table]:

@@ -11,7 +11,7 @@ from comparisons.judging.decision import Verdict
 from comparisons.output.errors import largest, relative_error
 from comparisons.output.summaries import every_error, largest_table, paper_sentence
 from comparisons.output.terminal import records, rich_table
-from comparisons.output.verdicts import declared_sentence, gate_lines, gates_sentence
+from comparisons.output.verdicts import declared_sentence, gate_lines
 
 CASE = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "mu": 1.0, "nu": np.nan}
 
@@ -85,20 +85,6 @@ def test_many_gates_are_counted():
     assert "GATE-0, GATE-1" in named
     assert named.endswith("GATE-11 and 3 more")
     assert declared_sentence(gates(Verdict.PASS)) == ""
-
-
-@pytest.mark.parametrize(
-    ("verdicts", "sentence"),
-    [
-        (["PASS", "PASS", "XFAIL"], "2 of 3 gates pass, 1 fail as declared, 0 unexpected"),
-        (
-            ["NOT-APPLICABLE", "FAIL", "ERROR", "FAIL"],
-            "0 of 4 gates pass, 0 fail as declared, 1 apply to no case, 3 unexpected: 1 ERROR, 2 FAIL",
-        ),
-    ],
-)
-def test_the_sentence_on_all_gates(verdicts, sentence):
-    assert gates_sentence(gates(*verdicts), gates(*verdicts)).partition(" (cases: ")[0] == sentence
 
 
 @pytest.mark.parametrize("width", [60, 80, 140])

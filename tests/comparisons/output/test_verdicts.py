@@ -43,8 +43,7 @@ AGAIN = partial(command, specs={})
     [
         (1.7884817, 2.6e-6, "1.788482(3)"),
         (1.7884817, 1.4e-6, "1.7884817(14)"),
-        (1.7884817, 9.6e-6, "1.788482(10)"),
-        (-1.7884817, 0.02, "-1.79(2)"),
+        (-1.7884817, 9.6e-6, "-1.788482(10)"),
         (0.0, 0.003, "0.000(3)"),
         (1234.0, 40.0, "123(4)e1"),
         (2.0, 0.0, "2"),
@@ -52,22 +51,12 @@ AGAIN = partial(command, specs={})
         (1.5, None, "1.5"),
         (math.nan, 0.1, "nan"),
         (1.5, math.inf, "1.5(inf)"),
-        (1e-9, 2e-11, "0.00000000100(2)"),
         (1e20, 1e-12, "1e+20(10e-13)"),
         (0.0, 3e-300, "0.0(3e-300)"),
     ],
 )
 def test_digits(value, u, text):
     assert short(value, u) == text
-
-
-@pytest.mark.parametrize(("lower", "upper"), [(-0.651, -0.6495), (-math.inf, 0.1 + 0.2), (0.0, 1.23456789e-9)])
-def test_limits_are_shown_with_the_digits_they_were_declared_with(tmp_path, lower, upper):
-    page = write_verdicts(tmp_path, JUDGED.assign(lower=lower, upper=upper), [], {})
-    (text,) = set(re.findall(r"\| (\S+ to \S+) \|", page))
-    assert tuple(map(float, text.split(" to "))) == (lower, upper)
-    cases = ElementTree.parse(tmp_path / "junit.xml").findall(".//testcase")
-    assert all(f"limits {text}" in case[0].text for case in cases)
 
 
 def test_the_step_summary_is_appended_where_there_is_one(tmp_path, monkeypatch):
