@@ -136,8 +136,8 @@ def error_text(error: float | None, u: float | None) -> str:
 
     Examples
     --------
-    >>> error_text(-0.0494, 3e-4), error_text(-0.0494, 3e-9), error_text(2.1e-7, 4e-9), error_text(None, None)
-    ('-0.0494(3)', '-0.049400(5)', '2.10(4)e-7', '')
+    >>> error_text(-0.0494, 3e-9), error_text(2.1e-7, 4e-9), error_text(1e-9, 3e-7), error_text(None, None)
+    ('-0.049400(5)', '2.10(4)e-7', '0(3)e-7', '')
     """
     if error is None or u is None or math.isnan(error):
         return ""

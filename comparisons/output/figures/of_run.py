@@ -49,8 +49,14 @@ _ANY = "0.45"
 
 _COLUMNS = 4
 
+#: Smaller ratios of a difference to its bound are drawn as this one.
+_SMALLEST = 1e-5
+
 #: More panels are too small a part of a figure; room of one entry of the legend in inches.
 _MOST_PANELS, _LEGEND_WIDTH, _LEGEND_HEIGHT = 24, 2.3, 0.17
+
+#: Characters of a line beside or above a panel.
+_LINE = 28
 
 
 def figures_of(tables: dict[str, pd.DataFrame]) -> Iterator[tuple[str, Figure]]:
@@ -69,6 +75,8 @@ def figures_of(tables: dict[str, pd.DataFrame]) -> Iterator[tuple[str, Figure]]:
     kappa, differences, points = (tables.get(name, pd.DataFrame()) for name in (KAPPA, AGREEMENT, CURVES))
     if len(kappa):
         kappa = kappa[kappa["model"].isin(_FACES) & (kappa["quantity"] == _QUANTITY) & (kappa["k"] == _K)]
+    if len(points):
+        points = points[points["model"].isin(("fscm", "fem"))]
     drawings = (KAPPA_FIGURE, kappa, draw_kappa), (AGREEMENT, differences, draw_agreement)
     for stem, table, draw in (*drawings, (REFERENCES, points, lambda table: draw_plots(plots.curves(table)))):
         if len(table):
@@ -122,9 +130,10 @@ def _panel(axes: Axes, plot: plots.Plot, rows: pd.DataFrame, styles: Mapping[str
         handles[style.label] = axes.errorbar(points["x"], points["y"], **drawn)[0]
     axes.axhline(0, color="0.4", lw=0.8)
     options = zip(plot.choices, rows["options"].iloc[0], strict=True)
-    texts = [f"{column.heading} = {text}" if number_parts(text) else text for column, text in options]
-    axes.set_title("\n".join(textwrap.wrap(", ".join(texts), 34)), fontsize=8)
-    axes.set(xscale=plot.x_scale, xlabel=plot.x_label, ylabel=plot.y_label)
+    # No line ends within "n = 2".
+    texts = [f"{column.heading}\u00a0=\u00a0{text}" if number_parts(text) else text for column, text in options]
+    axes.set_title(textwrap.fill(", ".join(texts), _LINE), fontsize=8)
+    axes.set(xscale=plot.x_scale, xlabel=plot.x_label, ylabel=textwrap.fill(plot.y_label, _LINE))
     if view := plot.views.get(str(rows["group"].iloc[0])):
         axes.set(xlim=view[:2], ylim=view[2:])
     return handles
@@ -174,7 +183,7 @@ def kappa_panels(whole: Axes, enlarged: Axes, kappa: pd.DataFrame) -> None:
 
 
 def draw_agreement(agreement: pd.DataFrame) -> Figure:
-    """Draw E_n, the difference of two models over the sum of their bounds, which is within -1 and 1 if both hold.
+    """Draw the size of E_n, the difference of two models over the sum of their bounds: at most 1 if both hold.
 
     Parameters
     ----------
@@ -189,15 +198,26 @@ def draw_agreement(agreement: pd.DataFrame) -> Figure:
     panels = figure.subplots(rows, columns, sharey=True, squeeze=False).flat
     for letter, axes, quantity in zip_longest(ascii_lowercase[: len(quantities)], panels, quantities):
         axes.set_visible(quantity is not None)
-        axes.axhspan(-1.0, 1.0, color="0.9")
+        axes.axhline(1.0, color="0.4", lw=0.8)
         for index, (n, of_shape) in enumerate(agreement[agreement["quantity"] == quantity].groupby("n")):
             style: dict[str, Any] = {"color": COLOURS[index % len(COLOURS)], "marker": MARKERS[index % len(MARKERS)]}
             # Side by side: cases of one Tabor number would cover each other.
             mu = of_shape["mu"] * 1.06 ** (index - 1.5) * 1.015 ** (10 * of_shape["k"] - 3)
-            axes.plot(mu, of_shape["en"], ls="none", ms=3.5, mfc="white", label=f"$n$ = {n:g}", **style)
-        axes.set(xscale="log", xlabel=r"Tabor number $\mu$")
+            axes.plot(
+                mu,
+                of_shape["en"].abs().clip(lower=_SMALLEST),
+                ls="none",
+                ms=3.5,
+                mfc="white",
+                label=f"$n$ = {n:g}",
+                **style,
+            )
+        axes.set(xscale="log", yscale="log", xlabel=r"Tabor number $\mu$")
+        ticks = sorted(agreement.loc[agreement["quantity"] == quantity, "mu"].unique())
+        axes.set_xticks(ticks, [f"{mu:g}" for mu in ticks])
+        axes.set_xticks([], minor=True)
         lettered(axes, str(letter), title_of(str(quantity)))
-    figure.suptitle(f"Difference of {pair} over the sum of their bounds, $E_n$")
+    figure.suptitle(f"Difference of {pair} over the sum of their bounds (below 1: both hold)")
     handles, labels = figure.axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=max(len(labels), 1))
     return figure

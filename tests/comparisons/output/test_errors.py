@@ -8,7 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from comparisons.data.paper_values import PaperValue
-from comparisons.output.errors import largest, relative_error
+from comparisons.output.errors import comparison_table, largest, relative_error
+from comparisons.problem import Problem
+from comparisons.runs.cases import Grid
 
 
 def stored(model, mu, value, u_num=0.0, **more):
@@ -50,6 +52,14 @@ def test_u_kappa_bounds_what_the_true_values_can_give(value, reference, u, u_ref
 )
 def test_verdict_is_on_the_printed_digits(percent, kappa, u, verdict):
     assert PaperValue("", "", "", percent, "%").verdict(100 * abs(kappa), 100 * u) == verdict
+
+
+def test_a_comparison_states_why_the_reference_has_no_value():
+    grid = Grid("g", "", "quick", "atlas", ("jkr",), ("pull_off_force",), (Problem.dimensionless(2.0, 0.4, 20.0),))
+    rows = [stored("jkr", 20.0, 1.7, reason=""), stored("atlas", 20.0, math.nan, status="failed", reason="mu is large")]
+    (row,) = comparison_table(pd.DataFrame(rows), [grid], None).to_dict("records")
+    assert (row["status"], row["value"], row["reason"]) == ("ok", 1.7, "the reference atlas: failed: mu is large")
+    assert math.isnan(row["kappa"])
 
 
 def test_largest_error_is_signed_and_says_when_it_is_at_an_end():

@@ -36,7 +36,7 @@ def test_the_agreement_of_two_models_is_their_difference_over_its_bound():
     table = pd.DataFrame([case | {"n": 1.0, "en": -0.5}, case | {"n": 2.0, "en": 1.5}])
     ((stem, figure),) = figures_of({"agreement": table})
     assert stem == "agreement"
-    assert [line.get_ydata().tolist() for line in figure.axes[0].get_lines()] == [[-0.5], [1.5]]
+    assert [list(line.get_ydata()) for line in figure.axes[0].get_lines()] == [[1, 1], [0.5], [1.5]]
 
 
 def test_the_curves_of_the_references_have_a_panel_for_each_case_with_the_tension():
@@ -82,7 +82,7 @@ def test_a_comparison_has_a_panel_for_each_case_and_a_legend_inside_the_figure()
     figure = draw_comparison(errors(models))
     FigureCanvasAgg(figure).draw()
     assert len(figure.axes) == 4
-    assert "n = 2, k = 0.4" in figure.axes[3].get_title().replace("\n", " ")
+    assert "n = 2, k = 0.4" in figure.axes[3].get_title().replace("\n", " ").replace("\u00a0", " ")
     (legend,) = figure.legends
     box, whole = legend.get_window_extent(), figure.bbox
     assert whole.x0 <= box.x0 < box.x1 <= whole.x1

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from comparisons.judging.decision import Verdict
 from comparisons.output.errors import largest, relative_error
-from comparisons.output.summaries import every_error, largest_table, paper_sentence
+from comparisons.output.summaries import case_tables, every_error, largest_table, paper_sentence
 from comparisons.output.terminal import records, rich_table
 from comparisons.output.verdicts import declared_sentence, gate_lines
 
@@ -45,6 +45,13 @@ def test_the_largest_of_all_shapes_is_named_with_its_shape_and_quantity():
     lines = shown(largest_table(maxima(quantities)))
     expected = [[quantity, "jkr", "-45.000(5)", "5", "0.4", "0.837"] for quantity in quantities]
     assert [line.split() for line in lines[-2:]] == expected
+
+
+def test_the_reference_of_a_comparison_has_seven_decimals_at_most():
+    errors = {"status": ["ok", "failed"], "kappa": [0.1, np.nan], "u_kappa": [1e-9, np.nan], "mu": [1.0, 2.0]}
+    values = {"reference": "fscm", "reference_value": 17.5, "u_reference": 0.0, "model": "jkr"}
+    (table,) = case_tables(pd.DataFrame(CASE | values | errors))
+    assert table.texts[["fscm", "jkr"]].values.tolist() == [["17.5000000(5)", "10.000(5)"], ["17.5000000(5)", "failed"]]
 
 
 def test_every_error_and_failure_is_printed_beside_the_numbers_of_the_paper():

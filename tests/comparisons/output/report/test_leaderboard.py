@@ -124,7 +124,10 @@ CASE = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "nu": math.nan, "statu
 
 def test_cases_of_the_verification_and_fresh_ones_do_not_count():
     results = pd.DataFrame([CASE | {"model": model, "mu": mu} for model in ("a", "exact") for mu in (0.1, 0.2, 7.0)])
-    kappa = [("pull_off_force", "a", 2.0, 0.0, mu, math.nan, "exact", x, 1e-9) for mu, x in ((0.1, -0.3), (0.2, 0.4))]
+    kappa = [
+        ("pull_off_force", "a", 2.0, 0.0, mu, math.nan, "exact", x, u)
+        for mu, x, u in ((0.1, -0.3, 1e-9), (0.2, 0.4, 0.0))
+    ]
     planned = {("a", "pull_off_force", 2.0, 0.0, mu, None, ""): "exact" for mu in (0.1, 0.2)}
     for keys, asked in ((planned, 2), (None, 3)):
         (row,) = standing(entry(record(), kappa, results, keys)).to_dict("records")
