@@ -118,11 +118,11 @@ def _range(
     ends, monotone = [], True
     try:
         for side in (-1.0, 1.0):
-            there = problem
+            at_end = problem
             for key, spread in intervals.items():
                 low, high = spread.limits(problem[".".join(key)])
-                there = there.with_value(*key, high if side * slopes[key] > 0.0 else low)
-            end, u_num, end_slopes = _slopes(there, quantity, intervals)
+                at_end = at_end.with_value(*key, high if side * slopes[key] > 0.0 else low)
+            end, u_num, end_slopes = _slopes(at_end, quantity, intervals)
             ends.append(end + side * u_num)
             monotone &= all(end_slopes[key] * slopes[key] >= 0.0 for key in intervals)
     except (fscm.NoSuchEvent, fscm.NotConverged, ValueError):

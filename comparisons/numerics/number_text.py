@@ -82,18 +82,18 @@ def short(value: float, uncertainty: float | None) -> str:
     # The shortest decimal of a double is what was meant: 3e-6 is 3 and not 3.0000000000000001 rounded up.
     u = Decimal(repr(float(uncertainty)))
     # Digits of the uncertainty that stay: one, or two if the first is 1; rounding 9.5 up gives 10, again two.
-    place = u.adjusted()
-    if u.scaleb(-place) < 2:
-        place -= 1
-    step = Decimal(1).scaleb(place)
+    digit = u.adjusted()
+    if u.scaleb(-digit) < 2:
+        digit -= 1
+    step = Decimal(1).scaleb(digit)
     u = u.quantize(step, ROUND_CEILING)
     number = Decimal(repr(float(value)))
-    if number.adjusted() - place > _MOST_DIGITS:
-        return f"{float(value)!r}({int(u.scaleb(-place))}e{place})"
+    if number.adjusted() - digit > _MOST_DIGITS:
+        return f"{float(value)!r}({int(u.scaleb(-digit))}e{digit})"
     rounded = number.quantize(step, ROUND_HALF_EVEN)
-    if place <= 0:
-        return f"{rounded:f}({int(u.scaleb(-place))})"
-    return f"{int(rounded.scaleb(-place))}({int(u.scaleb(-place))})e{place}"
+    if digit <= 0:
+        return f"{rounded:f}({int(u.scaleb(-digit))})"
+    return f"{int(rounded.scaleb(-digit))}({int(u.scaleb(-digit))})e{digit}"
 
 
 def value_text(value: float | None, u: float | None) -> str:

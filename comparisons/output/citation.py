@@ -38,8 +38,8 @@ class Work(NamedTuple):
         year = f"({entry['year']})" if entry["year"] else ""
         where = " ".join(filter(None, [entry["journal"], entry["volume"], year, entry["pages"].replace("--", "-")]))
         doi = f"doi:{entry['doi']}" if entry["doi"] else ""
-        parts = [authors, entry["title"], where, doi, entry["note"], entry["url"]]
-        return " ".join(f"{part.rstrip('.')}." for part in parts if part)
+        sentences = [authors, entry["title"], where, doi, entry["note"], entry["url"]]
+        return " ".join(f"{sentence.rstrip('.')}." for sentence in sentences if sentence)
 
     def bibtex(self) -> str:
         """The work as an entry of BibTeX, in ASCII."""
@@ -85,10 +85,11 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
     for name, model in models.items():
         title = f"Model {name}, version {model['version']}"
         cited.append(_work("model-" + re.sub("[^A-Za-z0-9-]", "-", name), {"title": title, "note": model["citation"]}))
+    versions = (record or {}).get("dependencies", {})
     for library in software if record else ():
         if library["models"] is None or not models.keys().isdisjoint(library["models"]):
             package = library["package"]
-            facts = {"author": " and ".join(library["authors"]), "note": f"version {record['dependencies'][package]}"}
+            facts = {"author": " and ".join(library["authors"]), "note": f"version {versions[package]}"}
             cited.append(_work(package, library | facts))
     return cited
 

@@ -96,7 +96,7 @@ def latex_parts(texts: pd.DataFrame, caption: str, label: str) -> tuple[str, lis
     plain = {str(name): [" ".join(str(text).split()) for text in texts[name]] for name in texts}
     page, form = _layout(plain)
     cells = pd.DataFrame({_heading(name, column): _cells(column) for name, column in plain.items()}, dtype=object)
-    made = cells.style.hide(axis="index").to_latex(
+    table = cells.style.hide(axis="index").to_latex(
         environment="longtable",
         hrules=True,
         siunitx=True,
@@ -105,7 +105,7 @@ def latex_parts(texts: pd.DataFrame, caption: str, label: str) -> tuple[str, lis
         column_format=form,
     )
     margins = r"\setlength{\tabcolsep}{2.5pt}\setlength{\LTcapwidth}{\linewidth}"
-    head, end_of_head, body = made.partition("\\endlastfoot\n")
+    head, end_of_head, body = table.partition("\\endlastfoot\n")
     rows, end, _ = body.partition(r"\end{longtable}")
     before = f"{_PACKAGES}\n\\begin{{{page.around}}}\\{page.font}{margins}\n{head}{end_of_head}"
     return before.rstrip("\n"), rows.splitlines(), f"{end}\n\\end{{{page.around}}}"

@@ -95,8 +95,8 @@ class Table:
     @cached_property
     def texts(self) -> pd.DataFrame:
         """The texts by the headings, without columns in which no row has one."""
-        every = {column.heading: [column.text(row) for row in self.records] for column in self.columns}
-        table = pd.DataFrame(every, dtype=object)
+        texts = {column.heading: [column.text(row) for row in self.records] for column in self.columns}
+        table = pd.DataFrame(texts, dtype=object)
         return table.loc[:, (table != "").any()] if len(table) else table
 
     @property

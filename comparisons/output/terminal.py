@@ -41,8 +41,8 @@ def rich_table(table: pd.DataFrame, title: str, formats: Mapping[str, str] | Non
     for name, cells in texts.items():
         number = aligned([word for cell in cells for word in cell.replace("\n", ", ").split(", ")])
         # A column of single words gives way to one of sentences.
-        whole = number or not any(" " in cell for cell in cells)
-        width = max(map(len, "\n".join(cells).split("\n"))) if whole else None
+        unbroken = number or not any(" " in cell for cell in cells)
+        width = max(map(len, "\n".join(cells).split("\n"))) if unbroken else None
         lines.add_column(Text(str(name)), justify="right" if number else "left", min_width=width, overflow="fold")
     for row in texts.itertuples(index=False):
         lines.add_row(*map(Text, row))

@@ -191,8 +191,8 @@ def write_verdicts(
     by_gate = Table("verdicts", "Verdicts", layout, summary)
     worst = Table("verdicts", "Verdicts of fscm-bench, worst first, each in its worst case", _WORST_CASES, summary)
     contents = {folder / JUNIT: junit(judged, again, seconds)}
-    for suffix, made in FORMATS.items():
-        contents[folder / f"{VERDICTS}.{suffix}"] = made(by_gate, worst).encode()
+    for suffix, text_of in FORMATS.items():
+        contents[folder / f"{VERDICTS}.{suffix}"] = text_of(by_gate, worst).encode()
     for path, content in contents.items():
         with atomic(path) as file:
             file.write(content)

@@ -142,9 +142,9 @@ def _panel(axes: Axes, plot: plots.Plot, rows: pd.DataFrame, styles: Mapping[str
 def draw_kappa(kappa: pd.DataFrame) -> Figure:
     """Draw kappa against mu for every n, both models: left all of it, right the errors of the improved model."""
     figure = new_figure(7.2, 4.2)
-    whole, enlarged = figure.subplots(1, 2)
-    kappa_panels(whole, enlarged, kappa)
-    lettered(whole, "a", f"{title_of(_QUANTITY)}, $k$ = {_K:g}")
+    complete, enlarged = figure.subplots(1, 2)
+    kappa_panels(complete, enlarged, kappa)
+    lettered(complete, "a", f"{title_of(_QUANTITY)}, $k$ = {_K:g}")
     lettered(enlarged, "b", "enlarged")
     figure.legend(handles=kappa_handles(kappa["n"].unique()), loc="outside lower center", ncols=6, columnspacing=1.2)
     return figure
@@ -164,7 +164,7 @@ def kappa_handles(shapes: Iterable[float]) -> list[Line2D]:
     return handles
 
 
-def kappa_panels(whole: Axes, enlarged: Axes, kappa: pd.DataFrame) -> None:
+def kappa_panels(complete: Axes, enlarged: Axes, kappa: pd.DataFrame) -> None:
     """Draw kappa (of one quantity and gradient exponent) into two axes: all of it, and near zero."""
     for index, (n, of_shape) in enumerate(kappa.sort_values("mu").groupby("n")):
         for model, face in _FACES.items():
@@ -172,13 +172,13 @@ def kappa_panels(whole: Axes, enlarged: Axes, kappa: pd.DataFrame) -> None:
             colour, line = COLOURS[index], model_styles([model])[model].line
             style: dict[str, Any] = {"color": colour, "marker": MARKERS[index], "mfc": face or colour, "ms": 3.5}
             error, u = 100 * points["kappa"], 100 * points["u_kappa"]
-            for axes in (whole, enlarged) if len(points) else ():
+            for axes in (complete, enlarged) if len(points) else ():
                 axes.plot(points["mu"], error, ls=line, label=f"$n$ = {n:g}, {model_label(model)}", **style)
                 axes.fill_between(points["mu"], error - u, error + u, color=colour, alpha=0.2)
-    for axes in (whole, enlarged):
+    for axes in (complete, enlarged):
         axes.set(xscale="log", xlabel=r"Tabor number $\mu$")
         axes.axhline(0, color="0.4", lw=0.8)
-    whole.set_ylabel(rf"relative error of the {title_of(_QUANTITY)} $\kappa$ (%)")
+    complete.set_ylabel(rf"relative error of the {title_of(_QUANTITY)} $\kappa$ (%)")
     enlarged.set_ylim(-9, 9)
 
 

@@ -114,13 +114,13 @@ def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:
     """
     letters = case_sets(entries, mixed)
     rows = [standing(entry).assign(case_set=letter) for entry, letter in zip(entries, letters, strict=True)]
-    every = pd.concat(rows, ignore_index=True)
-    every = every.sort_values(["quantity", "case_set", "size"], kind="stable", ignore_index=True)
+    board_rows = pd.concat(rows, ignore_index=True)
+    board_rows = board_rows.sort_values(["quantity", "case_set", "size"], kind="stable", ignore_index=True)
     facts = {letter: entry.facts for entry, letter in zip(entries, letters, strict=True)}
     sets = pd.DataFrame([[letter, *facts[letter]] for letter in sorted(facts)], columns=["set", *_FACTS])
     differing = [words("set", "case_set")] if len(sets) > 1 else []
-    board = Table("leaderboard", "One row a model and quantity of each run", [*differing, *_LAYOUT], every)
+    board = Table("leaderboard", "One row a model and quantity of each run", [*differing, *_LAYOUT], board_rows)
     described = sets if differing else sets.head(0)
     facts_of_sets = Table("sets", "Digests of cases and gates", list(map(words, sets)), described)
-    headline = f"Models: {every['model'].nunique()}, runs: {len(entries)}"
+    headline = f"Models: {board_rows['model'].nunique()}, runs: {len(entries)}"
     return render(Page("leaderboard", headline, {"sets": [facts_of_sets], "board": [board]}))

@@ -97,10 +97,12 @@ def render(page: Page) -> str:
 def _environment() -> Environment:
     """The environment of the template: everything that is text is escaped."""
     loader = PackageLoader(_ASSETS, "assets")
-    made = Environment(loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    made.globals |= {"badge": badge, "html_table": html_table}
-    made.filters["dark_colour"] = lambda colour: _ON_DARK.get(colour, colour)
-    return made
+    environment = Environment(
+        loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.globals |= {"badge": badge, "html_table": html_table}
+    environment.filters["dark_colour"] = lambda colour: _ON_DARK.get(colour, colour)
+    return environment
 
 
 def _data(table: Table) -> dict[str, Any]:

@@ -88,8 +88,8 @@ def worst_cases(stored: Stored) -> Iterator[Table]:
     worst = [verdict, _small(gate, lambda row: row["reason"] or "", "prose"), *whose, *case_numbers, again]
     caption = "Worst cases first, with the command that computes the candidate's side again"
     yield Table("offenders", caption, worst, rows, note)
-    every = [*columns("verdict", "gate", "candidate", "reference", "quantity"), *case_numbers, *columns("reason")]
-    yield Table("verdicts", "Every gate in every case", every, stored.verdicts, fold="Every verdict")
+    layout = [*columns("verdict", "gate", "candidate", "reference", "quantity"), *case_numbers, *columns("reason")]
+    yield Table("verdicts", "Every gate in every case", layout, stored.verdicts, fold="Every verdict")
 
 
 def errors_of_models(summary: pd.DataFrame) -> Table:
@@ -139,9 +139,11 @@ def curve_points(stored: Stored, plot: Plot) -> Table:
 def numbers_of(stored: Stored) -> Iterator[Table]:
     """Yield each model with its description and how its computations ended, and every computed number."""
     key = ["model", "model_version", "quantity", *CASE]
-    whole = with_problem(stored.curves).drop_duplicates(key)
-    every = pd.concat([table[["model", "model_version", "status"]] for table in (stored.results, whole)])
-    models = every.groupby(["model", "model_version"])["status"].value_counts().unstack(fill_value=0).reset_index()
+    traced = with_problem(stored.curves).drop_duplicates(key)
+    evaluations = pd.concat([table[["model", "model_version", "status"]] for table in (stored.results, traced)])
+    models = (
+        evaluations.groupby(["model", "model_version"])["status"].value_counts().unstack(fill_value=0).reset_index()
+    )
     models["seconds"] = models["model"].map(stored.record["seconds"]["by_model"])
     models["spec"] = models["model"].map(stored.specs)
     described = pd.DataFrame.from_dict(stored.record.get("models", {}), orient="index")
