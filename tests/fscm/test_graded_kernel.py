@@ -28,8 +28,8 @@ SOLIDS = {
     # A beam on springs; last by its name, too, since seeds of the tests follow the names in order.
     "wide bend": Layers([1e4, 1.0, 1e4], [0.3, 0.2, 0.3], [1.0, 1.0]),
 }
-#: One solid of each class.
-OFTEN = ("offset", "exponential", "sharp layer", "table", "waves")
+#: One solid of each class, and the steepest, whose images are close to the surface.
+OFTEN = ("offset", "exponential", "steep", "sharp layer", "table", "waves")
 
 
 @lru_cache
