@@ -6,7 +6,14 @@ from .errors import (
     NoSuchEvent as NoSuchEvent,
     NotConverged as NotConverged,
 )
+from .large_strain import (
+    LARGE_STRAIN_QUANTITIES as LARGE_STRAIN_QUANTITIES,
+    profile_large_strain as profile_large_strain,
+    solve_large_strain as solve_large_strain,
+    trace_large_strain as trace_large_strain,
+)
 from .modulus import Interface as Interface
+from .neo_hookean import NeoHookean as NeoHookean
 from .problem import Problem as Problem
 from .quantities import CRITICAL_MODULUS as CRITICAL_MODULUS, LOSSES as LOSSES, QUANTITIES as QUANTITIES
 from .result import Solution as Solution

@@ -23,7 +23,7 @@ from fem_reference._typing import Array, Index
 from fem_reference.modulus import Modulus
 from fem_reference.poisson import PoissonRatio
 
-__all__ = ["HalfSpace", "assemble_half_space", "assembled", "half_space_of"]
+__all__ = ["HalfSpace", "assemble_half_space", "assembled", "half_space_of", "square_boundary"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,17 +115,22 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, 
     body = Body(mesh, InteriorChart(layer, modulus.surface_exponent), modulus, nu, order)
     dofs = Dofs(mesh, ElementQuadP(order))
     elements = condensed_elements(tensor_stiffness(grid, dofs, modulus, nu), dofs)
+    boundary, weight = square_boundary(grid, dofs, order)
+    outer = weight[:, None] * exterior_stiffness(grid, modulus, nu, order) * weight
+    free = np.setdiff1d(elements.sides, 2 * line_unknowns(dofs, 0, 0.0))
+    surface = 2 * line_unknowns(dofs, 1, 0.0) + 1
+    return HalfSpace(body, grid, dofs, elements, outer, free, surface, boundary)
+
+
+def square_boundary(grid: Grid, dofs: Dofs, order: int) -> tuple[Index, Array]:
+    """Rows on the side and bottom of the square in the order of its exterior, and the signs of their functions."""
     side = line_unknowns(dofs, 0, grid.extent)
     bottom = line_unknowns(dofs, 1, grid.extent, reverse=True)
     nz, nr, edges = grid.z.size - 1, grid.r.size - 1, order - 1
     square = np.concatenate([side[: nz + 1], bottom[1 : nr + 1], side[nz + 1 :], bottom[nr + 1 :]])
     signs = np.ones(square.size)
     signs[square.size - nr * edges :] = reversal_signs(nr, order)[nr + 1 :]
-    weight = np.repeat(signs, 2)
-    outer = weight[:, None] * exterior_stiffness(grid, modulus, nu, order) * weight
-    free = np.setdiff1d(elements.sides, 2 * line_unknowns(dofs, 0, 0.0))
-    surface = 2 * line_unknowns(dofs, 1, 0.0) + 1
-    return HalfSpace(body, grid, dofs, elements, outer, free, surface, both_components(square))
+    return both_components(square), np.repeat(signs, 2)
 
 
 def assembled(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) -> HalfSpace:

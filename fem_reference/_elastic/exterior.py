@@ -51,7 +51,9 @@ DOUBLINGS = 12
 COUPLING_TOLERANCE = 1e-15
 
 
-def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, order: int) -> Array:
+def exterior_stiffness(
+    grid: Grid, modulus: Modulus, nu: float | PoissonRatio, order: int, pressure_degree: int | None = None
+) -> Array:
     """Stiffness of the exterior of the square [0, a]^2 on its boundary.
 
     Parameters
@@ -65,6 +67,8 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, o
         Poisson ratio; that at the depth a is the one of the exterior.
     order : int
         Element order.
+    pressure_degree : int, optional
+        As for `charted_stiffness`.
 
     Returns
     -------
@@ -93,7 +97,7 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, o
     body = Body(mesh, ShellChart(a, layer, k), law, float(poisson_at(nu, np.array(a))), order)
     touching = np.flatnonzero(mesh.p[0][mesh.t].max(axis=0) <= layer * (1 + 1e-12))
     dofs = Dofs(mesh, ElementQuadP(order))
-    elements = condensed_elements(charted_stiffness(body, dofs, touching), dofs)
+    elements = condensed_elements(charted_stiffness(body, dofs, touching, pressure_degree), dofs)
     inner = both_components(line_unknowns(dofs, 1, 1.0))
     outer = both_components(line_unknowns(dofs, 1, SHELL_RATIO))
     axis = 2 * line_unknowns(dofs, 0, float(t[-1]))

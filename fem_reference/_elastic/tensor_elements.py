@@ -29,7 +29,7 @@ from fem_reference._typing import Array, Index
 from fem_reference.modulus import Modulus
 from fem_reference.poisson import PoissonRatio
 
-__all__ = ["charted_stiffness", "tensor_stiffness"]
+__all__ = ["charted_stiffness", "pressure_functions", "tensor_stiffness", "unit_functions"]
 
 
 def _factors(mesh: MeshQuad, order: int) -> tuple[Index, Index]:
@@ -47,6 +47,26 @@ def _along(points: Array, order: int) -> tuple[Array, Array]:
     """Functions and slopes on the unit interval, shape (q, order + 1)."""
     ends = np.array([0.0, 1.0])
     return line_functions(ends, order, points), line_slopes(ends, order, points)
+
+
+def unit_functions(mesh: MeshQuad, order: int, X: Array) -> tuple[Array, Array, Array]:
+    """Functions of an element at points X of the unit square of (r, z), and their slopes along both; shape (q, n)."""
+    along = _factors(mesh, order)
+    N, dN = (f[:, along[0]] for f in _along(X[0], order))
+    M, dM = (f[:, along[1]] for f in _along(X[1], order))
+    return N * M, dN * M, N * dM
+
+
+def pressure_functions(X: Array, degree: int) -> Array:
+    """Products of Legendre polynomials up to a total degree at points X of the unit square, shape (q, m).
+
+    Examples
+    --------
+    >>> pressure_functions(np.array([[0.5], [1.0]]), 1)
+    array([[1., 1., 0.]])
+    """
+    along = [np.polynomial.legendre.legvander(2.0 * x - 1.0, degree) for x in X]
+    return np.stack([along[0][:, i] * along[1][:, j] for i in range(degree + 1) for j in range(degree + 1 - i)], axis=1)
 
 
 def _integrals(left: Array, weight: Array, right: Array) -> Array:
@@ -145,7 +165,9 @@ def tensor_stiffness(
         yield elements, rows[elements], K
 
 
-def charted_stiffness(body: Body, dofs: Dofs, first_layer: Index) -> Iterator[tuple[Index, Index, Array]]:
+def charted_stiffness(
+    body: Body, dofs: Dofs, first_layer: Index, pressure_degree: int | None = None
+) -> Iterator[tuple[Index, Index, Array]]:
     """Numbers, rows and stiffness of elements as of `tensor_stiffness`, under any chart of a tensor-product mesh.
 
     Parameters
@@ -156,9 +178,11 @@ def charted_stiffness(body: Body, dofs: Dofs, first_layer: Index) -> Iterator[tu
         Numbering of the functions on its mesh.
     first_layer : ndarray of int
         Elements touching the surface.
+    pressure_degree : int, optional
+        Of the polynomials to which the dilatation is projected: the mixed form, which keeps the volume of nearly
+        incompressible solids without locking.
     """
     mesh, order = body.mesh, body.order
-    along = _factors(mesh, order)
     rows = both_components(np.asarray(dofs.element_dofs)).T
     corner, sides = mesh.p[:, mesh.t].min(axis=1), np.ptp(mesh.p[:, mesh.t], axis=1)
     deeper = np.setdiff1d(np.arange(mesh.nelements), first_layer)
@@ -171,11 +195,20 @@ def charted_stiffness(body: Body, dofs: Dofs, first_layer: Index) -> Iterator[tu
         X = X[::-1] if elements is first_layer else X
         (r, z), J = body.chart(corner[:, elements, None] + sides[:, elements, None] * X[:, None, :])
         det = J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0]
-        N, dN = (f[:, along[0]] for f in _along(X[0], order))
-        M, dM = (f[:, along[1]] for f in _along(X[1], order))
-        along_r, along_z = (g / sides[i, elements, None, None] for i, g in enumerate((dN * M, N * dM)))
+        N, *slopes = unit_functions(mesh, order, X)
+        along_r, along_z = (slope / sides[i, elements, None, None] for i, slope in enumerate(slopes))
         radial = (J[1, 1] / det)[..., None] * along_r - (J[1, 0] / det)[..., None] * along_z
         axial = (J[0, 0] / det)[..., None] * along_z - (J[0, 1] / det)[..., None] * along_r
         measure = r * np.abs(det) * W * (sides[0] * sides[1])[elements, None]
-        constants = (constant * measure for constant in lame_parameters(body.modulus, body.nu, z))
-        yield elements, rows[elements], contracted(radial, axial, N * M / r[..., None], *constants)
+        lame, shear = lame_parameters(body.modulus, body.nu, z)
+        hoop = N / r[..., None]
+        if pressure_degree is None:
+            yield elements, rows[elements], contracted(radial, axial, hoop, lame * measure, shear * measure)
+            continue
+        K = contracted(radial, axial, hoop, 0.0 * measure, shear * measure)
+        tests = pressure_functions(X, pressure_degree)
+        B = np.empty((elements.size, tests.shape[1], K.shape[1]))
+        for component, dilatation in enumerate((radial + hoop, axial)):
+            B[:, :, component::2] = tests.T @ (measure[..., None] * dilatation)
+        C = tests.T @ ((measure / lame)[..., None] * tests)
+        yield elements, rows[elements], K + B.swapaxes(1, 2) @ np.linalg.solve(C, B)

@@ -1,0 +1,261 @@
+"""Elements of the core of finite strain: their strains, residuals and tangents, condensed to their sides.
+
+Functions, numbering and degree are those of scikit-fem's `ElementQuadP` on the tensor-product meshes of
+`fem_reference._elastic`.  The axes of an element are those of r and z, so that the gradients of a function at a point
+are those on the unit square times one factor each, and the factors go into the weights.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from skfem import Dofs, ElementQuadP
+
+from fem_reference._elastic.dof_ordering import both_components
+from fem_reference._elastic.elasticity import EXTRA_POINTS, element_places, gauss_product
+from fem_reference._elastic.mesh import Grid
+from fem_reference._elastic.tensor_elements import pressure_functions, unit_functions
+from fem_reference._large_strain.material import HOOP, energy, kinematics, stress, tangent
+from fem_reference._typing import Array, Index
+
+__all__ = ["Condensed", "Constants", "Core", "core_of"]
+
+#: Of the shear modulus: compressibility of the tangent of an incompressible solid. The residual has none, so that the
+#: solution is incompressible, and Newton's steps leave this share of what the volumes lack.
+TANGENT_COMPRESSIBILITY = 1e-7
+
+#: Of the shear modulus: largest part of lambda that the displacement carries itself in the mixed form. The volume is
+#: kept in the mean over test functions only, and where the mean tension is above 2 G, displacements that change it
+#: between them would have no stiffness; the exact solution changes no volume there. It is a half of lambda at most.
+OWN_SHARE, OWN_STIFFNESS = 0.5, 8.0
+
+#: Elements whose tangents are formed at once: the caches hold them.
+CHUNK = 64
+
+#: Gradient of each component: function along r, along z, or itself (the hoop), for u_r and then for u_z.
+KINDS = ((0, 0), (1, 1), (2, 2), (3, 0), (4, 1))
+
+#: Depths -> shear modulus and 1/lambda.
+Constants = Callable[[Array], tuple[Array, Array]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Condensed:
+    """Linearised elements, on their sides.
+
+    Attributes
+    ----------
+    tangent : ndarray, shape (e, s, s)
+    residual : ndarray, shape (e, s)
+    follow : ndarray, shape (e, i, s)
+        The functions inside fall by this much when those of the sides rise.
+    own : ndarray, shape (e, i)
+        And by this much if the sides stay.
+    response : ndarray, shape (e, m, s + i)
+        Rise of the pressures with all functions; zero but in the mixed form.
+    defect : ndarray, shape (e, m)
+        Rise of the pressures if all functions stay.
+    """
+
+    tangent: Array
+    residual: Array
+    follow: Array
+    own: Array
+    response: Array
+    defect: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Core:
+    """Elements of a meshed square.
+
+    Attributes
+    ----------
+    grid : Grid
+    dofs : skfem.Dofs
+        Numbering of the scalar functions; component c of unknown i is row 2 i + c.
+    mixed : bool
+        Whether the pressure is an unknown of its own.
+    rows : ndarray of int, shape (e, 2 n)
+        Rows of the functions of each element, both components interleaved, those inside last.
+    functions : ndarray, shape (3, q, n)
+        Slopes along both axes of the unit square, and values.
+    tests : ndarray, shape (q, m)
+        Functions of the pressure.
+    scale : ndarray, shape (3, e, q)
+        Factors of the slopes, and 1/r.
+    measure, shear, lame, compressibility : ndarray, shape (e, q)
+        Weights of r dr dz, shear modulus, the part of lambda that the displacement carries, and the inverse of the
+        rest, which the pressure carries.
+    """
+
+    grid: Grid
+    dofs: Dofs
+    mixed: bool
+    rows: Index
+    functions: Array
+    tests: Array
+    scale: Array
+    measure: Array
+    shear: Array
+    lame: Array
+    compressibility: Array
+
+    @property
+    def size(self) -> int:
+        """Rows of the displacement."""
+        return 2 * int(self.dofs.N)
+
+    @property
+    def sides(self) -> Index:
+        """Rows of the functions that do not vanish on the sides of each element, shape (e, s)."""
+        return self.rows[:, : self.rows.shape[1] - 2 * int(self.dofs.interior_dofs.shape[0])]
+
+    def no_pressure(self) -> Array:
+        """Return the pressures of the undeformed solid, shape (e, m)."""
+        return np.zeros((self.rows.shape[0], self.tests.shape[1]))
+
+    def condensed(self, u: Array, pressures: Array, finiteness: float) -> Condensed | None:
+        """Linearise every element, and eliminate what is inside; None if an element is turned inside out.
+
+        Parameters
+        ----------
+        u : ndarray, shape (2 N,)
+        pressures : ndarray, shape (e, m)
+            Not used but in the mixed form.
+        finiteness : float
+            Factor of the strains, see `fem_reference._large_strain.material`.
+        """
+        e, s, n = *self.sides.shape, self.rows.shape[1]
+        result = Condensed(
+            np.empty((e, s, s)),
+            np.empty((e, s)),
+            np.empty((e, n - s, s)),
+            np.empty((e, n - s)),
+            np.zeros((e, self.tests.shape[1], n)),
+            np.zeros((e, self.tests.shape[1])),
+        )
+        for start in range(0, e, CHUNK):
+            chunk = slice(start, start + CHUNK)
+            linear = self._linearised(chunk, u, pressures[chunk], finiteness)
+            if linear is None:
+                return None
+            K, r, result.response[chunk], result.defect[chunk] = linear
+            inner = np.linalg.solve(K[:, s:, s:], np.concatenate([K[:, s:, :s], r[:, s:, None]], axis=2))
+            result.follow[chunk], result.own[chunk] = inner[:, :, :s], inner[:, :, s]
+            result.tangent[chunk] = K[:, :s, :s] - K[:, :s, s:] @ inner[:, :, :s]
+            result.residual[chunk] = r[:, :s] - (K[:, :s, s:] @ inner[:, :, s:])[:, :, 0]
+        return result
+
+    def _gradients(self, chunk: slice, u: Array) -> Array:
+        """Displacement gradients of some elements, shape (5, e, q)."""
+        local = u[self.rows[chunk]].reshape(-1, self.functions.shape[2], 2)
+        along = self.functions[:, None] @ local
+        return np.stack([along[kind, :, :, int(i > HOOP)] * self.scale[kind, chunk] for i, kind in KINDS])
+
+    def _linearised(
+        self, chunk: slice, u: Array, pressure: Array, finiteness: float
+    ) -> tuple[Array, Array, Array | float, Array | float] | None:
+        """Tangent and residual of some elements; how their pressures follow."""
+        state = kinematics(self._gradients(chunk, u), finiteness)
+        if state is None:
+            return None
+        shear, lame, measure = self.shear[chunk], self.lame[chunk], self.measure[chunk]
+        volume = state.log_J / finiteness
+        carried = pressure @ self.tests.T
+        q = lame * volume + carried
+        scale = np.stack([self.scale[kind, chunk] for _, kind in KINDS])
+        P = stress(state, shear, q) * scale * measure
+        D = tangent(state, shear, q, lame) * scale * (scale[:, None] * measure)
+        K, r = _contracted(self.functions, P, D)
+        if not self.mixed:
+            return K, r, 0.0, 0.0
+        couplings = state.inverse * scale * measure
+        B = np.empty((r.shape[0], self.tests.shape[1], r.shape[1]))
+        for component, kinds in enumerate((KINDS[:3], KINDS[3:])):
+            B[:, :, component::2] = sum(
+                (couplings[i][:, :, None] * self.tests).swapaxes(1, 2) @ self.functions[kind] for i, kind in kinds
+            )
+        softness = self.compressibility[chunk]
+        softened = (softness + np.where(softness > 0.0, 0.0, TANGENT_COMPRESSIBILITY / shear)) * measure
+        C = self.tests.T @ (softened[:, :, None] * self.tests)
+        lack = (measure * (volume - softness * carried)) @ self.tests
+        solved = np.linalg.solve(C, np.concatenate([B, lack[:, :, None]], axis=2))
+        response, defect = solved[:, :, :-1], solved[:, :, -1]
+        K += B.swapaxes(1, 2) @ response
+        r += (defect[:, None, :] @ B)[:, 0]
+        return K, r, response, defect
+
+    def recover(self, condensed: Condensed, step: Array) -> Array:
+        """Fill in the step inside the elements, in place, from that of their sides; return that of the pressures.
+
+        Parameters
+        ----------
+        condensed : Condensed
+            The linearised elements whose step this is.
+        step : ndarray, shape (2 N,)
+        """
+        s = self.sides.shape[1]
+        step[self.rows[:, s:]] = -condensed.own - (condensed.follow @ step[self.sides][:, :, None])[:, :, 0]
+        return condensed.defect + (condensed.response @ step[self.rows][:, :, None])[:, :, 0]
+
+    def energy(self, u: Array, finiteness: float = 1.0) -> float:
+        """Elastic energy of the core per radian; inf if an element is turned inside out."""
+        state = kinematics(self._gradients(slice(None), u), finiteness)
+        if state is None:
+            return float("inf")
+        softness, lame = self.compressibility, self.lame.copy()
+        lame[softness > 0.0] += 1.0 / softness[softness > 0.0]
+        return float((self.measure * energy(state, self.shear, lame)).sum())
+
+
+def _contracted(functions: Array, P: Array, D: Array) -> tuple[Array, Array]:
+    """Tangent, shape (e, 2 n, 2 n), and residual, shape (e, 2 n), from weighted stresses and their derivatives."""
+    elements, n = P.shape[1], functions.shape[2]
+    K, r = np.empty((elements, 2 * n, 2 * n)), np.empty((elements, 2 * n))
+    halves = (KINDS[:3], KINDS[3:])
+    for component, rows in enumerate(halves):
+        r[:, component::2] = sum(P[i] @ functions[kind] for i, kind in rows)
+        for other, columns in enumerate(halves[component:], component):
+            block = np.zeros((elements, n, n))
+            for i, kind in rows:
+                weighted = sum(D[i, j][:, :, None] * functions[column] for j, column in columns)
+                block += functions[kind].T @ weighted
+            K[:, component::2, other::2] = block
+            if other != component:
+                K[:, other::2, component::2] = block.swapaxes(1, 2)
+    return K, r
+
+
+def core_of(grid: Grid, constants: Constants, order: int, mixed: bool, extra: int = EXTRA_POINTS) -> Core:
+    """Return the elements of a grid.
+
+    Parameters
+    ----------
+    grid : Grid
+    constants : callable
+        Depths -> shear modulus and 1/lambda.
+    order : int
+        Degree p of the displacement; that of the pressure is p - 1.
+    mixed : bool
+        Whether the pressure is an unknown of its own.
+    extra : int
+        Gauss points a direction beyond the degree.
+    """
+    mesh = grid.quads()
+    dofs = Dofs(mesh, ElementQuadP(order))
+    rows = both_components(np.asarray(dofs.element_dofs)).T
+    columns, layers = element_places(mesh)
+    X, W = gauss_product(order + extra, order + extra)
+    N, along_r, along_z = unit_functions(mesh, order, X)
+    wide, high = np.diff(grid.r)[columns, None], np.diff(grid.z)[layers, None]
+    r, z = grid.r[columns, None] + wide * X[0], grid.z[layers, None] + high * X[1]
+    shear, softness = constants(z)
+    stiff = np.divide(1.0, softness, out=np.full_like(softness, np.inf), where=softness > 0.0)
+    lame = np.minimum(OWN_SHARE * stiff, OWN_STIFFNESS * shear) if mixed else stiff
+    rest = np.where(np.isinf(stiff), 0.0, 1.0 / (stiff - lame)) if mixed else np.zeros_like(stiff)
+    scale = np.stack([np.broadcast_to(1.0 / wide, r.shape), np.broadcast_to(1.0 / high, r.shape), 1.0 / r])
+    functions, tests = np.stack([along_r, along_z, N]), pressure_functions(X, order - 1)
+    return Core(grid, dofs, mixed, rows, functions, tests, scale, r * W * wide * high, shear, lame, rest)

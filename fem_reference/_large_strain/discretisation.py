@@ -1,0 +1,226 @@
+"""A problem on the meshes of its small-strain equilibria: blocks and states of finite strain at any size."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import cast
+
+import numpy as np
+
+from fem_reference._contact.mesh_choice import MeshChoice, chosen
+from fem_reference._contact.mesh_lengths import scales
+from fem_reference._contact.path import Point
+from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
+from fem_reference._elastic.elasticity import EXTRA_POINTS
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._elastic.variants import variant
+from fem_reference._large_strain.equilibrium import (
+    Block,
+    Control,
+    Friction,
+    State,
+    block_of,
+    extrapolated,
+    solve_state,
+)
+from fem_reference._large_strain.start import small_strain_state
+from fem_reference._large_strain.surface import Surface
+from fem_reference._large_strain.surface_stability import largest_tension
+from fem_reference.errors import NotConverged
+from fem_reference.modulus import Modulus, OffsetPowerLawModulus, PowerLawModulus
+from fem_reference.poisson import PoissonRatio
+from fem_reference.problem import Problem
+from fem_reference.solids import OffsetPowerLaw, PowerLaw
+
+__all__ = ["Discretisation", "LinearEvent", "linear_event", "linear_problem"]
+
+#: Poisson's ratio up to which the small-strain solver goes; its solid only serves to begin with.
+LARGEST_RATIO = 0.49
+
+#: Share of the tension at which a flat surface is unstable from which on it is named as the reason.
+NEAR_LIMIT = 0.75
+
+#: Factor of the strains to begin with where the linear state is too far away; its first and its smallest step.
+FIRST_FINITENESS, FIRST_STEP, SMALLEST_STEP = 0.05, 0.2, 0.01
+
+
+@dataclass(frozen=True, slots=True)
+class LinearEvent:
+    """An event of the path of small strain.
+
+    Attributes
+    ----------
+    point : Point
+    spec : MeshSpec
+        Mesh on which it was computed.
+    size : float
+        Radius of the edge of that mesh.
+    """
+
+    point: Point
+    spec: MeshSpec
+    size: float
+
+    @property
+    def radius(self) -> float:
+        """Radius of the contact edge, or that of the lowest part of the gap."""
+        return self.point.edge_radius if self.point.branch.touching else self.point.state.size
+
+
+def linear_problem(problem: Problem, friction: Friction = "frictionless") -> Problem:
+    """Return a problem with a path of small strain near that of an incompressible or a bonded solid.
+
+    The response of the surface of a homogeneous solid depends on E/(1 - nu^2) only; where its points keep their radii
+    it is (3 - 4 nu)/(4 (1 - nu)^2) times as large (that of a force in the infinite solid, twice).
+    """
+    solid = problem.solid
+    modulus, nu = solid.modulus, solid.poisson
+    if isinstance(nu, PoissonRatio) or not isinstance(modulus, PowerLawModulus | OffsetPowerLawModulus):
+        return problem
+    stiffer = 4.0 * (1.0 - nu) ** 2 / (3.0 - 4.0 * nu) if friction == "bonded" else 1.0
+    if nu <= LARGEST_RATIO and stiffer == 1.0:
+        return problem
+    ratio = min(nu, LARGEST_RATIO)
+    E0 = modulus.E0 * stiffer * (1.0 - ratio**2) / (1.0 - nu**2)
+    if isinstance(modulus, OffsetPowerLawModulus):
+        return replace(problem, solid=OffsetPowerLaw(E0, modulus.c0, modulus.k, modulus.z_s, ratio))
+    return replace(problem, solid=PowerLaw(E0, modulus.c0, modulus.k, ratio))
+
+
+def linear_event(
+    problem: Problem, event: str, accuracy: float | str = "quick", friction: Friction = "frictionless"
+) -> LinearEvent:
+    """Return an event of the path of small strain, and its mesh.
+
+    Raises
+    ------
+    ValueError, NoSuchEvent, NotConverged
+        As `fem_reference.event_state`.
+    """
+    choice, spec, size = chosen(linear_problem(problem, friction), (event,), accuracy, _traced)
+    return LinearEvent(choice.traced(spec, size).at(event), spec, size)
+
+
+def _traced(choice: MeshChoice, spec: MeshSpec, size: float) -> None:
+    choice.traced(spec, size)
+
+
+@dataclass(frozen=True, slots=True)
+class Discretisation:
+    """Elements of finite strain for a problem.
+
+    Attributes
+    ----------
+    problem : Problem
+    spec : MeshSpec
+        In units of the edge radius, at the radius `size`.
+    size : float
+        Edge radius for which the lines of the mesh have their places.
+    extent : float
+        Side of the core in edge radii.
+    mixed : bool
+        Whether the pressure is an unknown of its own.
+    friction : {"frictionless", "bonded"}
+    extra : int
+        Gauss points a direction beyond the degree.
+    feature : str
+        Of `fem_reference._elastic.variants.FEATURES`, made coarser; none by default.
+    """
+
+    problem: Problem
+    spec: MeshSpec
+    size: float
+    extent: float
+    mixed: bool
+    friction: Friction
+    extra: int = EXTRA_POINTS
+    feature: str = ""
+
+    def at(self, radius: float) -> Discretisation:
+        """Return the discretisation whose lines have their places for an edge at a radius."""
+        if scales(linear_problem(self.problem)):
+            return replace(self, size=radius)
+        return replace(self, spec=self.spec.moved(radius / self.size), size=radius)
+
+    @property
+    def _without_length(self) -> bool:
+        """Whether the solid has no length of its own, so that its elements serve every size."""
+        solid = self.problem.solid
+        return isinstance(solid.modulus, PowerLawModulus) and not isinstance(solid.poisson, PoissonRatio)
+
+    def block(self, radius: float) -> Block:
+        """Return the elements with their edge at a radius."""
+        solid = self.problem.solid
+        spec = replace(self.spec, extent=self.extent)
+        if self._without_length:
+            return _block(self, spec, PowerLawModulus(1.0, 1.0, 0.0), cast(Hashable, solid.poisson))
+        moved = spec.moved(radius / self.size)
+        modulus, nu = scaled_modulus(solid.modulus, radius), scaled_poisson(solid.poisson, radius)
+        return _block(self, moved, cast(Hashable, modulus), cast(Hashable, nu))
+
+    def surface(self, block: Block, radius: float) -> Surface:
+        """Return punch and law at a radius of the edge."""
+        unit = float(self.problem.solid.modulus(np.array(radius))) if self._without_length else 1.0
+        return Surface(block.trace, block.slopes, self.problem.punch, self.problem.law, radius, unit)
+
+    def first_state(self, event: LinearEvent, radius: float, control: Callable[[Block], Control]) -> State:
+        """Solve a state from one of small strain, in one step or by raising the factor of the strains to 1.
+
+        Raises
+        ------
+        NotConverged
+            If the strains cannot be raised to their full size.
+        """
+        block = self.block(radius)
+        surface = self.surface(block, radius)
+        linear = small_strain_state(event.point, block, surface)
+        with suppress(NotConverged):
+            return solve_state(linear, control(block))
+        before: State | None = None
+        state = replace(linear, surface=replace(surface, finiteness=FIRST_FINITENESS))
+        state, step = solve_state(state, control(block)), FIRST_STEP
+        while state.surface.finiteness < 1.0:
+            step = min(step, 1.0 - state.surface.finiteness)
+            finiteness = 1.0 if step > 0.999 - state.surface.finiteness else state.surface.finiteness + step
+            try:
+                start = replace(state, surface=replace(surface, finiteness=finiteness))
+                if before is not None:
+                    ratio = step / (state.surface.finiteness - before.surface.finiteness)
+                    start = extrapolated(before, start, ratio)
+                following = solve_state(start, control(block))
+            except NotConverged as error:
+                step *= 0.5
+                if step < SMALLEST_STEP:
+                    raise NotConverged(
+                        f"the equilibrium of small strain can be continued to {state.surface.finiteness:.2f} of the "
+                        f"strains only ({error}): {_reason(self.problem)}"
+                    ) from error
+                continue
+            before, state = state, following
+        return state
+
+
+@lru_cache(maxsize=4)
+def _block(choice: Discretisation, spec: MeshSpec, modulus: Hashable, nu: Hashable) -> Block:
+    grid = variant(spec, choice.feature).grid() if choice.feature else spec.grid()
+    constants = cast(Modulus, modulus), cast(float, nu)
+    return block_of(grid, *constants, spec.order, choice.mixed, choice.friction, choice.extra)
+
+
+def _reason(problem: Problem) -> str:
+    """What to do, and what the tension of the law does to a compressible surface."""
+    law, solid, remedy = problem.law, problem.solid, "take a stiffer solid or less adhesion"
+    modulus, nu = solid.modulus, solid.poisson
+    if not isinstance(modulus, PowerLawModulus) or isinstance(nu, PoissonRatio):
+        return remedy
+    tension = -float(law.traction(np.array(law.peak_gap))) * (1.0 - nu**2) / modulus.E0
+    limit = largest_tension(nu)
+    if tension < NEAR_LIMIT * limit:
+        return remedy
+    return (
+        f"the largest tension of the law is {tension:.3g} of E/(1 - nu^2), and the flat surface of such a solid is "
+        f"unstable from {limit:.3g} on; {remedy}"
+    )

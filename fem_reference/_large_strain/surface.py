@@ -1,0 +1,154 @@
+"""Surface force on the deformed surface: residual, tangent, load and energy.
+
+The energy of the faces is the integral of U(H) 2 pi rho d rho over the current radius rho = r + u_r, with the gap
+H = f(rho) - delta + u_z.  With p = -dU/dH its variation per radian is
+
+    integral of p [rho u_z' du_r - rho rho' du_z] dr,
+
+a pressure normal to the deformed surface; the ends of the surface, where U is negligible, have been left out.
+Lengths are in units of the size c of the mesh, and tractions in units of E1, the modulus at the depth c.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from fem_reference._elastic.gauss import unit_gauss
+from fem_reference._elastic.trace import Trace
+from fem_reference._typing import Array, Index
+from fem_reference.laws import SurfaceLaw
+from fem_reference.punch import Punch
+
+__all__ = ["Faces", "Surface"]
+
+#: Gauss points for the load beyond the mesh, in x = R/rho.
+TAIL_POINTS = 48
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Faces:
+    """Values at the Gauss points of the surface.
+
+    Attributes
+    ----------
+    rho, stretch, tilt, gap : ndarray, shape (q,)
+        Current radius, its derivative, derivative of u_z, and gap H.
+    """
+
+    rho: Array
+    stretch: Array
+    tilt: Array
+    gap: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Surface:
+    """Punch, law and surface functions at one size of the mesh.
+
+    Attributes
+    ----------
+    trace : Trace
+    slopes : ndarray, shape (e, q/e, p + 1)
+        Derivatives of the functions of each element.
+    punch : Punch
+    law : SurfaceLaw
+    size, modulus : float
+        Units of length and of traction.
+    finiteness : float
+        Factor of the strains and of the rotation of the surface.
+    """
+
+    trace: Trace
+    slopes: Array
+    punch: Punch
+    law: SurfaceLaw
+    size: float
+    modulus: float
+    finiteness: float = 1.0
+
+    def faces(self, radial: Array, axial: Array, delta: float) -> Faces:
+        """Return the faces under coefficients of u_r and u_z in surface order, and an approach."""
+        trace, t = self.trace, self.finiteness
+        moved, dropped = radial[trace.functions][:, :, None], axial[trace.functions][:, :, None]
+        rho = trace.s + t * (trace.local @ moved).ravel()
+        stretch = 1.0 + t * (self.slopes @ moved).ravel()
+        tilt = t * (self.slopes @ dropped).ravel()
+        # A trial step may lead beyond the axis.
+        height = self.punch.height(self.size * np.maximum(rho, 0.0)) / self.size
+        return Faces(rho, stretch, tilt, height - delta + (trace.local @ dropped).ravel())
+
+    def pressure(self, faces: Faces) -> Array:
+        """p at the Gauss points, in units of the modulus."""
+        return np.asarray(self.law.traction(self.size * faces.gap) / self.modulus)
+
+    def residual(self, faces: Faces) -> tuple[Array, Array]:
+        """Return the derivatives of the energy of the faces by both components, shape (e, p + 1)."""
+        p = self.trace.weight * self.pressure(faces) * faces.rho
+        e = self.trace.functions.shape[0]
+        across, down = (p * faces.tilt).reshape(e, 1, -1), (p * faces.stretch).reshape(e, 1, -1)
+        return self.finiteness * (across @ self.trace.local)[:, 0], -(down @ self.trace.local)[:, 0]
+
+    def tangent(self, faces: Faces) -> tuple[Array, Array]:
+        """Return the derivative of the residual by displacements, shape (e, 2 (p + 1), 2 (p + 1)), and by delta.
+
+        Components are interleaved.
+        """
+        N, dN, t = self.trace.local, self.slopes, self.finiteness
+        e, per, n = N.shape
+        weight = self.trace.weight
+        p = weight * self.pressure(faces)
+        change = weight * np.asarray(self.law.slope(self.size * faces.gap)) * self.size / self.modulus
+        rise = np.asarray(self.punch.slope(self.size * faces.rho))
+        rho, stretch, tilt = faces.rho, faces.stretch, faces.tilt
+
+        def product(values: Array, functions: Array) -> Array:
+            return np.swapaxes(N, 1, 2) @ (values.reshape(e, per, 1) * functions)
+
+        K = np.empty((e, 2 * n, 2 * n))
+        K[:, 0::2, 0::2] = t**2 * product(change * rise * rho * tilt + p * tilt, N)
+        K[:, 0::2, 1::2] = t * (product(change * rho * tilt, N) + t * product(p * rho, dN))
+        K[:, 1::2, 0::2] = -t * (product(change * rise * rho * stretch + p * stretch, N) + product(p * rho, dN))
+        K[:, 1::2, 1::2] = -product(change * rho * stretch, N)
+        by_delta = np.empty((e, 2 * n))
+        by_delta[:, 0::2] = -t * product(change * rho * tilt, np.ones((1, per, 1)))[:, :, 0]
+        by_delta[:, 1::2] = product(change * rho * stretch, np.ones((1, per, 1)))[:, :, 0]
+        return K, by_delta
+
+    def _beyond(self, end: float, delta: float) -> tuple[Array, Array, Array]:
+        """Current radii, weights of d rho, and gaps beyond the mesh, where u_z is left out."""
+        x, w = unit_gauss(TAIL_POINTS)
+        r = end / x
+        return r, w * end / x**2, self.punch.height(self.size * r) / self.size - delta
+
+    def load(self, faces: Faces, end: float, delta: float) -> float:
+        """Load P in units of the input, compression positive.
+
+        Parameters
+        ----------
+        faces : Faces
+        end : float
+            Current radius of the end of the mesh.
+        delta : float
+        """
+        inside = float((self.trace.weight * self.pressure(faces) * faces.rho) @ faces.stretch)
+        r, w, gap = self._beyond(end, delta)
+        beyond = float(w * r @ self.law.traction(self.size * gap)) / self.modulus
+        return 2.0 * math.pi * self.size**2 * self.modulus * (inside + beyond)
+
+    def energy(self, faces: Faces, end: float, delta: float) -> float:
+        """Energy of the faces in units of the input."""
+        density = self.trace.weight * np.asarray(self.law.energy(self.size * faces.gap))
+        inside = float((density * faces.rho) @ faces.stretch)
+        r, w, gap = self._beyond(end, delta)
+        return 2.0 * math.pi * self.size**2 * (inside + float(w * r @ self.law.energy(self.size * gap)))
+
+
+def local_slopes(trace: Trace) -> Array:
+    """Derivatives of the surface functions at the Gauss points of each element, shape (e, q/e, p + 1)."""
+    slopes: Array = trace.slopes(trace.s)
+    elements: Index = trace.functions
+    by_element = slopes.reshape(elements.shape[0], -1, slopes.shape[1])
+    return np.take_along_axis(by_element, elements[:, None, :], axis=2)

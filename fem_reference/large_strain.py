@@ -1,0 +1,226 @@
+"""Quantities of a contact of finite strain, each with a bound of its error in parts."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+from typing import Literal
+
+import numpy as np
+
+from fem_reference._large_strain.discretisation import Discretisation, LinearEvent, linear_event
+from fem_reference._large_strain.equilibrium import Friction
+from fem_reference._large_strain.error_parts import estimate
+from fem_reference._large_strain.events import Family, found_event
+from fem_reference._large_strain.quantities import TABLE
+from fem_reference._large_strain.whole_path import path_states
+from fem_reference._threads import one_thread
+from fem_reference.accuracy import relative_error
+from fem_reference.errors import NotConverged
+from fem_reference.modulus import PowerLawModulus
+from fem_reference.poisson import PoissonRatio, poisson_at
+from fem_reference.problem import Problem
+from fem_reference.result import Solution
+from fem_reference.states import EquilibriumPath, RadialField
+
+__all__ = ["LARGE_STRAIN_QUANTITIES", "profile_large_strain", "solve_large_strain", "trace_large_strain"]
+
+#: Names of the quantities of finite strain.
+LARGE_STRAIN_QUANTITIES = tuple(TABLE)
+
+#: Poisson's ratio from which on the pressure is an unknown of its own.
+NEARLY_INCOMPRESSIBLE = 0.45
+
+#: Side of the core in radii of the contact edge; where the solid is no power law it is that of small strain, whose
+#: exterior takes one.
+CORE_EXTENT = 32.0
+
+#: Resolved width of the contact edge in lengths of the law: on shorter elements the surface is resolved beyond what
+#: the law acts on.
+EDGE_WIDTH = 0.4
+
+Form = Literal["auto", "displacement", "mixed"]
+
+
+def _discretisation(problem: Problem, event: LinearEvent, friction: Friction, form: Form) -> Discretisation:
+    """Elements for an event."""
+    if friction not in ("frictionless", "bonded"):
+        raise ValueError(f"friction {friction!r} is unknown; choose 'frictionless' or 'bonded'")
+    if form not in ("auto", "displacement", "mixed"):
+        raise ValueError(f"form {form!r} is unknown; choose 'auto', 'displacement' or 'mixed'")
+    if problem.solid.modulus.surface_exponent > 0.0:
+        raise NotConverged(
+            "the modulus vanishes at the surface, where any tension makes short waves of a compressible surface "
+            "unstable at finite strain; take a modulus that does not vanish, such as one with an offset z_s"
+        )
+    largest = float(np.max(poisson_at(problem.solid.poisson, event.radius * np.geomspace(1e-6, 1e6, 200))))
+    if form == "displacement" and largest >= 0.5:
+        raise ValueError("form 'displacement' has no incompressible solid; choose 'mixed' or 'auto'")
+    mixed = form == "mixed" or (form == "auto" and largest > NEARLY_INCOMPRESSIBLE)
+    width = max(event.spec.edge_width, min(EDGE_WIDTH * problem.law.z0 / event.radius, 0.25))
+    spec = replace(event.spec, edge_width=width)
+    solid = problem.solid
+    scaling = isinstance(solid.modulus, PowerLawModulus) and not isinstance(solid.poisson, PoissonRatio)
+    extent = CORE_EXTENT if scaling else max(CORE_EXTENT, spec.extent)
+    return Discretisation(problem, spec, event.size, extent, mixed, friction).at(event.radius)
+
+
+def solve_large_strain(
+    problem: Problem,
+    quantity: str,
+    accuracy: float | str = "quick",
+    friction: Friction = "frictionless",
+    form: Form = "auto",
+) -> Solution:
+    """Compute one quantity of the contact with a neo-Hookean solid, with a bound of its numerical error.
+
+    The energy per reference volume is psi = G/2 (I1 - 3 - 2 ln J) + lambda/2 (ln J)^2 with the constants of the solid,
+    and that of the faces is the integral of U(H) over the area of the deformed surface, with dU/dH = -p and
+    H = f(r + u_r) - delta + u_z: a pressure p(H) normal to it.  Beyond 32 radii of the contact edge the solid is
+    linear, and extends to infinity.
+
+    Parameters
+    ----------
+    problem : Problem
+        In consistent units.  Its solid may be any, or a `NeoHookean`, which may be incompressible; its punch is used
+        as it is (`Ball` for a sphere).
+    quantity : str
+        One of `LARGE_STRAIN_QUANTITIES`.
+    accuracy : float or str
+        Selects the meshes, as for `solve`.
+    friction : {"frictionless", "bonded"}
+        Bonded is the other limit: no point of the surface slides, each keeps its radius, in contact and beyond.
+    form : {"auto", "displacement", "mixed"}
+        Whether the pressure is an unknown of its own; "auto" takes it for nu > 0.45.
+
+    Returns
+    -------
+    Solution
+        `u_num` is the sum of `parts`: "mesh", "first layer", "core" (extent of the nonlinear part, the exterior),
+        "quadrature", "search" (of the event) and "algebra".  `degrees` and `values` are those of two degrees, and nan
+        for the third.
+
+    Raises
+    ------
+    ValueError
+        For an unknown name, or the form "displacement" for an incompressible solid.
+    NoSuchEvent
+        If the path of small strain, from which the event is sought, has none.
+    NotConverged
+        If no equilibrium is found: the surface of a compressible solid becomes unstable under a tension near half of
+        its modulus, and any solid where it is compressed by a third.
+
+    Examples
+    --------
+    >>> from fem_reference import Ball, LennardJones, NeoHookean, Problem, solve_large_strain
+    >>> gel = Problem(NeoHookean(E0=150.0, nu=0.5), Ball(R=1.0), LennardJones(work_of_adhesion=1.0, z0=0.0146201))
+    >>> solution = solve_large_strain(gel, "pull_off_force")
+    >>> round(solution.value / np.pi, 4), solution.u_num < 1e-5  # 1.5322 at small strain
+    (1.5402, True)
+    """
+    if quantity not in TABLE:
+        raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(TABLE)}")
+    relative_error(accuracy)
+    row, start = TABLE[quantity], time.perf_counter()
+    with one_thread:
+        linear = {name: linear_event(problem, name, accuracy, friction) for name in row.events}
+        bases = {name: _discretisation(problem, event, friction, form) for name, event in linear.items()}
+        result = estimate(linear, bases, row.functional, row.stationary)
+    states = [event.state for event in result.events.values()]
+    order = next(iter(bases.values())).spec.order
+    return Solution(
+        result.value,
+        sum(result.parts.values()),
+        max(state.block.core.size for state in states),
+        0,
+        max(state.residual for state in states),
+        time.perf_counter() - start,
+        (order - 2, order - 1, order),
+        (float("nan"), result.lower_degree, result.value),
+        result.parts,
+    )
+
+
+def trace_large_strain(
+    problem: Problem, accuracy: float | str = "quick", friction: Friction = "frictionless", form: Form = "auto"
+) -> EquilibriumPath:
+    """Trace the equilibrium path of finite strain, a point for each one of small strain.
+
+    Parameters
+    ----------
+    problem, accuracy, friction, form
+        As for `solve_large_strain`.
+
+    Returns
+    -------
+    EquilibriumPath
+        `edge_radius` is that of the material point before it was deformed.
+
+    Raises
+    ------
+    ValueError, NotConverged
+        As `solve_large_strain`.
+
+    Examples
+    --------
+    >>> from fem_reference import Ball, LennardJones, NeoHookean, Problem
+    >>> stiff = Problem(NeoHookean(E0=50.0, nu=0.3), Ball(R=1.0), LennardJones(work_of_adhesion=1.0, z0=1.0))
+    >>> path = trace_large_strain(stiff)  # doctest: +SKIP
+    """
+    relative_error(accuracy)
+    with one_thread:
+        points = path_states(problem, accuracy, friction, lambda event: _discretisation(problem, event, friction, form))
+        return EquilibriumPath(
+            np.array([state.displacement for _, state in points]),
+            np.array([state.load for _, state in points]),
+            np.array([state.gap_at(0) for _, state in points]),
+            np.array([radius for radius, _ in points]),
+        )
+
+
+def profile_large_strain(
+    problem: Problem,
+    event: str = "pull_off",
+    accuracy: float | str = "quick",
+    friction: Friction = "frictionless",
+    form: Form = "auto",
+) -> RadialField:
+    """Return gap, pressure and deformation of the deformed surface at an event.
+
+    Parameters
+    ----------
+    problem, accuracy, friction, form
+        As for `solve_large_strain`.
+    event : str
+        "pull_off", "jump_in", "jump_out" or "zero_load".
+
+    Returns
+    -------
+    RadialField
+        At the current radii of the Gauss points of the surface.
+
+    Raises
+    ------
+    ValueError, NoSuchEvent, NotConverged
+        As `solve_large_strain`.
+
+    Examples
+    --------
+    >>> from fem_reference import Ball, LennardJones, NeoHookean, Problem, profile_large_strain
+    >>> gel = Problem(NeoHookean(E0=150.0, nu=0.5), Ball(R=1.0), LennardJones(work_of_adhesion=1.0, z0=0.0146201))
+    >>> surface = profile_large_strain(gel)
+    >>> bool(surface.deformation[0] < 0.0 < surface.pressure[0])  # drawn out, compressed in the middle
+    True
+    """
+    if event not in ("pull_off", "jump_in", "jump_out", "zero_load"):
+        raise ValueError(f"event {event!r} is unknown; choose pull_off, jump_in, jump_out or zero_load")
+    with one_thread:
+        linear = linear_event(problem, event, accuracy, friction)
+        family = Family(_discretisation(problem, linear, friction, form), linear)
+        state = found_event(event, family).state
+    faces, size = state.faces, state.surface.size
+    gap = size * faces.gap
+    radius = size * faces.rho
+    deformation = gap - np.asarray(problem.punch.height(radius)) + state.displacement
+    pressure = np.asarray(problem.law.traction(gap))
+    return RadialField(radius, gap, pressure, deformation, state.displacement, state.load)
