@@ -40,9 +40,14 @@ def path_states(
         return list(path.points)
 
     choice, spec, size = chosen(linear_problem(problem, friction), ("zero_load",), accuracy, followed)
-    states = []
+    states: list[tuple[float, State]] = []
+    joined = False
     for point in followed(choice, spec, size):
         event = LinearEvent(point, spec, size)
         state = Family(discretised(event), event).state(0.0)
-        states.append((point.edge_radius if point.branch.touching else math.nan, state))
+        # The first contact edges of small strain may lie before the last gap of finite strain.
+        joined = joined or not states or state.gap_at(0) < states[-1][1].gap_at(0)
+        if joined or not point.branch.touching:
+            joined = point.branch.touching
+            states.append((point.edge_radius if point.branch.touching else math.nan, state))
     return states

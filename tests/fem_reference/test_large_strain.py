@@ -19,6 +19,7 @@ from fem_reference import (
     profile_large_strain,
     solve,
     solve_large_strain,
+    trace_large_strain,
 )
 from fem_reference._elastic.mesh import graded_grid, uniform_grid
 from fem_reference._elastic.trace import trace_of
@@ -343,6 +344,19 @@ def test_other_quantities_are_bounded(quantity):
     finer = solve_large_strain(problem, quantity, accuracy="default")
     assert abs(solution.value - finer.value) <= solution.u_num + finer.u_num
     assert solution.u_num < 1e-4 * abs(solution.value)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(("number", "mu", "nu"), [(5e-3, 2.0, 0.5), (1e-3, 0.5, 0.3)])
+def test_the_path_has_one_minimum_of_the_load_and_the_folds_of_small_strain(number, mu, nu):
+    path = trace_large_strain(sphere(number, mu, nu))
+    assert np.all(np.diff(path.central_gap) < 0.0)
+    turns = np.sign(np.diff(path.load))
+    assert np.count_nonzero(np.diff(turns)) == 1
+    folds = np.count_nonzero(np.diff(np.sign(np.diff(path.displacement))))
+    assert folds == (2 if mu == 2.0 else 0)
+    deepest = solve_large_strain(sphere(number, mu, nu), "pull_off_force")
+    assert 0.0 <= deepest.value + path.load.min() < 5e-3 * deepest.value
 
 
 @pytest.mark.heavy
