@@ -1,11 +1,8 @@
 """The model `atlas`: results, bounds, and what it refuses."""
 
-import json
-
 import pytest
 
 import fscm
-from comparisons.cli.main import main
 from comparisons.model import NotApplicable
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
@@ -31,18 +28,3 @@ def test_a_result_is_that_of_the_function(quantity):
 def test_outside_its_box_and_its_quantities_it_is_not_applicable(n, k, mu, quantity, reason):
     with pytest.raises(NotApplicable, match=reason):
         create("atlas").evaluate(Problem.dimensionless(n=n, k=k, mu=mu), quantity)
-
-
-def test_it_has_no_curve_and_another_fit_is_another_version():
-    model = create("atlas")
-    with pytest.raises(NotApplicable, match="no force-displacement curve"):
-        model.curve(Problem.dimensionless(n=2, k=0.4, mu=1.0))
-    assert model.version.startswith("1+")
-    assert len(model.version) == 10
-
-
-def test_the_command_solves_with_it(capsys):
-    options = ["--quantity", "pull_off_force", "--n", "2", "--k", "0.4", "--mu", "1", "--format", "json"]
-    assert main(["solve", "--model", "atlas", *options]) == 0
-    row = json.loads(capsys.readouterr().out)
-    assert abs(row["value"] - 1.78848171) <= row["u_num"] + 5e-9

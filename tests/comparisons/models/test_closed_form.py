@@ -17,6 +17,7 @@ from comparisons.quantities import ALL_QUANTITIES, QUANTITIES
 
 #: Every closed form of the registry, also one that is new.
 MODELS = [name for name in registry.MODELS if isinstance(create(name), ClosedForm)]
+WITH_CURVES = [name for name in MODELS if {"force_curve", "pull_off_force"} <= set(dir(create(name)))]
 
 
 @pytest.fixture(params=MODELS)
@@ -24,13 +25,14 @@ def model(request: pytest.FixtureRequest) -> ClosedForm:
     return create(request.param)
 
 
-def problem_of(model: ClosedForm, mu: float) -> Problem:
-    """A problem in the domain of the model."""
+def problem_of(model: ClosedForm, mu: float, n: float = 2.0, k: float = 0.4) -> Problem:
+    """A problem in the domain of the model, for a ball and formulas for a paraboloid with their only n and k."""
     if model.name == "jkr-sphere":
-        solid, law = {"E": math.sqrt(1e3 / mu**3), "nu": 0.0}, {"work_of_adhesion": 1.0, "z0": 1.0}
-        sections = Section("homogeneous", solid), Section("ball", {"R": 1e3}), Section("lennard-jones-9-3", law)
+        radius = 30.0 * n**4
+        solid, law = {"E": math.sqrt(radius / mu**3), "nu": 0.0}, {"work_of_adhesion": 1.0, "z0": 1.0}
+        sections = Section("homogeneous", solid), Section("ball", {"R": radius}), Section("lennard-jones-9-3", law)
         return Problem(*sections, name="ball")
-    return Problem.dimensionless(2, 0.0 if model.limits and "k" in model.limits else 0.4, mu)
+    return Problem.dimensionless(*((2.0, 0.0) if model.limits and "k" in model.limits else (n, k)), mu)
 
 
 def test_every_quantity_has_a_value_or_a_reason(model: ClosedForm) -> None:
@@ -55,6 +57,34 @@ def test_curves_are_consistent(model: ClosedForm) -> None:
     curve = model.curve(problem)
     assert {column.shape for column in (curve.displacement, *curve.columns.values())} == {curve.load.shape}
     assert np.all(np.isfinite(curve.displacement) & np.isfinite(curve.load))
+
+
+@pytest.mark.parametrize(
+    ("n", "k", "mu"), [(1.0, 0.0, 0.03), (2.0, 0.4, 3.0), (5.0, 0.6, 3.0), (1.5, 0.95, 20.0), (2.0, 1.0, 0.5)]
+)
+@pytest.mark.parametrize("name", WITH_CURVES)
+def test_a_curve_passes_the_events_of_its_model(name: str, n: float, k: float, mu: float) -> None:
+    model = create(name)
+    problem = problem_of(model, mu, n, k)
+    curve = model.curve(problem)
+
+    def value(quantity: str) -> float:
+        return model.evaluate(problem, quantity).value
+
+    force, lowest, extent = value("pull_off_force"), int(np.argmin(curve.load)), np.ptp(curve.displacement)
+    assert (1.0 - 1e-3) * force <= -curve.load[lowest] <= force * (1.0 + 1e-12)
+    assert curve.load[-1] > 0.0
+    assert curve.displacement[lowest] == pytest.approx(value("pull_off_displacement"), abs=0.02 * extent)
+    at_zero = np.interp(0.0, curve.load[lowest:], curve.displacement[lowest:])
+    assert at_zero == pytest.approx(value("zero_load_displacement"), abs=5e-3 * extent)
+    if "contact_radius" in curve.columns:
+        contact = curve.columns["contact_radius"]
+        assert contact[0] == 0.0
+        assert np.all(np.diff(contact) > 0.0)
+        assert np.all(curve.columns.get("cohesive_radius", contact) >= contact)
+    if hasattr(model, "jump_out_displacement") and mu > 1.0:
+        fold = value("jump_out_displacement")
+        assert fold - 1e-12 * extent <= curve.displacement.min() < fold + 2e-3 * extent
 
 
 def test_the_declared_domain_has_the_quantities_with_a_method(model: ClosedForm) -> None:

@@ -9,7 +9,6 @@ from functools import lru_cache
 import mpmath as mp
 import numpy as np
 import pytest
-from scipy.optimize import brentq
 
 from comparisons.model import ComputationFailed
 from comparisons.models.cohesive_contact import CohesiveContact
@@ -211,39 +210,6 @@ def test_profiles_against_many_digits(printed, n, k, Lambda, w) -> None:
         pressures = [float(contact_pressure(mp.mpf(float(r)))) for r in inner]
     np.testing.assert_allclose(gap(contact, state, radii), gaps, rtol=0, atol=PROFILE_ROUNDING * (1.0 + max(gaps)))
     np.testing.assert_allclose(pressure(contact, state, inner), pressures, rtol=0, atol=PROFILE_ROUNDING * Lambda)
-
-
-@pytest.mark.parametrize("m", [1.05, 1.5, 20.0])
-def test_homogeneous_sphere_is_maugis_1992(m: float) -> None:
-    """His three equations for R = 1, K = 4/3 and dgamma = 0.3, with lam = 2 sigma_0 (pi dgamma K^2 / R)^(-1/3)."""
-    dgamma, K, mu, stress = 0.3, 4 / 3, 0.8, 0.6
-    z0 = dgamma ** (2 / 3) / mu
-    lam = 2 * (stress * dgamma / z0) / (np.pi * dgamma * K**2) ** (1 / 3)
-    root, arc = np.sqrt(m * m - 1), np.arctan(np.sqrt(m * m - 1))
-
-    def griffith(A: float) -> float:
-        shape = lam * A**2 / 2 * (root + (m * m - 2) * arc)
-        return shape + 4 * lam**2 * A / 3 * (root * arc - m + 1) - 1
-
-    A = brentq(griffith, 0.0, 1e6, xtol=1e-15, rtol=1e-14)
-    state = CohesiveContact(GradedPunch(2.0, 0.0), stress * mu).at(np.array([-0.5 * np.log(m * m - 1)]))
-    scale, unit = GradedPunch(2.0, 0.0).scales(mu), np.pi * dgamma / K
-    assert scale.radius * state.contact_radius[0] * z0**0.5 == pytest.approx(A * unit ** (1 / 3), rel=1e-9)
-    assert scale.load * state.load[0] == pytest.approx(A**3 - lam * A**2 * (root + m * m * arc), rel=1e-9)
-    delta = (A**2 - 4 / 3 * lam * A * root) * unit ** (2 / 3)
-    assert scale.displacement * state.displacement[0] * z0 == pytest.approx(delta, rel=1e-8, abs=1e-10)
-
-
-@pytest.mark.parametrize("w", [-np.inf, -2.0, 2.0])
-def test_homogeneous_sphere_is_greenwood_and_johnson(w: float) -> None:
-    """Their work of adhesion 2 K (K+1) (c-a)^2 (c+2a) / (3 pi), load and displacement, K = pi Lambda / (2 L)."""
-    contact = contact_of(double_hertz, 2.0, 0.0, 1.3)
-    state = contact.at(np.array([w]))
-    a, c, L = (float(x[0]) for x in (state.contact_radius, state.cohesive_radius, state.cohesive_width))
-    K = 0.5 * np.pi * contact.maugis_number / L
-    assert 2 * K * (K + 1) * (c - a) ** 2 * (c + 2 * a) / (3 * np.pi) == pytest.approx(1.0, rel=1e-13)
-    assert state.load[0] == pytest.approx(4 / (3 * np.pi) * (a**3 - K * (c**3 - a**3)), rel=1e-13)
-    assert state.displacement[0] == pytest.approx(a**2 - K * L**2, rel=1e-13)
 
 
 def test_gibson_contact_is_algebraic() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
@@ -19,7 +18,6 @@ from comparisons.problem import Problem
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "double_hertz" / "double_hertz.py"
 EVENTS = ("pull_off_force", "pull_off_displacement", "zero_load_displacement", "jump_out_displacement")
-STRENGTH = 16 * math.sqrt(3) / 27
 contact = Problem.dimensionless
 
 
@@ -30,14 +28,6 @@ def model(request: pytest.FixtureRequest) -> CohesiveModel:
 
 def value(model, problem: Problem, quantity: str = "pull_off_force") -> float:
     return model.evaluate(problem, quantity).value
-
-
-def test_the_cohesive_stresses() -> None:
-    """Eq. 73, Eq. 77 as the paper prints it for n = 2, and dgamma / z0."""
-    stresses = {name: create(name).cohesive_stress(contact(2, 0.4, 1)) for name in ("md-original", "md-jin")}
-    assert stresses == {"md-original": pytest.approx(STRENGTH, rel=1e-15), "md-jin": 1.0}
-    assert create("double-hertz-n-k").cohesive_stress(contact(2, 0.4, 1)) == pytest.approx(STRENGTH, rel=1e-15)
-    assert round(create("md-improved").cohesive_stress(contact(2, 0.4, 1)), 3) == 0.588
 
 
 @pytest.mark.parametrize(("n", "k"), [(1.0, 0.0), (2.0, 0.4), (5.0, 0.2)])
@@ -57,17 +47,7 @@ def test_tends_to_its_rigid_limit(model, n: float, k: float) -> None:
     assert value(model, contact(n, k, 1e-9)) == pytest.approx(rigid, rel=2e-4)
 
 
-def random_problems(count: int) -> list[tuple[float, float, float]]:
-    rng = np.random.default_rng(3)
-    return [(rng.uniform(0.8, 10), rng.uniform(0, 0.95), 10 ** rng.uniform(-3, 1.3)) for _ in range(count)]
-
-
-LIGHT = [(0.8, 0.0, 1e-3), (10.0, 0.95, 20.0), (7.0, 0.4, 0.02)]
-
-
-@pytest.mark.parametrize(
-    ("n", "k", "mu"), [*LIGHT, *(pytest.param(*case, marks=pytest.mark.heavy) for case in random_problems(12))]
-)
+@pytest.mark.parametrize(("n", "k", "mu"), [(0.8, 0.0, 1e-3), (10.0, 0.95, 20.0), (7.0, 0.4, 0.02)])
 @pytest.mark.parametrize("name", ["md-improved", "double-hertz-n-k"])
 def test_pull_off_is_the_lowest_of_a_dense_sample(name: str, n: float, k: float, mu: float) -> None:
     model, problem, punch = create(name), contact(n, k, mu), GradedPunch(n, k)
@@ -80,25 +60,6 @@ def test_pull_off_is_the_lowest_of_a_dense_sample(name: str, n: float, k: float,
     result = model.evaluate(problem, "pull_off_force")
     assert lowest <= result.value + result.u_num
     assert result.value == pytest.approx(lowest, rel=1e-3)
-
-
-@pytest.mark.parametrize(("n", "k", "mu"), [(1.0, 0.0, 5.0), (2.0, 0.4, 3.0), (5.0, 0.6, 3.0), (1.5, 0.95, 20.0)])
-def test_a_curve_passes_its_events(model, n: float, k: float, mu: float) -> None:
-    problem = contact(n, k, mu)
-    curve, (force, at_force, at_zero, fold) = model.curve(problem), (value(model, problem, event) for event in EVENTS)
-    lowest = int(np.argmin(curve.load))
-    assert -curve.load[lowest] == pytest.approx(force, rel=1e-3)
-    assert curve.displacement[lowest] == pytest.approx(at_force, abs=1e-9)
-    assert curve.load[-1] >= force
-    assert np.interp(0.0, curve.load[lowest:], curve.displacement[lowest:]) == pytest.approx(
-        at_zero, rel=1e-2, abs=1e-3
-    )
-    assert fold == pytest.approx(curve.displacement.min(), abs=1e-3 * mu)
-    assert fold <= curve.displacement.min() + 1e-12
-    a, c = curve.columns["contact_radius"], curve.columns["cohesive_radius"]
-    assert a[0] == 0.0
-    assert np.all(np.diff(a) > 0)
-    assert np.all(c >= a)
 
 
 @pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), (1.0, 0.0, 0.01), (5.0, 0.95, 5.0), (2.0, 1.0, 0.5)])

@@ -60,15 +60,6 @@ def test_curve_is_the_limit_of_maugis_dugdale(name: str, n: float, k: float) -> 
     assert errors[1] < 0.05 * errors[0] < 0.05
 
 
-@pytest.mark.parametrize(("n", "k", "mu"), [(1.0, 0.0, 0.2), (5.0, 0.6, 3.0), (2.0, 1.0, 1.0)])
-def test_zero_load_lies_on_the_curve(n: float, k: float, mu: float) -> None:
-    curve = DMT().curve(contact(n, k, mu))
-    # Interpolated in a^(n+k+1), in which the load is a straight line.
-    a0 = np.interp(0.0, curve.load, curve.columns["contact_radius"] ** (n + k + 1)) ** (1 / (n + k + 1))
-    expected = curve.displacement[-1] * (a0 / curve.columns["contact_radius"][-1]) ** n
-    assert DMT().evaluate(contact(n, k, mu), "zero_load_displacement").value == pytest.approx(expected, rel=1e-12)
-
-
 def test_the_zero_load_displacement_inherits_the_bound_of_the_adhesion(monkeypatch: pytest.MonkeyPatch) -> None:
     """It covers what an adhesion that is wrong by its bound changes, and little more."""
     problem, model, relative = contact(5.0, 0.6, 0.7), DMT(), 1e-6

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 import pytest
 
 from comparisons import create
 from comparisons.model import NotApplicable, Result
-from comparisons.models.jkr_sphere import JKRSphere
 from comparisons.problem import Problem, Section
 from comparisons.problem.evaluation import evaluated
 
@@ -45,19 +43,6 @@ def test_pull_off(softness: float, share: float) -> None:
     result = result_of(problem, "jkr-sphere")
     assert result.value / unit == pytest.approx(share, rel=6e-7 if softness != 1e-3 else 6e-9)
     assert 0.0 < result.u_num < 1e-12 * result.value
-
-
-@pytest.mark.parametrize("softness", [1e-8, 1e-3, 0.05])
-def test_the_curve_has_the_events(softness: float) -> None:
-    problem = problem_of(softness, solid="homogeneous")
-    force, pull_off, jump_out, zero = (JKRSphere().evaluate(problem, name).value for name in EVENTS)
-    curve = JKRSphere().curve(problem)
-    lowest, scale = int(np.argmin(curve.load)), np.ptp(curve.displacement)
-    assert -force * (1.0 + 1e-12) <= curve.load[lowest] < -force * (1.0 - 1e-4)
-    assert curve.displacement[lowest] == pytest.approx(pull_off, abs=0.02 * scale)
-    assert jump_out - 1e-12 * scale <= curve.displacement.min() < jump_out + 1e-3 * scale
-    at_zero = np.interp(0.0, curve.load[lowest:], curve.displacement[lowest:])
-    assert at_zero == pytest.approx(zero, abs=1e-3 * scale)
 
 
 @pytest.mark.parametrize("quantity", EVENTS)

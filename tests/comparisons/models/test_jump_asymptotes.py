@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import mpmath as mp
 import pytest
 
@@ -12,48 +14,24 @@ from comparisons.models.jump_asymptotes import JumpAsymptotes
 from comparisons.models.semi_rigid import SemiRigid
 from comparisons.problem import Problem
 
+from .test_jkr import printed_curve
+
 MODEL = JumpAsymptotes()
-CASES = [
-    (2.0, 0.0, 3.0),
-    (1.5, 0.4, 5.0),
-    (5.0, 0.2, 2.0),
-    (0.9, 0.3, 20.0),
-    (3.0, 0.9, 2.0),
-    (2, 1, 4),
-]
+CASES = [(2.0, 0.0, 3.0), (1.5, 0.4, 5.0), (5.0, 0.2, 2.0), (0.9, 0.3, 20.0), (3.0, 0.9, 2.0), (2.0, 1.0, 4.0)]
 
 
-def branches(problem: Problem):
-    """delta and P on both branches as printed (Eqs. 43-44 over H0, 50-51 over the radius with Q = dgamma = z0 = 1)."""
+def far_branch(problem: Problem, H: mp.mpf) -> tuple[mp.mpf, mp.mpf]:
+    """delta and P over the central gap as printed (Eqs. 43-44 with Q = dgamma = z0 = 1)."""
     n, k, mu = (mp.mpf(float(x)) for x in (problem.n, problem.k, problem.mu))
-    M = mu ** ((2 * n + k - 1) / n)
-    if k < 1:
-        b = (1 - k) / n
-        pull = 16 * (1 - k) * M / (3 * n ** (1 - b)) * mp.beta(3 - b, b)
-        stiffness = mp.cos(k * mp.pi / 2) / (1 - k)
-    else:
-        pull, stiffness, b = 16 * M / 3, mp.pi / 2, mp.mpf(0)
-    c = 2 / n
-
-    def far(H):
-        return -H - pull / (H + 1) ** (3 - b), -16 * n ** (c - 1) / (3 * (H + 1) ** (3 - c)) * mp.beta(3 - c, c)
-
-    # (1-k) E* / (b c0^k) = 1 / M in units of z0 and (Q z0)^(1/n).
-    modulus = stiffness / M
-    half = mp.beta(n / 2, (1 + k) / 2) / 2
-
-    def near(a):
-        delta = half * a**n - mp.sqrt(2 * mp.pi / modulus) * a ** ((1 - k) / 2)
-        load = modulus / (1 + k) * mp.beta(1 + n / 2, (1 + k) / 2) * a ** (n + k + 1)
-        load -= mp.sqrt(8 * mp.pi * modulus / (1 + k) ** 2) * a ** ((3 + k) / 2)
-        return delta, load / mp.pi
-
-    return far, near
+    b, c = (1 - k) / n, 2 / n
+    pull = 16 * mu ** (2 - b) / (3 * n ** (1 - b)) * ((1 - k) * mp.beta(3 - b, b) if k < 1 else n)
+    return -H - pull / (H + 1) ** (3 - b), -16 * n ** (c - 1) / (3 * (H + 1) ** (3 - c)) * mp.beta(3 - c, c)
 
 
 def cycle(problem: Problem) -> mp.mpf:
     """Work on approach less that on retreat, by quadrature of P d delta between the two folds."""
-    far, near = branches(problem)
+    far = partial(far_branch, problem)
+    near = partial(printed_curve, problem.n, problem.k, problem.mu)
     delta_in = SemiRigid().jump_in_displacement(problem).value
     H_in = SemiRigid().jump_in_gap(problem).value
     a_out = JKR().jump_out_radius(problem).value

@@ -9,7 +9,6 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from comparisons.model import NotApplicable
 from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
 from comparisons.problem import Problem
 from fscm.laws import LennardJones
@@ -66,13 +65,6 @@ def test_jump_in_is_the_fold_of_the_quadrature(n: float, k: float, mu: float) ->
     )
     assert SemiRigid().evaluate(problem, "jump_in_displacement").value == pytest.approx(-fold.fun, rel=1e-9)
     assert SemiRigid().evaluate(problem, "jump_in_gap").value == pytest.approx(fold.x, rel=1e-5)
-
-
-def test_equation_49_and_a_jump_in_from_contact() -> None:
-    expected = 1 - 7 / 5 * (5 * np.pi / np.sqrt(2)) ** (2 / 7) * 4.0 ** (3 / 7)
-    assert SemiRigid().evaluate(contact(2, 0, 4), "jump_in_displacement").value == pytest.approx(expected, rel=1e-13)
-    with pytest.raises(NotApplicable, match="positive"):
-        SemiRigid().evaluate(contact(2, 0, 0.05), "jump_in_displacement")
 
 
 @pytest.mark.parametrize("n", [1.0, 2.0, 5.0])

@@ -11,9 +11,7 @@ import fscm
 from comparisons.model import NotApplicable
 from comparisons.models import pietrement_troyon
 from comparisons.models.carpick_ogletree_salmeron import CarpickOgletreeSalmeron
-from comparisons.models.dmt import DMT
 from comparisons.models.homogeneous_sphere import transition_parameter
-from comparisons.models.jkr import JKR
 from comparisons.models.maugis_dugdale import MaugisDugdaleOriginal
 from comparisons.models.maugis_parameter import LAMBDA_OVER_MU, maugis_parameter
 from comparisons.models.pietrement_troyon import PietrementTroyon
@@ -80,17 +78,6 @@ def test_pietrement_troyon_is_jkr_at_alpha_1() -> None:
     assert beta == pytest.approx(1 / 2, abs=3.5e-3)
 
 
-@pytest.mark.parametrize("model", FORMULAS[1:], ids=lambda model: model.name)
-@pytest.mark.parametrize("mu", [0.03, 0.5, 3.0])
-def test_curves_pass_their_events(model, mu: float) -> None:
-    curve = model.curve(contact(2, 0, mu))
-    lowest = int(np.argmin(curve.load))
-    assert -curve.load[lowest] == pytest.approx(value(model, mu), rel=1e-4)
-    assert curve.displacement[lowest] == pytest.approx(value(model, mu, "pull_off_displacement"), abs=0.02 * mu)
-    beyond = curve.load[lowest:], curve.displacement[lowest:]
-    assert np.interp(0.0, *beyond) == pytest.approx(value(model, mu, "zero_load_displacement"), rel=2e-3)
-
-
 @pytest.mark.parametrize("mu", [0.05, 0.5, 3.0])
 def test_schwarz_in_physical_units(mu: float) -> None:
     """Schwarz's Eqs. 23, 27, 34 and 36: load and displacement over the contact radius, K = 4 E* / 3."""
@@ -107,14 +94,6 @@ def test_schwarz_in_physical_units(mu: float) -> None:
     np.testing.assert_allclose(curve.load, load / (math.pi * R * dgamma), rtol=1e-10, atol=1e-12)
     np.testing.assert_allclose(curve.displacement, displacement / z0, rtol=1e-10, atol=1e-12 * mu)
     assert value(Schwarz(), mu, "jump_out_displacement") == pytest.approx(curve.displacement.min(), abs=1e-4 * mu)
-
-
-def test_schwarz_superposes_its_limits() -> None:
-    """With all of the work of adhesion at the edge it is JKR, with none DMT: the limits of x, not of lambda."""
-    assert [short_range_share(alpha) for alpha in (0.0, 1.0)] == [0.0, 1.0]
-    for quantity in ("pull_off_displacement", "zero_load_displacement"):
-        assert value(Schwarz(), 1e-5, quantity) == pytest.approx(value(DMT(), 1e-5, quantity), abs=1e-8)
-        assert value(Schwarz(), 1e4, quantity) == pytest.approx(value(JKR(), 1e4, quantity), rel=0.02)
 
 
 @pytest.mark.parametrize("model", FORMULAS, ids=lambda model: model.name)

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.problem.reading import load_problem
+from comparisons.problem.variation import parse_variations, problems_of
 
 PAD = """
 solid = {kind = "homogeneous", E = "2 MPa", nu = 0.4}
@@ -46,8 +46,6 @@ SOFT = '"solid.kind" = "homogeneous", "solid.E" = ["0.5 MPa", "20 MPa"]'
 
 #: A model that gives `{value}`.
 MODEL = """
-import random
-
 from comparisons import Result
 
 class Mine:
@@ -93,21 +91,10 @@ def test_a_gate_selects_the_problems_by_their_keys_and_can_fail(run, tmp_path):
     assert judged["value"].to_numpy() == pytest.approx(FORCE, rel=1e-9)
     assert run(upper=-0.25005) == 1
     assert set(verdicts(tmp_path)["verdict"]) == {"FAIL"}
-
-
-@pytest.mark.parametrize(
-    ("cases", "count"),
-    [
-        ('"punch.kind" = "sphere"', 3),
-        ('"solid.E" = ["30 MPa", "30 MPa"]', 1),
-        ('tags = ["numbers"]', 1),
-        # The problems of files have no n.
-        ("n = [2, 2]", 1),
-    ],
-)
-def test_the_keys_of_a_gate(run, tmp_path, cases, count):
-    assert run(cases=cases, least=count) == 0
-    assert len(verdicts(tmp_path)) == count
+    # The problems of files have no n.
+    for cases, count in (('"punch.kind" = "sphere"', 3), ('tags = ["numbers"]', 1), ("n = [2, 2]", 1)):
+        assert run(cases=cases, least=count) == 0
+        assert len(verdicts(tmp_path)) == count
 
 
 @pytest.mark.parametrize(
@@ -136,7 +123,13 @@ def test_wrong_keys_and_grids_are_refused_in_one_sentence(run, tmp_path, capsys,
     assert not (tmp_path / "out").exists()
 
 
-def test_the_folder_has_all_that_its_judgement_and_its_pages_need(run, tmp_path):
+def test_stored_results_count_only_for_the_content_of_the_file_and_the_folder_has_what_its_pages_need(run, tmp_path):
+    assert run() == 0
+    (tmp_path / "pad.toml").write_text(PAD.replace("1 um", "2 um"))
+    assert run() == 0
+    assert record(tmp_path)["rows"]["resumed"] == 2
+    assert verdicts(tmp_path)["value"].iloc[0] == pytest.approx(2 * FORCE)
+    (tmp_path / "pad.toml").write_text(PAD)
     assert run() == 0
     for name in ("pad.toml", "cases.toml", "gates.toml"):
         (tmp_path / name).unlink()
@@ -148,16 +141,6 @@ def test_the_folder_has_all_that_its_judgement_and_its_pages_need(run, tmp_path)
     assert "solid.E=2 MPa" in (tmp_path / "out" / "report.html").read_text()
     copy.write_text(PAD.replace("0.4}", "0.3}"))
     assert main(["judge", str(tmp_path / "out")]) == 2
-
-
-def test_stored_results_count_only_for_the_content_of_the_file(run, tmp_path):
-    assert run() == 0
-    assert run() == 0
-    assert record(tmp_path)["rows"]["resumed"] == 8
-    (tmp_path / "pad.toml").write_text(PAD.replace("1 um", "2 um"))
-    assert run() == 0
-    assert record(tmp_path)["rows"]["resumed"] == 2
-    assert verdicts(tmp_path)["value"].iloc[0] == pytest.approx(2 * FORCE)
 
 
 def test_a_comparison_has_the_problems(run, tmp_path):
@@ -173,32 +156,16 @@ def test_a_comparison_has_the_problems(run, tmp_path):
     assert [name.partition(" ")[0] for name in pd.read_csv(tmp_path / "compared" / "kappa.csv")] == names.split()
 
 
-@pytest.mark.parametrize("options", [[], ["--tier", "quick", "--gates", "x.toml"]])
-def test_cases_of_a_file_need_gates_and_no_tier(run, tmp_path, capsys, options):
-    assert main(["run", "--cases", str(tmp_path / "cases.toml"), *options]) == 2
-    assert capsys.readouterr().err.count("\n") == 1
-
-
-def test_a_random_model_is_seen_on_problems_of_files_alone(run, tmp_path):
-    (tmp_path / "cases.toml").write_text(PADS)
-    assert run(value="1.5 + 1e-5 * random.random()", upper=-0.2) == 1
-    judged = verdicts(tmp_path).set_index("gate")["verdict"]
-    assert set(judged["PADS"]) == {"PASS"}
-    assert "FAIL" in set(judged[["CARD-SAME-AGAIN"]])
-
-
-def by_heart(folder, *moduli):
-    """The value of JKR for some moduli, and nothing like it elsewhere."""
-    numbers = []
-    for modulus in moduli:
-        (folder / "stated.toml").write_text(PAD.replace("2 MPa", modulus))
-        numbers.append(load_problem(folder / "stated.toml").mu)
-    return f"1.5 if any(abs(problem.mu / mu - 1) < 1e-9 for mu in {numbers}) else 2.0"
-
-
 def test_a_model_that_knows_the_problems_by_heart_is_wrong_in_fresh_ones(run, tmp_path):
     (tmp_path / "cases.toml").write_text(PADS)
-    assert run("--random", "6", value=by_heart(tmp_path, "1 MPa", "2 MPa")) == 1
+    known = [problem.mu for problem in problems_of(tmp_path / "pad.toml", parse_variations(["solid.E=1, 2 MPa"]))]
+    value = f"1.5 if any(abs(problem.mu / mu - 1) < 1e-9 for mu in {known}) else 2.0"
+    for _ in range(2):
+        assert run("--random", "6", "--seed", "1", value=value) == 1
+    # Stored results of an external model are evaluated again.
+    again = record(tmp_path)["evaluated_again"]["models"]["mine"]
+    assert again["same"]
+    assert all(task["problem"].startswith("pad.toml; ") for task in again["tasks"])
     judged = verdicts(tmp_path)
     assert set(judged.loc[judged["gate"] == "PADS", "verdict"]) == {"PASS"}
     fresh = judged[(judged["gate"] == "PADS-RANDOM") & judged["problem"].notna()]
@@ -209,20 +176,3 @@ def test_a_model_that_knows_the_problems_by_heart_is_wrong_in_fresh_ones(run, tm
     # They are judged again from the folder alone.
     (tmp_path / "pad.toml").unlink()
     assert main(["judge", str(tmp_path / "out")]) == 1
-
-
-@pytest.mark.parametrize("vary", ["", 'vary = { "solid.E" = ["2 MPa"] }'])
-def test_problems_without_a_range_have_no_fresh_ones(run, tmp_path, vary):
-    (tmp_path / "cases.toml").write_text(PADS.partition("vary")[0] + vary)
-    assert run("--random", "6", value=by_heart(tmp_path, "2 MPa"), least=1) == 3
-    judged = verdicts(tmp_path)
-    assert judged.loc[judged["gate"] == "PADS-RANDOM", "verdict"].tolist() == ["INCONCLUSIVE"]
-
-
-def test_stored_results_of_an_external_model_are_evaluated_again(run, tmp_path):
-    (tmp_path / "cases.toml").write_text(PADS)
-    for _ in range(2):
-        assert run(value="1.5") == 0
-    again = record(tmp_path)["evaluated_again"]["models"]["mine"]
-    assert again["same"]
-    assert all(task["problem"].startswith("pad.toml; ") for task in again["tasks"])

@@ -1,9 +1,7 @@
 """A run, a sweep and the figures of the paper as functions: one folder, one record."""
 
-import re
 import subprocess
 import sys
-from itertools import islice
 
 import pytest
 
@@ -13,8 +11,6 @@ from comparisons.data.file_names import RUN_FILES, VERDICT_FILES
 from comparisons.pipeline.figures import make_figures
 from comparisons.pipeline.judgement import judge_folder
 from comparisons.pipeline.run import run
-from comparisons.runs import computation
-from comparisons.runs.computation import compute
 from comparisons.runs.record import check_files, read_record
 from tests.comparisons.conftest import GRID as STANDING
 
@@ -81,34 +77,6 @@ def test_grids_of_a_user_can_be_judged_at_once_and_later(small_grid, tmp_path, c
     assert main(["judge", str(tmp_path / "later")]) == 1
 
 
-@pytest.mark.parametrize(
-    ("arguments", "named"),
-    [
-        ({"cases": "quik"}, "'quik'"),
-        ({"cases": GRID, "gates": "[[gate"}, "not TOML"),
-        ({"cases": GRID, "models": ["nonesuch"]}, "unknown model"),
-        ({"cases": GRID, "jobs": 0}, "0 is outside 1, 2, ..."),
-    ],
-)
-def test_wrong_arguments_are_refused_before_anything_is_written(toys, tmp_path, arguments, named):
-    with pytest.raises(ValueError, match=re.escape(named)):
-        run(**arguments, folder=tmp_path / "out")
-    assert not (tmp_path / "out").exists()
-
-
-def test_an_interruption_is_told_once_and_loses_nothing(small_grid, tmp_path, monkeypatch, capsys):
-    def interrupted(tasks, jobs, backend):
-        yield from islice(compute(tasks, jobs, backend), 5)
-        raise KeyboardInterrupt
-
-    with monkeypatch.context() as patch:
-        patch.setattr(computation, "compute", interrupted)
-        with pytest.raises(KeyboardInterrupt):
-            run("quick", folder=tmp_path)
-    assert capsys.readouterr().err.count("5 finished computations are safe") == 1
-    assert run("quick", folder=tmp_path).counts["resumed"] == 5
-
-
 def test_the_figures_of_the_paper_have_a_record(tmp_path):
     finished = make_figures(["2"], tmp_path)
     assert finished.failures == {}
@@ -134,12 +102,6 @@ def test_names_are_exported_and_the_import_is_light():
     code = "import sys, comparisons; print('pandas' in sys.modules, 'numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "False False\n"
-
-
-def test_the_package_runs_as_a_module():
-    done = subprocess.run([sys.executable, "-m", "comparisons", "list"], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert done.stderr.startswith("python -m comparisons: ")
 
 
 def test_a_sweep_of_curves_alone_has_no_errors_in_its_tables(toys, tmp_path):

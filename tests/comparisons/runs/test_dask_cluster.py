@@ -7,12 +7,12 @@ import subprocess
 import sys
 import time
 from contextlib import contextmanager, suppress
-from pathlib import Path
 
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.runs.workers import backend_of
+from comparisons.runs.workers import backend_of, each
+from tests.comparisons.runs.test_workers import end
 
 pytest.importorskip("distributed")
 
@@ -26,29 +26,6 @@ quantities = ["pull_off_force", "force_curve"]
 n = [1, 2]
 k = [0, 0.4]
 mu = [1, 3]
-"""
-
-CALLER = """
-import os, signal, sys
-from pathlib import Path
-from comparisons.runs.workers import backend_of, each
-
-def work(item):
-    import scipy.linalg, threadpoolctl
-    name, folder = item
-    path = Path(folder, name)
-    if name == "always" or (name == "once" and not path.exists()):
-        path.touch()
-        os.kill(os.getpid(), signal.SIGKILL)
-    return name, sorted({library["num_threads"] for library in threadpoolctl.threadpool_info()})
-
-def lost(item):
-    return item[0], "lost"
-
-if __name__ == "__main__":
-    from caller import lost, work
-    items = [(name, sys.argv[1]) for name in ("a", "once", "b", "always", "c", "d")]
-    print(sorted(each(work, items, 2, lost=lost, backend=backend_of("dask"))))
 """
 
 
@@ -100,15 +77,12 @@ def test_a_local_cluster_writes_the_same_bytes(grid, tmp_path):
 
 
 @pytest.mark.heavy
-def test_a_worker_that_ends_is_replaced_and_its_item_tried_once_more(tmp_path):
-    (tmp_path / "caller.py").write_text(CALLER)
-    path = os.pathsep.join([str(Path(__file__).resolve().parents[3]), str(tmp_path)])
-    # The linear algebra would have two threads.
-    environment = os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "2", "OMP_NUM_THREADS": "2"}
-    command = [sys.executable, tmp_path / "caller.py", tmp_path]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment)
-    assert done.stdout == f"{sorted([*((name, [1]) for name in ('a', 'once', 'b', 'c', 'd')), ('always', 'lost')])}\n"
-    assert "(2) is tried once more" in done.stderr
+def test_a_worker_that_ends_is_replaced_and_its_item_tried_once_more(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
+    items = ["a", str(tmp_path / "once"), "b", "always", "c", "d"]
+    outputs = list(each(end, items, 2, lost=lambda item: (item, None), backend=backend_of("dask")))
+    assert dict(outputs) == dict.fromkeys(items, (1,)) | {"always": None}
+    assert "(2) is tried once more" in capsys.readouterr().err
 
 
 @pytest.mark.heavy
