@@ -42,13 +42,7 @@ from comparisons.runs.frames import read_table
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.rows import CASE
 
-__all__ = [
-    "BASELINE",
-    "check",
-    "drift",
-    "read_baseline",
-    "renew",
-]
+__all__ = ["BASELINE", "check", "drift", "read_baseline", "renew"]
 
 #: Folder of the committed results, in a clone of the repository.
 BASELINE = BASELINE_FOLDER

@@ -1,11 +1,11 @@
 """The base of the models with a cohesive zone: events, curve and profile of a contact in barred variables.
 
-A model chooses the cohesive stress and, where its traction is not constant, how it decays.
+A model chooses the cohesive stress, unless it is the theoretical strength, and how a traction that is not constant
+decays.
 """
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from typing import ClassVar
 
 import numpy as np
@@ -15,6 +15,7 @@ from comparisons.models.closed_form import EPS, FIELDS, IN_CONTACT, ClosedForm, 
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import STATE_ROUNDING, CohesiveEvents, Event
 from comparisons.models.cohesive_profiles import PROFILE_ROUNDING, CohesiveProfiles, cohesive_profiles
+from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
@@ -44,9 +45,9 @@ class CohesiveModel(ClosedForm):
     narrower: ClassVar[dict[str, Limits]] = {field: {"k": [0, 0.9999]} for field in FIELDS}
     undefined: ClassVar[dict[str, str]] = IN_CONTACT
 
-    @abstractmethod
     def cohesive_stress(self, problem: Problem) -> float:
-        """sigma_0 in dgamma / z0."""
+        """sigma_0 in dgamma / z0; by default 16 sqrt(3) / 27, the largest tension of the 9-3 law (Eq. 73)."""
+        return THEORETICAL_STRENGTH
 
     def decay(self, problem: Problem) -> float:
         """How fast the traction decays from the contact edge (`CohesiveContact`); 0: it is constant."""

@@ -9,7 +9,6 @@ be infinite on the axis for n <= 1 - k, and largest inside the zone, away from t
 from __future__ import annotations
 
 from comparisons.models.cohesive_model import CohesiveModel
-from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
 from comparisons.problem import Problem
 
 __all__ = ["DoubleHertz"]
@@ -32,10 +31,6 @@ class DoubleHertz(CohesiveModel):
         "2473-2492; other n: equations of this repository (docs/theory.md)"
     )
     domain = "n > (1-k)/2, 0 <= k <= 1; largest traction 16 sqrt(3)/27"
-
-    def cohesive_stress(self, problem: Problem) -> float:
-        """Largest traction 16 sqrt(3) / 27, in dgamma / z0."""
-        return THEORETICAL_STRENGTH
 
     def decay(self, problem: Problem) -> float:
         """Of the difference of two Hertz pressures: (1+k)/2."""

@@ -71,13 +71,6 @@ class JKR(ClosedForm):
         punch = GradedPunch.of(problem)
         return _displacement(punch, punch.n + punch.k + 1.0, problem.mu)
 
-    def jump_out_radius(self, problem: Problem) -> Result:
-        """Contact radius at the fold (Eq. 53), in (Q z0)^(1/n); 0 at k = 1."""
-        punch = GradedPunch.of(problem)
-        if punch.s == 0.0:
-            return Result(0.0, 0.0)
-        return monomial(*_radius_power(punch, punch.s, 1.0), (problem.mu, 1.0 / punch.n))
-
     def force_curve(self, problem: Problem) -> Curve:
         """Return Eqs. 50-51 from a = 0 to where the load is as compressive as the pull-off is tensile.
 

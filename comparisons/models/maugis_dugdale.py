@@ -13,7 +13,7 @@ from typing import ClassVar
 
 from comparisons.models.closed_form import Limits
 from comparisons.models.cohesive_model import CohesiveModel
-from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
+from comparisons.models.cohesive_stress import eta
 from comparisons.problem import Problem
 
 __all__ = ["MaugisDugdaleImproved", "MaugisDugdaleJin", "MaugisDugdaleOriginal"]
@@ -37,10 +37,6 @@ class MaugisDugdaleOriginal(CohesiveModel):
     name = "md-original"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 63-73; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
     domain = "n > (1-k)/2, 0 <= k <= 1; cohesive stress 16 sqrt(3)/27"
-
-    def cohesive_stress(self, problem: Problem) -> float:
-        """sigma_0 = 16 sqrt(3) / 27, in dgamma / z0."""
-        return THEORETICAL_STRENGTH
 
 
 class MaugisDugdaleImproved(CohesiveModel):

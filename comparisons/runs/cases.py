@@ -24,15 +24,7 @@ from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS
 from comparisons.runs.parameter_sets import FORMS, parameter_sets
 
-__all__ = [
-    "TIERS",
-    "VERIFICATION",
-    "Grid",
-    "cases_text",
-    "grids",
-    "grids_for",
-    "load_grids",
-]
+__all__ = ["TIERS", "VERIFICATION", "Grid", "cases_text", "grids", "grids_for", "load_grids"]
 
 #: The standing cases and their problem files.
 _DATA = Path(str(files("comparisons.data")))

@@ -28,15 +28,7 @@ from comparisons.runs.atomic_files import write_json
 from comparisons.runs.data_package import write_data_package
 from comparisons.runs.environment import differences, environment, fingerprint
 
-__all__ = [
-    "FORMAT",
-    "check_files",
-    "now",
-    "read_record",
-    "record_content",
-    "warn_of_other_code",
-    "write_record",
-]
+__all__ = ["FORMAT", "check_files", "now", "read_record", "record_content", "warn_of_other_code", "write_record"]
 
 #: Version of the schema.
 FORMAT = 5

@@ -17,16 +17,7 @@ from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import log
 
-__all__ = [
-    "BACKENDS",
-    "LOST",
-    "Backend",
-    "backend_of",
-    "each",
-    "one_thread",
-    "processes",
-    "usable_cores",
-]
+__all__ = ["BACKENDS", "LOST", "Backend", "backend_of", "each", "one_thread", "processes", "usable_cores"]
 
 Item = TypeVar("Item")
 Output = TypeVar("Output")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 import mpmath as mp
+import numpy as np
 import pytest
 
 from comparisons.model import NotApplicable
@@ -34,14 +35,17 @@ def cycle(problem: Problem) -> mp.mpf:
     near = partial(printed_curve, problem.n, problem.k, problem.mu)
     delta_in = SemiRigid().jump_in_displacement(problem).value
     H_in = SemiRigid().jump_in_gap(problem).value
-    a_out = JKR().jump_out_radius(problem).value
-    delta_out = near(mp.mpf(a_out))[0] if a_out else JKR().jump_out_displacement(problem).value
+    delta_out = JKR().jump_out_displacement(problem).value
+    curve = JKR().curve(problem)
+    start = curve.columns["contact_radius"][int(np.argmin(curve.displacement))]
+    # The fold is at a = 0 for k = 1.
+    a_out = mp.findroot(lambda a: mp.diff(lambda x: near(x)[0], a), start) if start else mp.mpf(0)
     H_out = mp.findroot(lambda H: far(H)[0] - delta_out, mp.mpf(-float(delta_out)))
     a = mp.findroot(
         lambda a: near(a)[0] - delta_in, (2 * GradedPunch.of(problem).scales(problem.mu).radius) * mp.mpf(1.2)
     )
     approach = mp.quad(lambda H: far(H)[1] * mp.diff(lambda x: far(x)[0], H), [H_out, H_in])
-    retreat = mp.quad(lambda x: near(x)[1] * mp.diff(lambda y: near(y)[0], x), [mp.mpf(a_out), a])
+    retreat = mp.quad(lambda x: near(x)[1] * mp.diff(lambda y: near(y)[0], x), [a_out, a])
     return approach - retreat
 
 
