@@ -20,6 +20,7 @@ from fem_reference.errors import NotConverged
 from fem_reference.modulus import PowerLawModulus
 from fem_reference.poisson import PoissonRatio, poisson_at
 from fem_reference.problem import Problem
+from fem_reference.punch import radius_at_height
 from fem_reference.result import Solution
 from fem_reference.states import EquilibriumPath, RadialField
 
@@ -34,6 +35,9 @@ NEARLY_INCOMPRESSIBLE = 0.45
 #: Side of the core in radii of the contact edge; where the solid is no power law it is that of small strain, whose
 #: exterior takes one.
 CORE_EXTENT = 32.0
+
+#: Height of the punch, in lengths of the law, at the end of the core at least: a spot on which contact begins is small.
+CORE_HEIGHT = 100.0
 
 #: Resolved width of the contact edge in lengths of the law: on shorter elements the surface is resolved beyond what
 #: the law acts on.
@@ -61,7 +65,8 @@ def _discretisation(problem: Problem, event: LinearEvent, friction: Friction, fo
     spec = replace(event.spec, edge_width=width)
     solid = problem.solid
     scaling = isinstance(solid.modulus, PowerLawModulus) and not isinstance(solid.poisson, PoissonRatio)
-    extent = CORE_EXTENT if scaling else max(CORE_EXTENT, spec.extent)
+    reach = radius_at_height(problem.punch, CORE_HEIGHT * problem.law.z0) / event.radius
+    extent = max(CORE_EXTENT, reach) if scaling else max(CORE_EXTENT, reach, spec.extent)
     return Discretisation(problem, spec, event.size, extent, mixed, friction).at(event.radius)
 
 

@@ -348,13 +348,11 @@ def test_other_quantities_are_bounded(quantity):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize(("number", "mu", "nu"), [(5e-3, 2.0, 0.5), (1e-3, 0.5, 0.3)])
-def test_the_path_has_one_minimum_of_the_load_and_the_folds_of_small_strain(number, mu, nu):
+def test_the_path_has_one_minimum_of_the_load(number, mu, nu):
     path = trace_large_strain(sphere(number, mu, nu))
     assert np.all(np.diff(path.central_gap) < 0.0)
     turns = np.sign(np.diff(path.load))
     assert np.count_nonzero(np.diff(turns)) == 1
-    folds = np.count_nonzero(np.diff(np.sign(np.diff(path.displacement))))
-    assert folds == (2 if mu == 2.0 else 0)
     deepest = solve_large_strain(sphere(number, mu, nu), "pull_off_force")
     assert 0.0 <= deepest.value + path.load.min() < 5e-3 * deepest.value
 
