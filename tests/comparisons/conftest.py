@@ -107,6 +107,16 @@ tier = "quick"
 """
 
 
+def with_entries(table, **entries):
+    """A TOML table with some entries changed or added; a text that is no list and no table is quoted."""
+    for name, value in entries.items():
+        is_quoted = isinstance(value, str) and value[0] not in "[{"
+        line = f"{name} = " + (f'"{value}"' if is_quoted else f"{value}") + "\n"
+        changed = re.sub(rf"(?m)^{name} = .*\n", lambda _, line=line: line, table)
+        table = changed if line in changed else f"{table}{line}"
+    return table
+
+
 @pytest.fixture(scope="session", autouse=True)
 def code_read_once():
     """What a record has of code and machine is determined once: neither changes while the tests run.

@@ -17,6 +17,9 @@ from comparisons.registry import create
 from comparisons.runs.cases import load_grids
 from comparisons.runs.tasks import evaluate
 
+from ..conftest import GATES, with_entries
+from ..conftest import GRID as STANDING
+
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "double_hertz"
 FORCE = ["--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"]
 GOOD = "return Result(1.5, 1e-9)"
@@ -62,39 +65,19 @@ def no_cards(monkeypatch):
     monkeypatch.setattr(finished_run, "make_cards", lambda external, rows, parts, cases: {})
 
 
-GRID = """
-[[grid]]
-id = "few"
-title = "Few cases"
-tier = "quick"
-reference = "bradley"
-models = ["dmt"]
-quantities = ["pull_off_force"]
-n = [2]
-k = [0, 0.4]
-mu = [0.1, 1]
-"""
-
-
-GATE = """
-[[gate]]
-id = "GIVEN"
-requirement = "The model has the pull-off force of Bradley."
-quantity = "pull_off_force"
-candidate = "given"
-reference = "bradley"
-cases = {}
-metric = "rel"
-lower = -0.1
-upper = 0.1
-max_reference_uncertainty = 1e-6
-basis = "derived"
-grounds = "a gate of this test"
-min_cases = 2
-min_coverage = 0.9
-tier = "quick"
-not_applicable = "leave-out"
-"""
+GRID = with_entries(STANDING, id="few", reference="bradley", models='["dmt"]')
+GATE = with_entries(
+    GATES,
+    id="GIVEN",
+    candidate="given",
+    reference="bradley",
+    cases="{}",
+    lower=-0.1,
+    upper=0.1,
+    min_cases=2,
+    min_coverage=0.9,
+    not_applicable="leave-out",
+)
 
 
 @pytest.fixture

@@ -92,10 +92,8 @@ def test_a_limit_that_is_none_is_wrong_input(write_model, monkeypatch, capsys, n
     assert name in capsys.readouterr().err
 
 
-def test_it_does_not_see_our_environment_and_its_children_end_with_it(write_model, monkeypatch):
-    monkeypatch.setenv("SOME_TOKEN", "secret")
-    body = "if 'SOME_TOKEN' in os.environ:\n    return None\nchild = os.fork()\nif child == 0:\n    time.sleep(1000)\n"
-    model = create(write_model(f"{body}return Result(float(child), 0.0)"))
+def test_what_it_starts_ends_with_it(write_model):
+    model = create(write_model("child = os.fork()\nif child == 0:\n    time.sleep(1000)\nreturn Result(child, 0.0)"))
     grandchild = int(row_of(model).value)
     assert not has_ended(grandchild)
     model.close()

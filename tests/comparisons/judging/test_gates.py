@@ -5,28 +5,21 @@ import re
 import pytest
 
 from comparisons import Problem
-from comparisons.judging.gates import gates_text, load_gates
-from comparisons.runs.cases import Grid, grids
+from comparisons.judging.gates import load_gates
+from comparisons.runs.cases import Grid
+from tests.comparisons.conftest import GATES, with_entries
 
-GATE = """
-[[gate]]
-id = "A-GATE"
-requirement = "JKR is right."
-quantity = "pull_off_force"
-candidate = "jkr"
-reference = "fscm"
-cases = { n = [1, 2], tags = ["blue"] }
-metric = "rel"
-lower = -0.1
-upper = 0.1
-max_reference_uncertainty = 1e-6
-basis = "derived"
-grounds = "A limit."
-min_cases = 3
-tier = "quick"
-"""
-
-
+GATE = with_entries(
+    GATES,
+    id="A-GATE",
+    candidate="jkr",
+    reference="fscm",
+    cases='{ n = [1, 2], tags = ["blue"] }',
+    lower=-0.1,
+    upper=0.1,
+    grounds="A limit.",
+    min_cases=3,
+)
 CURVE = GATE.replace('"rel"', '"curve"').replace("pull_off_force", "force_curve").replace("= -0.1", "= -inf")
 
 
@@ -165,17 +158,3 @@ def test_the_candidate_at_its_own_parameters_is_no_other_reference():
     with pytest.raises(ValueError, match="candidate and reference are both"):
         load_gates(same + "reference_at = { n = 2, k = 0 }")
     assert load_gates(same + "reference_at = { n = 2, k = 0.4 }")
-
-
-def test_a_standing_gate_is_fit_to_be_cited():
-    for gate in load_gates(gates_text()):
-        for text in (gate.requirement, gate.grounds, gate.expected_failure or "."):
-            assert text.endswith("."), gate.id
-        declared = {
-            case
-            for grid in grids(gate.tier)
-            if gate.quantity in grid.quantities
-            for case in grid.cases
-            if gate.selects(grid, case)
-        }
-        assert len(declared) >= gate.min_cases, gate.id

@@ -10,7 +10,7 @@ from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged, verdict_table
 from comparisons.pipeline import expected_verdicts
 
-from ..conftest import GATES
+from ..conftest import GATES, with_entries
 
 pytest_plugins = ["pytester"]
 
@@ -34,22 +34,17 @@ def importable(monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(ROOT / "comparisons" / "pytest_entry"))
 
 
-def gate(id, candidate, lower, upper, *lines):
-    text = GATES.replace('"TEN-PERCENT"', f'"{id}"').replace('"ten-percent"', f'"{candidate}"')
-    return text.replace("0.09", str(lower)).replace("0.11", str(upper)) + "\n".join(lines)
+def gate(id, candidate, lower, upper, **entries):
+    return with_entries(GATES, id=id, candidate=candidate, lower=lower, upper=upper, **entries)
 
 
-DECLARED = (
-    'expected_failure = "it is twelve percent"',
-    "worst_measured = 0.12",
-    "measured_range = [0.11, 0.13]",
-)
+DECLARED = {"expected_failure": "it is twelve percent", "worst_measured": 0.12, "measured_range": "[0.11, 0.13]"}
 
 EVERY = "".join(
     [
-        gate("PASSES", "given", 0.05, 0.15, 'not_applicable = "leave-out"'),
+        gate("PASSES", "given", 0.05, 0.15, not_applicable="leave-out"),
         gate("FAILS", "ten-percent", -0.05, 0.05),
-        gate("DECLARED", "twelve-percent", 0.0, 0.1, *DECLARED),
+        gate("DECLARED", "twelve-percent", 0.0, 0.1, **DECLARED),
         gate("UNCERTAIN", "ten-percent", 0.05, 0.1),
     ]
 )
@@ -127,10 +122,8 @@ law = {kind = "lennard-jones-9-3", work_of_adhesion = "50 mJ/m^2", z0 = "0.4 nm"
 
 def test_problem_files_take_the_place_of_the_standing_cases(pytester):
     """In a process of its own, as of a user: closed forms need no other models."""
-    text = gate("PADS", "jkr", -0.26, -0.24).replace("min_cases = 4", "min_cases = 2").replace("exact", "bradley")
-    pytester.makefile(
-        ".toml", cases=CASES, pad=PAD, gates=text.replace("mu = [0.1, 1]", '"punch.R" = ["1 um", "2 um"]')
-    )
+    entries = {"reference": "bradley", "cases": '{ "punch.R" = ["1 um", "2 um"] }', "min_cases": 2}
+    pytester.makefile(".toml", cases=CASES, pad=PAD, gates=gate("PADS", "jkr", -0.26, -0.24, **entries))
     pytester.makeini("[pytest]\nfscm_bench_cases = cases.toml\n")
     options = ["--fscm-bench-gates=gates.toml", "--fscm-bench-model=jkr", "-rA"]
     result = pytester.runpytest_subprocess("-p", PLUGIN, *options)
