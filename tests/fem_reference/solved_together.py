@@ -6,11 +6,17 @@ from fem_reference import LennardJones, PowerLaw, PowerPunch, Problem, Solution,
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.newton import State
 from fem_reference.quantities import TABLE
+from fem_reference.solids import Solid
 from fem_reference.verification.reference_solutions import surface_constant
 
 #: Error of a pull-off on the coarsest mesh alone, relative: measured worst 9.1e-6 (the displacement of a homogeneous
 #: solid with Poisson's ratio of layers), and 3e-6 of a force.
 COARSEST = 2e-5
+
+
+def sphere_on(solid: Solid) -> Problem:
+    """Return the problem of a sphere with R = w = z0 = 1."""
+    return Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
 
 
 def problem_with(k: float, mu: float, n: float = 2.0, nu: float = 0.3) -> Problem:

@@ -2,7 +2,6 @@
 
 import math
 from itertools import pairwise
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,35 +12,8 @@ from fem_reference._contact import completeness
 from fem_reference._contact.completeness import complete_path, displacement_range
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.mesh_choice import chosen
-from fem_reference._contact.path import Point
+from tests.fem_reference.analytic_branch import AnalyticBranch
 from tests.fem_reference.solved_together import problem_with
-
-
-class AnalyticBranch:
-    """A branch whose displacement and load are polynomials of the parameter."""
-
-    def __init__(self, displacement, load, touching=True):
-        self.displacement, self.load, self.touching = Polynomial(displacement), Polynomial(load), touching
-        self.contact = SimpleNamespace(law=SimpleNamespace(z0=1.0))
-
-    def largest_step(self, parameter):
-        return math.inf
-
-    def solve(self, t, y):
-        state = SimpleNamespace(
-            displacement=self.displacement(t),
-            displacement_rate=self.displacement.deriv()(t),
-            load=self.load(t),
-            load_rate=self.load.deriv()(t),
-            y=np.ones(1),
-            rate=np.zeros(1),
-            size=1.0,
-            iterations=1,
-        )
-        return Point(self, t, state)
-
-    def points(self, parameters):
-        return [self.solve(t, None) for t in parameters]
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.013, 0.4])
@@ -49,7 +21,7 @@ def test_a_hidden_pair_of_turning_points_is_found(shift):
     """A fall over 0.1 of the parameter, in samples 0.8 apart between which the function rises."""
     turns = np.array([shift - 0.05, shift + 0.05])
     slope = Polynomial.fromroots(turns) * Polynomial([1.0, 0.1, 0.02])
-    branch = AnalyticBranch(slope.integ().coef, [0.0, 1.0])
+    branch = AnalyticBranch(slope.integ(), [0.0, 1.0])
     points = branch.points(np.arange(-2.2, 2.3, 0.8))
     assert all(point.displacement_rate > 0 for point in points)
     complete = complete_path(points)
@@ -63,7 +35,7 @@ def test_a_hidden_pair_of_turning_points_is_found(shift):
 
 def test_a_path_that_stays_undecided_is_refused(monkeypatch):
     slope = Polynomial.fromroots([0.0, 1e-3]) * Polynomial([1.0, 0.1, 0.02])
-    points = AnalyticBranch(slope.integ().coef, [0.0, 1.0]).points(np.arange(-2.2, 2.3, 0.8))
+    points = AnalyticBranch(slope.integ(), [0.0, 1.0]).points(np.arange(-2.2, 2.3, 0.8))
     assert len(complete_path(points)) > len(points)
     monkeypatch.setattr(completeness, "ROUNDS", 1)
     with pytest.raises(NotConverged, match="pair of turning points"):
@@ -71,20 +43,22 @@ def test_a_path_that_stays_undecided_is_refused(monkeypatch):
 
 
 def test_a_path_that_turns_back_between_the_branches_is_refused():
-    approach = AnalyticBranch([0.0, -1.0], [0.0, -1.0], touching=False).points([3.0, 2.0, 1.0])
-    touching = AnalyticBranch([-1.0, -1.0], [-1.0, -1.0]).points([0.0, 1.0, 2.0])
+    approach = AnalyticBranch(Polynomial([0.0, -1.0]), [0.0, -1.0], touching=False).points([3.0, 2.0, 1.0])
+    touching = AnalyticBranch(Polynomial([-1.0, -1.0]), [-1.0, -1.0]).points([0.0, 1.0, 2.0])
     with pytest.raises(NotConverged, match="turns back"):
         complete_path([*approach, *touching])
 
 
 def test_the_range_includes_turning_points_between_samples():
-    low, high = displacement_range(AnalyticBranch([0.0, -1.0, 0.0, 1.0], [0.0, 1.0]).points([-1.0, 0.0, 1.0]))
+    low, high = displacement_range(
+        AnalyticBranch(Polynomial([0.0, -1.0, 0.0, 1.0]), [0.0, 1.0]).points([-1.0, 0.0, 1.0])
+    )
     assert (low, high) == pytest.approx((-2 / 27**0.5, 2 / 27**0.5))
 
 
 def test_a_level_reached_only_at_a_turning_point_between_samples_counts():
     """The load falls below zero and rises again between two samples with compression."""
-    branch = AnalyticBranch([0.0, 1.0], Polynomial.fromroots([-3.0, 0.2, 0.3]).coef)
+    branch = AnalyticBranch(Polynomial([0.0, 1.0]), Polynomial.fromroots([-3.0, 0.2, 0.3]).coef)
     events = PathEvents(branch.points([-4.0, -2.0, -1.0, 0.0, 0.5, 1.0, 2.0]))
     assert events.zero_load.parameter == pytest.approx(0.3)
 

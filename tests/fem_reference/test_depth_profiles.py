@@ -9,7 +9,6 @@ from fem_reference import Interface, PowerLaw
 from fem_reference._elastic.compliance import is_scaling, scaled_poisson
 from fem_reference._elastic.depth_scales import DepthScales, depth_scales
 from fem_reference._elastic.elasticity import Body, stiffness
-from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import uniform_grid
 from fem_reference.coating import CoatingModulus
@@ -64,15 +63,6 @@ def test_a_mesh_follows_poissons_ratio():
     assert is_scaling(E, 0.3, ())
     assert not is_scaling(E, CoatingPoisson(0.1, 0.4, 3.0), ())
     assert not is_scaling(E, 0.3, (1.0,))
-
-
-def test_error_of_the_exterior_has_poissons_ratio():
-    """Zero without a change; that of a skin falls with the square of the extent."""
-    E = PowerLawModulus(1.0, 1.0, 0.0)
-    assert exterior_error(E, 64.0, CustomPoisson(lambda z: 0.3 + 0.0 * z)) == 0.0
-    short, long = (exterior_error(E, extent, CoatingPoisson(0.1, 0.4, 1.0)) for extent in (256.0, 1024.0))
-    assert short / long == pytest.approx(16.0, rel=1e-2)
-    assert short > 1e-7
 
 
 def test_stiffness_of_two_layers_is_that_of_both():

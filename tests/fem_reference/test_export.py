@@ -62,18 +62,6 @@ def test_one_unit_of_every_length(state):
         field.in_units_of(0.0, 1.0)
 
 
-def test_vertical_equilibrium_at_depth(state):
-    """The resultant of sigma_zz on a plane balances the load, within the trapezoidal rule."""
-    point, field = state
-    depths = np.unique(field.points[:, 1])
-    depth = depths[np.argmin(abs(depths - 0.3))]
-    plane = np.flatnonzero(field.points[:, 1] == depth)
-    r, stress = field.points[plane, 0], field.stress[plane, 2]
-    order = np.argsort(r)
-    resultant = 2 * np.pi * np.trapezoid((r * stress)[order], r[order])
-    assert resultant == pytest.approx(-point.state.load, rel=0.1)
-
-
 def test_file_and_picture(state, tmp_path):
     _, field = state
     path = tmp_path / "contact.vtu"

@@ -29,7 +29,7 @@ from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
 from fem_reference.poisson import CoatingPoisson
 from tests.fem_reference.hankel_reference import pull_off
 from tests.fem_reference.profile_solid import ProfileSolid
-from tests.fem_reference.solved_together import COARSEST, pull_off_on_the_coarsest_mesh
+from tests.fem_reference.solved_together import COARSEST, pull_off_on_the_coarsest_mesh, sphere_on
 from tests.fem_reference.test_coatings import HANKEL_ERROR
 
 NU = 0.3
@@ -59,7 +59,7 @@ def test_poissons_ratio_of_depth_against_hankel_transforms(solid, nu, options):
     """Force and displacement (measured difference: 9e-8)."""
     sharp = (1.0,) if nu is NUS else ()
     reference = pull_off(solid.modulus, nu, lambda r: r**2 / 2, sharp=sharp, **options)
-    solutions = solve_together(Problem(solid, SPHERE, LAW), (FORCE, DISPLACEMENT), "quick")
+    solutions = solve_together(sphere_on(solid), (FORCE, DISPLACEMENT), "quick")
     for name, exact in ((FORCE, reference.force), (DISPLACEMENT, reference.displacement)):
         assert abs(solutions[name].value - exact) <= solutions[name].u_num + HANKEL_ERROR
         assert solutions[name].u_num <= 1e-5
@@ -113,11 +113,11 @@ def test_punches_and_laws_against_the_integral_equation(name):
 @pytest.mark.parametrize("k", [0.3, 0.6])
 def test_a_vanishing_offset_is_the_power_law(k):
     """The pull-off force of offsets 1e-3, 1e-4 and 1e-5 falls towards that of the power law."""
-    exact = solve(Problem(PowerLaw(1.0, 1.0, k, NU), SPHERE, LAW), FORCE, "quick")
+    exact = solve(sphere_on(PowerLaw(1.0, 1.0, k, NU)), FORCE, "quick")
     away = []
     for z_s in (1e-3, 1e-4, 1e-5):
         offset = ProfileSolid(OffsetPowerLawModulus(1.0, 1.0, k, z_s), NU)
-        force = solve(Problem(offset, SPHERE, LAW), FORCE, "quick")
+        force = solve(sphere_on(offset), FORCE, "quick")
         away.append((force.value - exact.value, force.u_num + exact.u_num))
     differences, bounds = np.array(away).T
     assert np.all(np.abs(differences[1:]) <= 0.6 * np.abs(differences[:-1]) + bounds[1:])

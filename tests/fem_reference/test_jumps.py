@@ -1,6 +1,5 @@
 """All jumps of a cycle of approach and retreat, where the displacement has several pairs of folds."""
 
-import math
 from types import SimpleNamespace
 
 import numpy as np
@@ -19,10 +18,11 @@ from fem_reference import (
     solve_together,
 )
 from fem_reference._contact.events import PathEvents, energy_lost
-from fem_reference._contact.path import Point
 from fem_reference.depth_profiles import ExponentialModulus
 from fem_reference.quantities import LOSSES, TABLE, further_losses
+from tests.fem_reference.analytic_branch import AnalyticBranch
 from tests.fem_reference.profile_solid import ProfileSolid
+from tests.fem_reference.solved_together import sphere_on
 
 PAIR = (-1.0, -3.0)
 #: Displacements of the turning points from outside to inside, and where the jumps begin, by these displacements.
@@ -37,47 +37,15 @@ PATHS = {
 }
 
 
-class Branch:
-    """A branch with given turning points of the displacement at 1, 2, ... of the parameter, which is the state."""
-
-    touching = True
-
-    def __init__(self, turns):
-        t = np.arange(len(turns) + 2.0)
-        ends = [min(turns) - 2.0, *turns, max(turns) + 2.0]
-        self.displacement = CubicHermiteSpline(t, ends, [4.0, *np.zeros(len(turns)), 4.0])
-        self.contact = SimpleNamespace(law=SimpleNamespace(z0=1.0), energy=lambda y: self.work(y[0]))
-
-    def largest_step(self, parameter):
-        return math.inf
-
-    def load(self, t):
-        return 0.1 * t**2 - 2.0
-
-    def work(self, t):
-        """Integral of the load over the displacement."""
-        grid = np.linspace(0.0, t, 20001)
-        return float(np.trapezoid(self.load(grid) * self.displacement.derivative()(grid), grid))
-
-    def solve(self, t, y):
-        rate = float(self.displacement.derivative()(t))
-        y = np.array([t, 0.0])
-        state = SimpleNamespace(
-            displacement=float(self.displacement(t)),
-            displacement_rate=rate,
-            load=self.load(t),
-            load_rate=0.2 * t,
-            y=y,
-            rate=np.array([1.0, 0.0]),
-            size=1.0,
-            iterations=1,
-        )
-        return Point(self, float(t), state)
+def _branch(turns):
+    """A branch with given turning points of the displacement at 1, 2, ... of the parameter."""
+    t = np.arange(len(turns) + 2.0)
+    ends = [min(turns) - 2.0, *turns, max(turns) + 2.0]
+    return AnalyticBranch(CubicHermiteSpline(t, ends, [4.0, *np.zeros(len(turns)), 4.0]), [-2.0, 0.0, 0.1])
 
 
 def _events(turns):
-    branch = Branch(turns)
-    events = PathEvents([branch.solve(t, None) for t in np.linspace(0.05, len(turns) + 0.95, 9 * len(turns))])
+    events = PathEvents(_branch(turns).points(np.linspace(0.05, len(turns) + 0.95, 9 * len(turns))))
     # The samples of a spline are as close as they need to be.
     vars(events)["points"] = events.samples
     return events
@@ -85,7 +53,7 @@ def _events(turns):
 
 def _lost(turns, retreat):
     """Energy lost by a displacement that falls or rises in small steps over all branches."""
-    branch = Branch(turns)
+    branch = _branch(turns)
     t = np.linspace(0.0, len(turns) + 1.0, 400001)
     delta, load = branch.displacement(t), branch.load(t)
     energy = np.concatenate([[0.0], np.cumsum(0.5 * (load[1:] + load[:-1]) * np.diff(delta))])
@@ -162,8 +130,7 @@ def test_the_loss_on_meshes_of_their_own_has_every_jump(name, monkeypatch):
 
     monkeypatch.setattr(solution_module, "_solved_together", solved)
     monkeypatch.setattr(solution_module, "path_over_meshes", lambda problem, accuracy: events)
-    solid = ProfileSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1)
-    problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    problem = sphere_on(ProfileSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1))
     row = TABLE["hysteresis_energy"]
     loss = solution_module._summed(problem, {"hysteresis_energy": row}, "default")["hysteresis_energy"]
     assert requested[:2] == list(LOSSES)

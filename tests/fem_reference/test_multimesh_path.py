@@ -19,9 +19,9 @@ from fem_reference.accuracy import level_for
 from fem_reference.coating import CoatingModulus
 from fem_reference.poisson import CoatingPoisson
 from tests.fem_reference.profile_solid import ProfileSolid
+from tests.fem_reference.solved_together import sphere_on
 
-LAW = LennardJones(1.0, 1.0)
-HOMOGENEOUS = Problem(ProfileSolid(CoatingModulus(1.0, 1.0, 1.0), 0.0), PowerPunch(2.0, 1.0), LAW)
+HOMOGENEOUS = sphere_on(ProfileSolid(CoatingModulus(1.0, 1.0, 1.0), 0.0))
 
 
 def stiff_coating(E_coating, thickness, range_of_law=0.4):
@@ -126,7 +126,7 @@ SHORT_RANGE = (1000.0, 1.50000328331)
 def test_a_large_tabor_number_has_a_mesh_for_each_radius():
     """The minimum by rates on one mesh was 1.9e-6 above it; one mesh for the whole path was too coarse."""
     mu, force = SHORT_RANGE
-    solution = solve(Problem(PowerLaw(0.91 * mu**-1.5, 1.0, 0.0, 0.3), PowerPunch(2.0, 1.0), LAW), "pull_off_force")
+    solution = solve(sphere_on(PowerLaw(0.91 * mu**-1.5, 1.0, 0.0, 0.3)), "pull_off_force")
     assert solution.u_num <= 1e-6 * solution.value
     assert solution.value / math.pi == pytest.approx(force, abs=solution.u_num / math.pi)
 

@@ -11,11 +11,12 @@ from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Prob
 from fem_reference.depth_profiles import ExponentialModulus
 from fem_reference.quantities import TABLE
 from tests.fem_reference.profile_solid import ProfileSolid
+from tests.fem_reference.solved_together import sphere_on
 
 FORCE, JUMP_IN, JUMP_OUT = NAMES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
 ROWS = {name: TABLE[name] for name in NAMES}
 LAW = LennardJones(1.0, 1.0)
-GRADED = Problem(ProfileSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1), PowerPunch(2.0, 1.0), LAW)
+GRADED = sphere_on(ProfileSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1))
 #: Of a power punch, n = 5, on a solid that softens: by both references, all digits shown.
 ZERO_LOAD = 0.42243083
 CONE = replace(GRADED, solid=ProfileSolid(ExponentialModulus(0.9, 0.3, 5.0), 0.1), punch=PowerPunch(1.0, 1.0))

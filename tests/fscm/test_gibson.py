@@ -63,23 +63,6 @@ def well(H, M):
     return M * p**2 / 2 + (H + 1) ** -8 / 3 - 4 * (H + 1) ** -2 / 3
 
 
-@pytest.mark.parametrize(("n", "bradley"), [(1, 2.880), (1.5, 2.166), (2, 2.0), (5, 1.669)])
-def test_stiff_limit_is_bradley(n, bradley):
-    # Eq. 56, as printed to four digits.
-    assert value(n, 1e-4, "pull_off_force") == pytest.approx(bradley, abs=6e-4)
-
-
-@pytest.mark.parametrize("n", [1.0, 2.0, *(pytest.param(n, marks=pytest.mark.heavy) for n in (1.5, 5.0))])
-def test_soft_limit_is_jkr(n):
-    # Eq. 57 at k = 1: cos(k pi / 2) / (2 pi (1 - k)) -> 1/4 and B(n/2, 1) = 2/n.
-    for mu, tolerance in ((20.0, 0.06), (80.0, 0.015)):
-        eq57 = 2 * 2 * n / (2 * (n + 2)) * (0.25 ** (n - 2) * 2.0**4) ** (1 / (2 * n)) * mu ** ((2 - n) / n)
-        assert value(n, mu, "pull_off_force") == pytest.approx(eq57, rel=tolerance)
-    # Limits as k -> 1 of C_out and C_in (Sec. 3.3) hold for any n.
-    assert value(n, 80.0, "jump_out_displacement") / 80.0 == pytest.approx(-2.0, rel=1e-4)
-    assert (1 - value(n, 80.0, "jump_in_displacement")) / 80.0**0.5 == pytest.approx(8 / 3, rel=1e-3)
-
-
 @pytest.mark.parametrize("n", [1.0, 5.0])
 @pytest.mark.parametrize("mu", [0.4, 2.0])
 def test_load_by_quadrature_over_the_radius(n, mu):

@@ -6,7 +6,8 @@ import pytest
 
 from fscm._kernel import Kernel, Phi, Psi, ring_response
 
-EXPONENTS = [0.0, 1e-12, 1e-3, 0.05, 0.4, 0.8, 0.95]
+# The first one above zero is below the rounding of one.
+EXPONENTS = [0.0, 1e-22, 1e-12, 1e-3, 0.05, 0.4, 0.8, 0.95]
 DISTANCES = [1e-300, 1e-100, 1e-30, 1e-12, 1e-5, 0.01, 0.3, 0.5, 0.8, 0.83, 0.99, 1 - 1e-6]
 # Required of the kernel; measured worst 5.1e-15 (Phi at k = 0.95).
 RELATIVE = 1e-12
@@ -75,20 +76,6 @@ def test_primitives_against_the_printed_formula(k: float, power: bool) -> None:
             if not error < RELATIVE:
                 bad.append((float(s), error))
         assert not bad
-
-
-@pytest.mark.parametrize("k", [0.0, 0.4, 0.9])
-def test_homogeneity_and_axis(k: float) -> None:
-    r, t = 0.7, 1.9
-    assert float(ring_response(k, 3 * r, 3 * t)) == pytest.approx(3.0**-k * float(ring_response(k, r, t)))
-    assert float(ring_response(k, 0.0, t)) == pytest.approx(t**-k, rel=1e-15)
-
-
-def test_continuity_in_k_at_zero() -> None:
-    r, t = np.array([1.0, 1.0]), np.array([1.0 + 1e-9, 2.0])
-    at_zero = ring_response(0.0, r, t)
-    for k in (1e-30, 1e-22, 1e-15):
-        np.testing.assert_allclose(ring_response(k, r, t), at_zero, rtol=1e-13)
 
 
 @pytest.mark.parametrize("k", [-0.1, 1.0, 1.5, float("nan")])

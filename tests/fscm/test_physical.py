@@ -246,9 +246,17 @@ def test_other_refusals():
         Problem(2, 0, 1.0, law=Mie(m=12, n=6)).in_units(c0=1, nu=0.3, Q=1, work_of_adhesion=1, z0=1)
 
 
-@pytest.mark.parametrize("solid", [PowerLaw(1.0, 1.0, 0.4, 0.3), Layers([1.0, 2.0], [0.3, 0.3], [1.0])])
-def test_a_physical_problem_is_a_value(solid):
-    problems = [Problem(solid, PowerPunch(2.0, 1.0), LennardJones()) for _ in range(2)]
-    assert pickle.loads(pickle.dumps(problems[0])) == problems[1]
-    assert hash(problems[0]) == hash(problems[1])
-    assert problems[0] != Problem(solid, PowerPunch(2.0, 2.0), LennardJones())
+@pytest.mark.parametrize(
+    "problem",
+    [
+        *(
+            Problem(solid, PowerPunch(2.0, 1.0), LennardJones())
+            for solid in (PowerLaw(1.0, 1.0, 0.4, 0.3), Layers([1.0, 2.0], [0.3, 0.3], [1.0]))
+        ),
+        Problem(1, 0.4, 1.0, punch=RoundedCone(0.5), law=Mie(m=12, n=6)),
+    ],
+)
+def test_a_problem_is_a_value(problem):
+    stored = pickle.loads(pickle.dumps(problem))
+    assert stored == problem != Problem(2, 0.4, 1.0)
+    assert hash(stored) == hash(problem)

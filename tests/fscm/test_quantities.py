@@ -36,15 +36,11 @@ def test_an_unknown_quantity_or_accuracy_is_refused_before_anything_is_computed(
         solve(problem, "pull_off_force", accuracy="best")
 
 
-def test_unknown_events_are_refused_with_the_known_names() -> None:
-    model = Analysis(STIFF)
-    for name in ("nonsense", "jump_in_gap"):
-        with pytest.raises(
-            ValueError, match=f"unknown event '{name}'; known are pull_off, jump_in, jump_out, zero_load"
-        ):
-            model.event(name)
+def test_an_unknown_event_is_refused_with_the_known_names() -> None:
+    with pytest.raises(ValueError, match="unknown event 'jump_in_gap'; known are pull_off, jump_in, jump_out, zero"):
+        Analysis(STIFF).event("jump_in_gap")
     with pytest.raises(ValueError, match="unknown jump 'pull_off'; known are jump_in, jump_out"):
-        model.landing("pull_off")
+        Analysis(STIFF).landing("pull_off")
 
 
 def test_paths_and_fields_are_as_accurate_as_requested() -> None:
