@@ -15,9 +15,9 @@ import math
 import numbers
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from typing import Any
 
+from comparisons.data.validation import known_name
 from comparisons.problem import PARAMETERS
 from comparisons.quantities import ALL_QUANTITIES
 
@@ -173,18 +173,12 @@ def declared_domain(model: object) -> Domain | None:
 
 def _table(table: Mapping[Any, Any]) -> Range:
     for key in table:
-        if key not in (_QUANTITIES, *PARAMETERS):
-            raise ValueError(
-                f"applies_to: unknown key {key!a:.60}; the keys are {_QUANTITIES}, {', '.join(PARAMETERS)}"
-            )
+        known_name("key", str(key), (_QUANTITIES, *PARAMETERS), "applies_to")
     quantities = table.get(_QUANTITIES)
     if not isinstance(quantities, tuple | list) or not quantities:
         raise ValueError(f"applies_to: {_QUANTITIES} = {quantities!a:.60} is not a list of at least one quantity")
     for quantity in quantities:
-        if quantity not in ALL_QUANTITIES:
-            close = get_close_matches(str(quantity), ALL_QUANTITIES, n=1)
-            hint = f"did you mean {close[0]}?" if close else f"known are {', '.join(ALL_QUANTITIES)}"
-            raise ValueError(f"applies_to: unknown quantity {quantity!a:.60}: {hint}")
+        known_name("quantity", str(quantity), ALL_QUANTITIES, "applies_to")
     limits = {name: _ends(name, table[name]) for name in PARAMETERS if name in table}
     return Range(tuple(dict.fromkeys(quantities)), limits)
 

@@ -105,11 +105,12 @@ def _parser(called: Collection[str], program: str = "fscm-bench") -> argparse.Ar
         description="How wrong is a model of adhesive contact, and how certain is that error?",
         epilog=f"{_examples(_EXAMPLES)}\n{_EXIT_STATUS}",
     )
-    shells = "print the script that completes commands in bash, zsh or tcsh"
+    completion: dict[str, Any] = {"metavar": "SHELL", "choices": ("bash", "zsh", "tcsh")}
+    completion["help"] = "print the script that completes commands in bash, zsh or tcsh"
     parser.add_argument(
         "--version", action=_Print, const=_version, nargs=0, help="print the version and, if known, the commit"
     )
-    parser.add_argument("--print-completion", metavar="SHELL", action=_Print, const=_completion, help=shells)
+    parser.add_argument("--print-completion", action=_Print, const=_completion, **completion)
     parsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, text in _COMMANDS.items():
         command = parsers.add_parser(name, help=text, description=textwrap.fill(f"{text[0].upper()}{text[1:]}."))

@@ -30,7 +30,7 @@ def several(*names: str, metavar: str, **settings: Any) -> Option:
 
 def numbers(*names: str, **settings: Any) -> Option:
     """Declare an option with one number or more."""
-    return names, {"metavar": "X", "type": number, "nargs": "+", **settings}
+    return names, {"metavar": "X", "type": float, "nargs": "+", **settings}
 
 
 def output_format(*names: str, help: str = "(default: text)") -> Option:
@@ -38,34 +38,20 @@ def output_format(*names: str, help: str = "(default: text)") -> Option:
     return option("--format", choices=("text", *names), default="text", help=help)
 
 
-def number(text: str) -> float:
-    """Read a real number.
-
-    Raises
-    ------
-    argparse.ArgumentTypeError
-        If the text is not one.
-    """
-    try:
-        return float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
-
-
 #: Help for a SPEC.
 MODEL_SPEC = "a name (fscm-bench list models), FILE.py:CLASS, ./PROGRAM, or a folder with a model.toml"
 
 #: The parameters of one problem.
 CASE = (
-    option("--n", type=number, help="shape index of the punch r^n/n, 2/3 < n <= 300 (1 cone, 2 paraboloid)"),
-    option("--k", type=number, help="gradient exponent of E = E0 (z/c0)^k, 0 to 1 (finite elements: to 0.9)"),
-    option("--mu", type=number, help="generalised Tabor number (Eq. 29), > 0"),
+    option("--n", type=float, help="shape index of the punch r^n/n, 2/3 < n <= 300 (1 cone, 2 paraboloid)"),
+    option("--k", type=float, help="gradient exponent of E = E0 (z/c0)^k, 0 to 1 (finite elements: to 0.9)"),
+    option("--mu", type=float, help="generalised Tabor number (Eq. 29), > 0"),
 )
 
 #: The parameters of one problem, and the file that takes their place.
 CASE_OR_FILE = (
     *CASE,
-    option("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one"),
+    option("--nu", type=float, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one"),
     file("--problem", help="in place of these: a file in physical units; results are in SI"),
 )
 

@@ -1,4 +1,4 @@
-"""Output of the commands on stdout: lines and tables, folded on a terminal and whole in a file."""
+"""Output of the commands on stdout: lines, tables and pages."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.console.exit_status import writing_stdout
-from comparisons.console.folding import hanging
 from comparisons.console.printable import printable
 from comparisons.console.progress import log
 from comparisons.console.safe_console import SafeConsole
@@ -33,10 +32,7 @@ def output() -> SafeConsole:
 
 
 def print_lines(lines: Iterable[str]) -> None:
-    """Print lines; on a terminal they are folded between words, in a file they are whole."""
-    if sys.stdout.isatty():
-        width = output().width
-        lines = [folded for line in lines for folded in hanging(line, width)]
+    """Print whole lines, so that a command in them can be copied."""
     print(printable("\n".join(lines)))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from comparisons.cli.screen import output, print_lines
+from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK
 from comparisons.console.progress import log
 from comparisons.judging.card_gates import without_card_gates
@@ -37,14 +37,14 @@ def print_verdicts(judgement: Judgement, *, verbose: bool, quiet: bool) -> None:
         log("no gate was evaluated")
     if judgement.verdicts.empty:
         return
-    gates, width = summarise(judgement.verdicts), output().width
+    gates = summarise(judgement.verdicts)
     if quiet:
-        for line in gate_lines(unexpected(gates), judgement.inputs.specs, width, _GATES):
+        for line in gate_lines(unexpected(gates), judgement.inputs.specs, _GATES):
             log(line)
     else:
         print_lines(_cards(judgement, verbose))
         rows, most = (gates, None) if verbose else (unexpected(gates), _GATES)
-        print_lines(gate_lines(rows, judgement.inputs.specs, width, most))
+        print_lines(gate_lines(rows, judgement.inputs.specs, most))
         print_lines(filter(None, [declared_sentence(gates), gates_sentence(gates, judgement.verdicts)]))
     wrong = gates[gates["verdict"] == Verdict.ERROR]
     for row in wrong.head(_ERRORS).itertuples():

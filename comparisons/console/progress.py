@@ -17,13 +17,12 @@ _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 
 
 def log(text: str) -> None:
-    """Write a sentence on stderr, on a terminal folded between words and else as one line.
+    """Write a sentence on stderr, as one line.
 
     A message that cannot be written is lost and stops no computation.
     """
     with suppress(OSError):
-        console = SafeConsole(stderr=True, highlight=False, markup=False)
-        console.print(text, soft_wrap=not console.is_terminal)
+        SafeConsole(stderr=True, highlight=False, markup=False).print(text, soft_wrap=True)
 
 
 def note(text: str) -> None:

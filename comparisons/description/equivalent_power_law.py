@@ -46,7 +46,7 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
     >>> 0.1 < equivalent["k"] < 0.3, abs(equivalent["pull_off_force"]["error"]) < 0.02
     (True, True)
     """
-    if problem.has_power_law or force.value is None:
+    if problem.is_of_the_paper("solid") or force.value is None:
         return None
     try:
         spectrum = energy_spectrum(problem)

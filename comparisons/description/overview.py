@@ -48,7 +48,7 @@ def model_errors(problem: Problem, force: Row) -> list[Json]:
     force : Row
         Of this problem, or of another one that this one stands for.
     """
-    names = [name for name in MODELS if name not in REFERENCES] if problem.is_of_the_paper else []
+    names = [name for name in MODELS if name not in REFERENCES] if problem.is_of_the_paper() else []
     changes = {name: change_of(evaluate(name, "pull_off_force", problem), force) for name in names}
     errors = [{"model": name, "error": change[0], "u_num": change[1]} for name, change in changes.items() if change]
     return sorted(errors, key=lambda row: abs(row["error"]))
@@ -81,7 +81,7 @@ def overview(problem: Problem, force: Row) -> Json:
     'md-improved'
     """
     errors = model_errors(problem, force)
-    critical = evaluate("atlas", "critical_tabor_number", problem).value if problem.is_of_the_paper else None
+    critical = evaluate("atlas", "critical_tabor_number", problem).value if problem.is_of_the_paper() else None
     return {
         "problem": problem.content,
         "tabor_number": problem.posed.mu,

@@ -46,7 +46,7 @@ def _error_lines(errors: Sequence[Json], indent: str) -> list[str]:
 
 def _tabor_number(problem: Problem, of_surface: float, equivalent: Json | None) -> str:
     """The Tabor number, where the modulus of the surface or a power law stands for the solid."""
-    if problem.has_power_law:
+    if problem.is_of_the_paper("solid"):
         return f"Tabor number {of_surface:.6g}"
     if equivalent is None:
         return "no Tabor number: the moduli that the contact meets are not known"

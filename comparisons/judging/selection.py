@@ -67,7 +67,7 @@ def promised(domain: Domain | None, quantity: str, case: Problem) -> bool | None
     >>> promised(domain, "pull_off_force", Problem.dimensionless(1, 0, 1))
     False
     """
-    if domain is None or domain.is_list or not case.is_of_the_paper:
+    if domain is None or domain.is_list or not case.is_of_the_paper():
         return None
     return domain.contains(quantity, case.numbers)
 

@@ -22,8 +22,6 @@ from comparisons.problem import Problem
 
 __all__ = ["Bradley", "rigid_load", "rigid_pull_off"]
 
-MODELS = {"bradley": "Bradley"}
-
 _POINTS = 401
 _FARTHEST_GAP = 10.0
 # The curve ends this factor of H0 + 1 inside the zero-load gap, where the load has turned compressive.

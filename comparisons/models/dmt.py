@@ -25,8 +25,6 @@ from comparisons.problem import Problem
 
 __all__ = ["DMT", "DMTStrength", "dmt_pull_off"]
 
-MODELS = {"dmt": "DMT", "dmt-strength": "DMTStrength"}
-
 _POINTS = 401
 
 

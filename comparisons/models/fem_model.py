@@ -25,9 +25,6 @@ if TYPE_CHECKING:
 
 __all__ = ["FiniteElements"]
 
-MODELS = {"fem": "FiniteElements"}
-DEPENDS_ON_POISSON_RATIO = ("fem",)
-
 #: Meshes of a curve: the coarser one, which gives its uncertainty, and that of its points.
 _LEVELS = ("quick", "default")
 
@@ -144,7 +141,7 @@ class FiniteElements:
 
     def _physical(self, problem: Problem) -> tuple[Mapping[str, float], fem_reference.Problem]:
         """The units of the results, and the problem of the solver."""
-        if problem.is_dimensionless:
+        if not problem.name:
             scaled = self._scaled(problem)
             return scaled.units, self._body(scaled)
         try:

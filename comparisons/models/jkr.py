@@ -21,8 +21,6 @@ from comparisons.problem import Problem
 
 __all__ = ["JKR"]
 
-MODELS = {"jkr": "JKR"}
-
 _POINTS = 401
 
 

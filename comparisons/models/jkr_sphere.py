@@ -27,8 +27,6 @@ from comparisons.problem import Problem
 
 __all__ = ["JKRSphere"]
 
-MODELS = {"jkr-sphere": "JKRSphere"}
-
 _POINTS = 401
 
 #: Largest contact radius in radii of the ball, as in both references.
@@ -123,7 +121,7 @@ class JKRSphere(ClosedForm):
         """Raise `NotApplicable` unless the punch is a ball and the solid homogeneous."""
         if problem.punch.kind not in self.punches:
             raise NotApplicable(f"{self.name} is for the punch of the kind ball, not for {problem.punch.kind}")
-        if not problem.has_power_law or problem.posed.k != 0.0:
+        if not problem.is_of_the_paper("solid") or problem.posed.k != 0.0:
             raise NotApplicable(f"{self.name} is for a homogeneous solid, not for the {problem.solid.kind} solid given")
 
     def pull_off_force(self, problem: Problem) -> Result:

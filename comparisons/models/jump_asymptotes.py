@@ -31,8 +31,6 @@ from comparisons.problem import Problem
 
 __all__ = ["JumpAsymptotes"]
 
-MODELS = {"jump-asymptotes": "JumpAsymptotes"}
-
 
 class JumpAsymptotes(ClosedForm):
     """The cycle between the semi-rigid branch and the JKR branch.

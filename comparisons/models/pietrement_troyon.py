@@ -25,8 +25,6 @@ from comparisons.problem import Problem
 
 __all__ = ["PietrementTroyon"]
 
-MODELS = {"pietrement-troyon": "PietrementTroyon"}
-
 _POINTS = 401
 # Below this alpha the fit of S turns negative: -2.160 and 2.7531 belong to powers that differ by 0.045 alone.
 _SMALLEST_ALPHA = 0.01

@@ -24,8 +24,6 @@ from comparisons.problem import Problem
 
 __all__ = ["Schwarz", "short_range_share"]
 
-MODELS = {"schwarz": "Schwarz"}
-
 _POINTS = 401
 
 

@@ -24,8 +24,6 @@ from comparisons.quantities import QUANTITIES
 
 __all__ = ["SemiRigid", "attraction_coefficient", "jump_in_coefficient"]
 
-MODELS = {"semi-rigid": "SemiRigid"}
-
 _POINTS = 401
 _FARTHEST_GAP = 10.0
 

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pandas as pd
 
-from comparisons.console.folding import hanging, wrapped_command
 from comparisons.data.file_names import GATES, JUNIT, SUMMARY, VERDICTS, VERDICTS_MARKDOWN
 from comparisons.judging.card_gates import CARD, without_card_gates
 from comparisons.judging.decision import Verdict
@@ -123,7 +122,7 @@ def unexpected(gates: pd.DataFrame) -> pd.DataFrame:
     return gates[~gates["verdict"].isin([Verdict.PASS, Verdict.XFAIL, Verdict.NOT_APPLICABLE])]
 
 
-def gate_lines(gates: pd.DataFrame, specs: Mapping[str, str], width: int, most: int | None = None) -> list[str]:
+def gate_lines(gates: pd.DataFrame, specs: Mapping[str, str], most: int | None = None) -> list[str]:
     """Return for each gate its verdict, the error of the worst case, and the command that computes that case again.
 
     Parameters
@@ -132,8 +131,6 @@ def gate_lines(gates: pd.DataFrame, specs: Mapping[str, str], width: int, most: 
         As of `comparisons.judging.summary.summarise`.
     specs : mapping of str to str
         The SPEC that finds each external model.
-    width : int
-        Columns of the terminal.
     most : int, optional
         Gates that are shown; the last line counts the others.
     """
@@ -143,11 +140,10 @@ def gate_lines(gates: pd.DataFrame, specs: Mapping[str, str], width: int, most: 
         against = f" against {row['reference']}" if row["reference"] else ""
         stated = f": E = {error}, limits {limits_text(row['lower'], row['upper'])}" if error else ""
         covered = f", a value in {text}" if (text := coverage_text(row)) else ""
-        lines += hanging(f"{row['verdict']} {row['gate']} of {row['candidate']}{against}{stated}{covered}", width)
-        lines += hanging(f"  {row['reason']}", width) if row["reason"] else []
-        lines += wrapped_command(command(row, specs), width)
+        lines.append(f"{row['verdict']} {row['gate']} of {row['candidate']}{against}{stated}{covered}")
+        lines += [f"  {text}" for text in (row["reason"], command(row, specs)) if text]
     if most and len(gates) > most:
-        lines += hanging(f"{len(gates) - most} more do not pass; --verbose prints all", width)
+        lines.append(f"{len(gates) - most} more do not pass; --verbose prints all")
     return lines
 
 

@@ -28,7 +28,7 @@ def unit_of(problem: Problem, quantity: str) -> str:
     'z0'
     """
     row = ALL_QUANTITIES[quantity]
-    return row.unit if problem.is_dimensionless else row.si_unit
+    return row.si_unit if problem.name else row.unit
 
 
 def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
@@ -48,15 +48,11 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     2.0
     """
     row = ALL_QUANTITIES[quantity]
-    if quantity in QUANTITIES and model.name not in REFERENCES and _has_another_solid(problem):
+    only_the_solid_differs = problem.is_of_the_paper("punch", "law") and not problem.is_of_the_paper("solid")
+    if quantity in QUANTITIES and model.name not in REFERENCES and only_the_solid_differs:
         return _with_equivalent_solid(problem, model, quantity)
     _check(problem, model, quantity)
     return row.in_units(row.evaluate(model, problem), problem.units)  # type: ignore[arg-type]
-
-
-def _has_another_solid(problem: Problem) -> bool:
-    """Whether only the solid keeps it from being the problem of three numbers."""
-    return not problem.has_power_law and problem.has_of_the_paper("punch", "law")
 
 
 def _with_equivalent_solid(problem: Problem, model: Model, quantity: str) -> Result:
@@ -75,7 +71,7 @@ def _with_equivalent_solid(problem: Problem, model: Model, quantity: str) -> Res
 
 def _check(problem: Problem, model: Model, quantity: str) -> None:
     """Raise `NotApplicable` where a model does not take the parts of a problem, or is outside its domain."""
-    if problem.is_of_the_paper:
+    if problem.is_of_the_paper():
         domain = declared_domain(model)
         if domain is not None and not domain.contains(quantity, problem.numbers):
             raise NotApplicable(domain.refusal(quantity))
@@ -91,7 +87,7 @@ def _check(problem: Problem, model: Model, quantity: str) -> None:
 def dimensionless_result(problem: Problem, quantity: str, result: Result) -> tuple[float, float, str] | None:
     """Return value, u_num and unit of a result in SI in the units of the paper; None where these are not defined."""
     row = QUANTITIES[quantity]
-    if problem.is_dimensionless or row.scale == "number" or not problem.has_of_the_paper("punch"):
+    if not problem.name or row.scale == "number" or not problem.is_of_the_paper("punch"):
         return None
     unit = problem.units[row.scale]
     return result.value / unit, result.u_num / unit, row.unit

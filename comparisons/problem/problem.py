@@ -79,7 +79,7 @@ class Problem:
         The named values that a table shows: n, k, mu and perhaps nu of a dimensionless problem; the varied keys of a
         file in SI, by the names of their columns.
     name : str
-        The name of the file with the values of its varied keys; empty for a dimensionless problem.
+        The name of the file with the values of its varied keys, or else "problem"; empty for a dimensionless problem.
     path : Path, optional
         The file that was read.
     digest : str
@@ -101,7 +101,8 @@ class Problem:
     digest: str = field(init=False, default="")
 
     def __post_init__(self) -> None:
-        if not self.is_dimensionless:
+        if "mu" not in self.parameters:
+            object.__setattr__(self, "name", self.name or "problem")
             content = [
                 [section.kind, dict(section.values), dict(section.columns)] for section in self._sections.values()
             ]
@@ -178,11 +179,6 @@ class Problem:
         return *numbers, -1.0 if nu is None else nu, self.name
 
     @property
-    def is_dimensionless(self) -> bool:
-        """Whether n, k and mu state the problem."""
-        return "mu" in self.parameters
-
-    @property
     def label(self) -> str:
         """The name, or else the parameters, in one line for people."""
         return self.name or case_text(self.parameters)
@@ -210,19 +206,12 @@ class Problem:
         sections = self._sections.items()
         return {(name, key): spread for name, section in sections for key, spread in section.uncertain.items()}
 
-    def has_of_the_paper(self, *names: str) -> bool:
-        """Whether the problem of three numbers n, k and mu has the kinds of these sections."""
-        return all(KINDS[name][self._sections[name].kind].is_of_the_paper for name in names)
+    def is_of_the_paper(self, *names: str) -> bool:
+        """Whether the problem of three numbers n, k and mu, which every model takes, has the kinds of these sections.
 
-    @property
-    def is_of_the_paper(self) -> bool:
-        """Whether it is the problem of three numbers n, k and mu, which every model takes."""
-        return self.has_of_the_paper(*SECTIONS)
-
-    @property
-    def has_power_law(self) -> bool:
-        """Whether the solid is E0 (z/c0)^k."""
-        return self.has_of_the_paper("solid")
+        By default of all.  The solid of such a problem is E0 (z/c0)^k.
+        """
+        return all(KINDS[name][self._sections[name].kind].is_of_the_paper for name in names or SECTIONS)
 
     @property
     def n(self) -> float:
@@ -242,10 +231,10 @@ class Problem:
     @property
     def nu(self) -> float | None:
         """Poisson's ratio of a problem of the paper; None if a dimensionless one does not prescribe it."""
-        return self.solid.get("nu") if self.is_of_the_paper else None
+        return self.solid.get("nu") if self.is_of_the_paper() else None
 
     def _number(self, name: str) -> float:
-        if not self.has_of_the_paper("solid", "punch"):
+        if not self.is_of_the_paper("solid", "punch"):
             raise NotApplicable(
                 f"{self.label} has no {name}: its solid is of the kind {self.solid.kind} and its punch of the kind "
                 f"{self.punch.kind}; n, k and mu are those of power laws"
@@ -316,7 +305,7 @@ class Problem:
 
 @lru_cache(maxsize=1024)
 def _of_fscm(problem: Problem) -> fscm.Problem:
-    if problem.is_dimensionless:
+    if not problem.name:
         return fscm.Problem(problem["n"], problem["k"], problem["mu"])
     posed: fscm.Problem = problem.build(fscm)
     return posed

@@ -203,7 +203,7 @@ def _evaluate_external(identity: ExternalIdentity, task: Task) -> Row:
     """
     started = time.perf_counter()
     domain, problem = identity.applies_to, task.problem
-    if domain is not None and problem.is_of_the_paper and not domain.contains(task.quantity, problem.numbers):
+    if domain is not None and problem.is_of_the_paper() and not domain.contains(task.quantity, problem.numbers):
         reason = domain.refusal(task.quantity)
         return _row(identity, task.quantity, problem, started, status="not-applicable", reason=reason)
     model = create(identity.spec, problem.nu)

@@ -34,9 +34,8 @@ def made_up(folder, tier, **arguments):
     write_table(results(), folder / "results")
     curve = row("fscm", "force_curve", value=None, u_num=None, points=([0.0, 1.0], [2.0, 3.0], 1e-9))
     write_table(curve_frame([curve]), folder / "curves")
-    for name in ("fig16b_kappa.png", "fig16b_kappa.pdf", "references.png", "agreement.png"):
-        (folder / name).write_text(f"{name} of the {tier} run")
-    for name in ("largest_kappa.csv", "agreement.csv"):
+    pictures = "fig16b_kappa.png", "fig16b_kappa.pdf", "references.png", "agreement.png"
+    for name in (*pictures, "largest_kappa.csv", "agreement.csv"):
         (folder / name).write_text(f"{name} of the {tier} run")
     write_record(record_of_run(tier=tier, **arguments), folder / "run.json")
     return folder

@@ -8,7 +8,7 @@ from dataclasses import asdict
 import pandas as pd
 
 import fem_reference
-from comparisons.cli.options import CASE, file, number, option, problem_of
+from comparisons.cli.options import CASE, file, option, problem_of
 from comparisons.cli.screen import output
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, waiting
@@ -29,7 +29,7 @@ _EVENT = f"the event whose state is shown: {', '.join(fem_reference.EVENTS)} (de
 
 OPTIONS = (
     *CASE,
-    option("--nu", type=number, default=0.3, help="Poisson's ratio, in [0, 0.5) (default: %(default)s)"),
+    option("--nu", type=float, default=0.3, help="Poisson's ratio, in [0, 0.5) (default: %(default)s)"),
     option("--event", default="pull_off", metavar="EVENT", choices=fem_reference.EVENTS, help=_EVENT),
     file("--vtu", help="write mesh, displacement and stresses here"),
     file("--plot", help="draw the deformed body here"),

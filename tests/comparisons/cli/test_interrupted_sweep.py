@@ -12,19 +12,17 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.data.file_names import STORE
 from comparisons.runs.store import rows_in
+from tests.comparisons.grid_text import grid_text
 
 #: Closed forms that take milliseconds each: there is time to kill something.
-GRID = """
-[[grid]]
-id = "mine"
-title = "Mine"
-reference = "md-improved"
-models = ["jkr", "md-original"]
-quantities = ["pull_off_force", "jump_out_displacement"]
-n = [1, 1.5, 2]
-k = [0, 0.4]
-mu = [0.5, 1, 2, 3]
-"""
+GRID = grid_text(
+    ["jkr", "md-original"],
+    "md-improved",
+    ["pull_off_force", "jump_out_displacement"],
+    n=[1, 1.5, 2],
+    k=[0, 0.4],
+    mu=[0.5, 1, 2, 3],
+)
 ROWS = 3 * 2 * 24
 TABLES = ("results.csv", "kappa.csv", "largest_kappa.csv", "curves.csv", "grid.toml")
 
@@ -44,11 +42,14 @@ def grid(tmp_path_factory):
     return path
 
 
+def sweep(grid, out):
+    return main(["sweep", str(grid), "--jobs", "1", "--out", str(out), "--quiet"])
+
+
 @pytest.fixture(scope="module")
 def undisturbed(grid):
-    out = grid.parent / "undisturbed"
-    assert main(["sweep", str(grid), "--jobs", "1", "--out", str(out), "--quiet"]) == 0
-    return tables(out)
+    assert sweep(grid, grid.parent / "undisturbed") == 0
+    return tables(grid.parent / "undisturbed")
 
 
 def tables(folder):
@@ -63,7 +64,7 @@ def rows(folder):
 
 def start(grid, out):
     command = [sys.executable, "-m", "comparisons", "sweep", str(grid), "--jobs", "2", "--out", str(out), "--quiet"]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen(command)
 
 
 def workers(process):
@@ -83,7 +84,7 @@ def wait_for(process, out, share):
 def complete(grid, out, undisturbed):
     """Complete the tables by one command; they are the same, and what was stored is."""
     before = rows(out)
-    assert main(["sweep", str(grid), "--jobs", "1", "--out", str(out), "--quiet"]) == 0
+    assert sweep(grid, out) == 0
     after = rows(out)
     assert len(after) == ROWS
     assert {key: after[key] for key in before} == before
@@ -119,7 +120,7 @@ def test_a_task_whose_process_ended_twice_is_computed_by_the_next_command(grid, 
 
     with monkeypatch.context() as patch:
         patch.setattr("comparisons.pipeline.run.backend_of", lambda *_: backend)
-        assert main(["sweep", str(grid), "--jobs", "1", "--out", str(tmp_path), "--quiet"]) == 4
+        assert sweep(grid, tmp_path) == 4
     assert tables(tmp_path) != undisturbed
-    assert main(["sweep", str(grid), "--jobs", "1", "--out", str(tmp_path), "--quiet"]) == 0
+    assert sweep(grid, tmp_path) == 0
     assert tables(tmp_path) == undisturbed

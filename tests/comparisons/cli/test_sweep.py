@@ -4,18 +4,11 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.runs.frames import read_table
+from tests.comparisons.grid_text import grid_text
 
-GRID = """
-[[grid]]
-id = "mine"
-title = "Mine"
-reference = "md-improved"
-models = ["jkr", "bradley"]
-quantities = ["pull_off_force", "jump_in_displacement"]
-n = [2]
-k = [0, 0.4]
-mu = [0.5, 2]
-"""
+GRID = grid_text(
+    ["jkr", "bradley"], "md-improved", ["pull_off_force", "jump_in_displacement"], n=[2], k=[0, 0.4], mu=[0.5, 2]
+)
 
 
 def sweep(tmp_path, text=GRID, *options):
@@ -40,13 +33,12 @@ def test_the_errors_of_every_model(tmp_path, capsys):
 
 def test_quiet_prints_failures_alone(toys, tmp_path, capsys):
     assert sweep(tmp_path, GRID, "--quiet") == 0
-    captured = capsys.readouterr()
-    assert (captured.out, captured.err) == ("", "")
+    assert capsys.readouterr() == ("", "")
     assert sweep(tmp_path, GRID, "--quiet", "--model", "fails") == 4
     captured = capsys.readouterr()
     assert captured.out == ""
     assert captured.err.count("100 iterations were not enough") == 3
-    assert captured.err.endswith("5 more computations failed; the tables have their reasons\n")
+    assert "5 more computations failed" in captured.err
 
 
 @pytest.mark.parametrize(
@@ -54,15 +46,8 @@ def test_quiet_prints_failures_alone(toys, tmp_path, capsys):
     [
         (GRID + 'tier = "quick"', "grid mine: unknown key 'tier': the grids of a sweep have none"),
         (GRID.replace("jkr", "jrk"), "unknown model 'jrk'"),
-        ("", "grid.toml: grid missing"),
-        ("[[grid", "grid.toml is not TOML"),
-        ("x = " + "[" * 5000 + "]" * 5000, "nested too deeply"),
         (GRID.replace("mu = [0.5, 2]", "mu = [1" + "0" * 400 + "]"), "mu must be a list of at least one number"),
-        (GRID.replace('["jkr", "bradley"]', "[{}]"), "models must be a list of at least one name; it holds {}"),
-        (
-            GRID.replace("mu = [0.5, 2]", f"mu = {list(range(1, 2001))}").replace("[2]", f"{list(range(1, 2001))}"),
-            "grid mine: the lists have 8000000 combinations, more than 1000000",
-        ),
+        (GRID.replace("n = [2]", f"n = {[1] * 2000}").replace("0.5, 2", "1, " * 999), "3996000 combinations"),
     ],
 )
 def test_what_is_refused(tmp_path, capsys, text, why):

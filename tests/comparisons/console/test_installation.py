@@ -9,6 +9,7 @@ import pytest
 
 from comparisons.console.exit_status import WRONG_INPUT
 from comparisons.console.installation import EXTRAS, check_packages
+from tests.comparisons.grid_text import grid_text
 
 ROOT = Path(__file__).resolve().parents[3]
 ENTRY = ROOT / "comparisons" / "start_entry"
@@ -56,17 +57,12 @@ def test_the_program_starts_unless_a_package_of_the_same_name_is_found_first(tmp
         assert str(tmp_path / package) in done.stderr
 
 
-#: Two closed forms beside a third, in two cases.
-FORMS = 'id = "a", title = "A", reference = "bradley", models = ["jkr", "dmt"], quantities = ["pull_off_force"]'
-GRID = f"grid = [{{ {FORMS}, n = [2], k = [0, 0.4], mu = [1] }}]"
-
-
 @pytest.mark.parametrize("package", ["comparisons", "fscm_bench"])
 def test_no_module_of_the_working_folder_is_imported_by_any_process_of_the_program(tmp_path, package):
     """Of the standard library, of a dependency, and of this program; started by ``python -m``, with two workers."""
     for name in ("typing", "random", "signal", "socket", "pickle", "pandas", "mpmath", "fem_reference"):
         (tmp_path / f"{name}.py").write_text(f"open({str(tmp_path / 'imported')!r}, 'a').write({name!r})\n1 / 0")
-    (tmp_path / "grid.toml").write_text(GRID)
+    (tmp_path / "grid.toml").write_text(grid_text(["jkr", "dmt"], n=[2], k=[0, 0.4], mu=[1]))
     done = subprocess.run(
         [sys.executable, "-m", package, "sweep", "grid.toml", "--jobs", "2", "--out", "out"],
         cwd=tmp_path, env=os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{ENTRY}"}, capture_output=True, text=True,
@@ -75,18 +71,9 @@ def test_no_module_of_the_working_folder_is_imported_by_any_process_of_the_progr
     assert not (tmp_path / "imported").exists()
 
 
-#: Refuses the packages of the extra `report`, then calls the command.
-WITHOUT_EXTRA = f"""
-import sys
-sys.modules.update(dict.fromkeys({set(EXTRAS)!r}))
-from comparisons.__main__ import main
-sys.exit(main())
-"""
-
-
 @pytest.mark.parametrize("command", ["report --help", "leaderboard --help", "list models"])
 def test_only_plots_of_a_report_need_the_extra(command):
-    done = subprocess.run(
-        [sys.executable, "-c", WITHOUT_EXTRA, *command.split()], cwd=ROOT, capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stderr
+    refused = f"import sys; sys.modules.update(dict.fromkeys({set(EXTRAS)!r})); "
+    program = f"{refused}from comparisons.__main__ import main; sys.exit(main())"
+    command = [sys.executable, "-c", program, *command.split()]
+    assert subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL).returncode == 0

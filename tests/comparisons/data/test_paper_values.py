@@ -14,14 +14,8 @@ def test_a_formula_has_no_last_digit_to_be_generous_with(computed, u, verdict):
 
 
 @pytest.mark.parametrize(
-    ("computed", "verdict"), [(2.8796, "agrees"), (2.8809, "agrees if truncated"), (2.8794, "differs")]
-)
-def test_a_last_zero_counts_as_a_digit(computed, verdict):
-    assert PaperValue("", "", "", "2.880").verdict(computed, 1e-12) == verdict
-
-
-@pytest.mark.parametrize(
-    ("text", "computed"), [("40.8", 40.8855), ("1.056", 1.05661), ("3.5", 3.562), ("15.9", 15.9506), ("4.4", 4.499)]
+    ("text", "computed"),
+    [("40.8", 40.8855), ("1.056", 1.05661), ("3.5", 3.562), ("15.9", 15.9506), ("4.4", 4.499), ("2.880", 2.8809)],
 )
 def test_truncated_digits_are_distinguished_from_rounded_ones(text, computed):
     printed = PaperValue("", "", "", text)
@@ -34,10 +28,6 @@ def test_truncated_digits_are_distinguished_from_rounded_ones(text, computed):
     assert printed.verdict(printed.value + 1.01 * step, 1e-9) == "differs"
 
 
-@pytest.mark.parametrize("steps", [-0.5, 0.5, 1.0])
-def test_across_a_border_nothing_is_decided(steps):
-    assert PaperValue("", "", "", "3.5").verdict(3.5 + 0.1 * steps, 1e-6) == "undecided"
-
-
-def test_a_bound_wider_than_every_digit_decides_nothing():
-    assert PaperValue("", "", "", "3.5").verdict(9.0, 100.0) == "undecided"
+@pytest.mark.parametrize(("computed", "u"), [(3.45, 1e-6), (3.55, 1e-6), (3.6, 1e-6), (9.0, 100.0)])
+def test_a_bound_that_reaches_over_a_border_decides_nothing(computed, u):
+    assert PaperValue("", "", "", "3.5").verdict(computed, u) == "undecided"

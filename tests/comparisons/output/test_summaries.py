@@ -1,7 +1,5 @@
 """Texts of a run on the terminal: the largest errors, what does not pass, and one sentence on all gates."""
 
-import shlex
-
 import numpy as np
 import pandas as pd
 import pytest
@@ -77,16 +75,15 @@ def gates(*verdicts):
 
 
 def test_a_gate_has_its_error_its_limits_and_its_command():
-    lines = gate_lines(gates(Verdict.FAIL), {}, 80, 4)
+    lines = gate_lines(gates(Verdict.FAIL), {}, 4)
     assert lines[0] == "FAIL GATE-0 of jkr against fscm: E = -0.049400(5), limits -0.04 to 0.04"
     command = "fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 1"
-    assert shlex.split("".join(lines[1:]).replace("\\", "")) == shlex.split(command)
+    assert lines[1:] == [f"  {command}"]
 
 
 def test_many_gates_are_counted():
-    lines = gate_lines(gates(*[Verdict.INCONCLUSIVE] * 50), {}, 60, 4)
-    assert len(lines) <= 4 * 5 + 1
-    assert max(map(len, lines)) <= 60
+    lines = gate_lines(gates(*[Verdict.INCONCLUSIVE] * 50), {}, 4)
+    assert len(lines) == 4 * 2 + 1
     assert lines[-1].startswith("46 more")
     named = declared_sentence(gates(*[Verdict.XFAIL] * 15))
     assert "GATE-0, GATE-1" in named

@@ -3,7 +3,6 @@
 import json
 import math
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,8 +13,6 @@ from comparisons.description.uncertainty import uncertainty
 from comparisons.problem.reading import load_problem
 from comparisons.problem.uncertain import is_uncertain, uncertain_in_si
 
-EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
-
 #: Sensitivities that have to cancel: the error of the differences of kernels.
 IDENTITY = 1e-6
 #: Second order of the force in 5 %, relative to it: 2e-3 where the force is as curved as a square.
@@ -24,24 +21,16 @@ SECOND_ORDER = 3e-3
 ERRORS = 3.0
 
 LAW = '[law]\nkind = "lennard-jones-9-3"\nwork_of_adhesion = "50 mJ/m^2 +- 4 %"\nz0 = "0.4 +- 0.02 nm"\n'
-PAD = f"""\
+PUNCH = '[punch]\nkind = "sphere"\nR = "(100 +/- 5) nm"\n\n'
+SOLID = """\
 [solid]
 kind = "power-law"
 E0 = "1 GPa +- 0.05 GPa"
 c0 = "100 nm +- 5 %"
 k = "0.3 +- 0.02"
 nu = "0.3 ± 0.02"
-
-[punch]
-kind = "sphere"
-R = "(100 +/- 5) nm"
-
-{LAW}"""
-#: The same without uncertainties.
-EXACT = re.sub(r" (\+-|±) (\d[.\d]*( %| GPa)?)", "", PAD.replace("(100 +/- 5) nm", "100 nm")).replace('"0.3"', "0.3")
-COATED = PAD.replace(
-    PAD[: PAD.index("[punch]")],
-    """\
+"""
+COATING = """\
 [solid]
 kind = "coating"
 E_coating = "1 GPa +- 5 %"
@@ -49,9 +38,10 @@ E_substrate = "5 GPa +- 5 %"
 thickness = "20 nm +- 1 nm"
 transition = "2 nm +- 5 %"
 nu = "0.3 +- 0.02"
-
-""",
-)
+"""
+PAD = SOLID + PUNCH + LAW
+#: The same without uncertainties.
+EXACT = re.sub(r" (\+-|±) (\d[.\d]*( %| GPa)?)", "", PAD.replace("(100 +/- 5) nm", "100 nm")).replace('"0.3"', "0.3")
 
 
 def read(folder, text):
@@ -84,10 +74,8 @@ def test_the_value_is_that_without_uncertainty(tmp_path):
     assert stated.solid.values == {"E0": 1e9, "c0": 1e-7, "k": 0.3, "nu": 0.3}
     assert stated.content["punch"] == {"kind": "sphere", "R": 1e-7}
     assert list(stated.law.uncertain) == ["work_of_adhesion", "z0"]
-    middle = read(tmp_path, PAD.replace("1 GPa +- 0.05 GPa", "[0.9, 1.1] GPa"))
-    assert middle.solid["E0"] == 1e9
     power = '[punch]\nkind = "power-law"\nn = "2 +- 0.1"\nQ = "1 um +- 5 %"\n\n'
-    assert read(tmp_path, PAD[: PAD.index("[punch]")] + power + LAW).punch.values == {"n": 2.0, "Q": 1e-6}
+    assert read(tmp_path, SOLID + power + LAW).punch.values == {"n": 2.0, "Q": 1e-6}
 
 
 def dimensions(stated):
@@ -124,16 +112,15 @@ def check_sample(problem, count, seed):
     assert np.max(np.abs(exact - linear)) < SECOND_ORDER * stated["value"] * 4.0
     assert np.mean(np.abs(exact - linear)) < SECOND_ORDER * stated["value"]
     deviation = stated["standard_deviation"]
-    assert (
-        abs(np.mean(exact) - stated["value"]) < ERRORS * deviation / math.sqrt(count) + SECOND_ORDER * stated["value"]
-    )
+    error_of_mean = ERRORS * deviation / math.sqrt(count) + SECOND_ORDER * stated["value"]
+    assert abs(np.mean(exact) - stated["value"]) < error_of_mean
     assert abs(np.std(exact, ddof=1) / deviation - 1.0) < ERRORS / math.sqrt(2.0 * (count - 1))
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("text", [PAD, COATED], ids=["power law", "coating"])
-def test_a_large_sample(text, tmp_path):
-    check_sample(read(tmp_path, text), 40, seed=17)
+@pytest.mark.parametrize("solid", [SOLID, COATING], ids=["power law", "coating"])
+def test_a_large_sample(solid, tmp_path):
+    check_sample(read(tmp_path, solid + PUNCH + LAW), 40, seed=17)
 
 
 INTERVALS = PAD.replace("1 GPa +- 0.05 GPa", "[0.9, 1.1] GPa").replace("(100 +/- 5) nm", "[95, 105] nm")
@@ -166,16 +153,12 @@ def test_the_command_prints_what_follows(tmp_path, capsys):
     assert main(["describe", path, "--uncertain", "--format", "json", "--quantity", "zero_load_displacement"]) == 0
     stated = json.loads(capsys.readouterr().out)["uncertainty"]
     assert (stated["quantity"], stated["unit"], stated["status"]) == ("zero_load_displacement", "m", "ok")
-    assert [row["parameter"] for row in stated["parameters"]][:2] == ["solid.E0", "solid.c0"]
     assert stated["range"]["is_monotone"] is True
-    assert len(stated["range"]["solved"]) == 2
 
 
-def test_an_event_that_does_not_exist_has_a_reason(tmp_path, capsys):
-    read(tmp_path, PAD.replace("1 GPa +- 0.05 GPa", "100 GPa +- 5 %"))
-    command = ["describe", str(tmp_path / "pad.toml"), "--uncertain", "--quantity", "jump_in_gap"]
-    assert main(command) == 0
-    assert "uncertainty of jump_in_gap: not-applicable: " in capsys.readouterr().out
+def test_an_event_that_does_not_exist_has_a_reason(tmp_path):
+    stated = uncertainty(read(tmp_path, PAD.replace("1 GPa +- 0.05 GPa", "100 GPa +- 5 %")), "jump_in_gap")
+    assert (stated["status"], bool(stated["reason"])) == ("not-applicable", True)
 
 
 @pytest.mark.parametrize(
