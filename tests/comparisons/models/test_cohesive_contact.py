@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
+from itertools import pairwise
 
 import mpmath as mp
 import numpy as np
 import pytest
 
 from comparisons.model import ComputationFailed
-from comparisons.models.cohesive_contact import CohesiveContact
+from comparisons.models.cohesive_contact import CohesiveContact, ContactState
 from comparisons.models.cohesive_events import CohesiveEvents
 from comparisons.models.cohesive_profiles import PROFILE_ROUNDING, gap, pressure
 from comparisons.models.double_hertz import DoubleHertz
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved
 from comparisons.problem import Problem
-
-from .kernel_gap import integrate, kernel_gap
+from fscm._kernel import ring_response
 
 Printed = Callable[[mp.mpf, mp.mpf, mp.mpf, mp.mpf, mp.mpf], tuple[mp.mpf, mp.mpf, mp.mpf]]
 
@@ -77,6 +77,35 @@ def printed_state(printed: Printed, n: float, k: float, Lambda: float, w: mp.mpf
     guess = contact_of(printed, n, k, Lambda).at(np.array([float(w)])).contact_radius[0]
     a = mp.exp(mp.findroot(lambda x: in_digits(printed, n, k, Lambda, mp.exp(x), w)[2] - 1, mp.log(guess)))
     return in_digits(printed, n, k, Lambda, a, w)[:2]
+
+
+#: Tanh-sinh rule on (0, 1): nodes, their complements and weights.
+_U = np.pi * np.sinh(np.linspace(-4.3, 4.3, 401))
+NODE, COMPLEMENT = 1.0 / (1.0 + np.exp(-_U)), 1.0 / (1.0 + np.exp(_U))
+WEIGHT = np.hypot(_U, np.pi) * NODE * COMPLEMENT * 8.6 / 400
+
+
+def integrate(f: Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray], low: float, high: float) -> float:
+    """Integral of f, which gets t and its distances from `low` and from `high`, both without cancellation."""
+    size = high - low
+    return float(np.sum(f(low + size * NODE, size * NODE, size * COMPLEMENT) * WEIGHT) * size)
+
+
+def kernel_gap(contact: CohesiveContact, state: ContactState, r: float) -> float:
+    """H(r) = -delta + r^n / n + 2 (1 - k) integral of p G_k dt with the ring response G_k of Eq. 6, tilde variables."""
+    n, k = contact.punch.n, contact.punch.k
+    a, c = float(state.contact_radius[0]), float(state.cohesive_radius[0])
+    w = 0.0
+    for low, high in pairwise(sorted({0.0, a, c, min(r, c)})):
+
+        def integrand(t: np.ndarray, up: np.ndarray, down: np.ndarray, low: float = low, high: float = high):
+            # One-sided values: the pressure of this interval even where t rounds to its end.
+            p = pressure(contact, state, np.clip(t, np.nextafter(low, high), np.nextafter(high, low)))
+            distance = up if r == low else down if r == high else np.abs(r - t)
+            return p * ring_response(k, np.full_like(t, r), t, distance)
+
+        w += integrate(integrand, low, high)
+    return -float(state.displacement[0]) + r**n / n + 2 * (1 - k) * w
 
 
 def random_contacts(count: int) -> list[tuple[float, float, float, float]]:

@@ -58,13 +58,6 @@ def test_a_sweep_after_a_run_leaves_no_verdicts_of_the_run(small_grid, tmp_path)
     assert "grid.toml" not in names(tmp_path)
 
 
-def test_a_grid_file_of_the_user_is_not_replaced(toys, tmp_path):
-    (tmp_path / "grid.toml").write_text("# mine")
-    with pytest.raises(ValueError, match=r"grid\.toml"):
-        run(GRID, folder=tmp_path)
-    assert (tmp_path / "grid.toml").read_text() == "# mine"
-
-
 def test_grids_of_a_user_can_be_judged_at_once_and_later(small_grid, tmp_path, capsys):
     assert str(run(GRID, small_grid, folder=tmp_path / "once").verdict) == "PASS"
     assert read_record(tmp_path / "once" / "run.json")["command_name"] == "run"
@@ -104,7 +97,12 @@ def test_names_are_exported_and_the_import_is_light():
     assert done.stdout == "False False\n"
 
 
-def test_a_sweep_of_curves_alone_has_no_errors_in_its_tables(toys, tmp_path):
+def test_a_sweep_of_curves_alone_has_no_errors_in_its_tables_and_replaces_no_file_of_a_user(toys, tmp_path):
+    (tmp_path / "grid.toml").write_text("# mine")
+    with pytest.raises(ValueError, match=r"grid\.toml"):
+        run(GRID, folder=tmp_path)
+    assert (tmp_path / "grid.toml").read_text() == "# mine"
+    (tmp_path / "grid.toml").unlink()
     finished = run(GRID.replace("pull_off_force", "force_curve"), folder=tmp_path)
     assert finished.tables.kappa.empty
     assert not finished.tables.curves.empty

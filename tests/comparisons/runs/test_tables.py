@@ -6,6 +6,7 @@ import io
 import math
 import os
 import random
+from unittest.mock import Mock
 
 import pandas as pd
 import pyarrow as pa
@@ -109,7 +110,7 @@ def test_written_files_can_be_read_by_others(tmp_path):
     assert (tmp_path / "a").stat().st_mode == (tmp_path / "b").stat().st_mode
 
 
-def test_paths_that_cannot_be_written_are_refused(tmp_path):
+def test_paths_that_cannot_be_written_are_refused(tmp_path, monkeypatch):
     (tmp_path / "file").touch()
     for check, path in (
         (prepare_folder, tmp_path / "file" / "folder"),
@@ -119,13 +120,9 @@ def test_paths_that_cannot_be_written_are_refused(tmp_path):
         with pytest.raises(ValueError, match=f"{path} cannot be written"):
             check(path)
     assert os.listdir(tmp_path) == ["file"]
-
-
-@pytest.mark.parametrize("check", [prepare_folder, lambda path: writable_file(path / "a.csv")])
-def test_no_other_path_helps_against_a_full_disk(tmp_path, monkeypatch, check):
-    def full(**options):
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-    monkeypatch.setattr("comparisons.runs.atomic_files.tempfile.TemporaryFile", full)
-    with pytest.raises(OSError, match=f"{tmp_path}.* cannot be written"):
-        check(tmp_path)
+    # No other path helps against a full disk.
+    full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    monkeypatch.setattr("comparisons.runs.atomic_files.tempfile.TemporaryFile", Mock(side_effect=full))
+    for check, path in ((prepare_folder, tmp_path), (writable_file, tmp_path / "a.csv")):
+        with pytest.raises(OSError, match=f"{path} cannot be written"):
+            check(path)
