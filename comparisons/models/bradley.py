@@ -16,14 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import beta
 
-from comparisons.model import Curve, Result
-from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, JUMPS, ClosedForm, Limits, monomial
+from comparisons.model import FARTHEST_GAP, Curve, Result
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, JUMPS, POINTS, ClosedForm, Limits, monomial
 from comparisons.problem import Problem
 
 __all__ = ["Bradley", "rigid_load", "rigid_pull_off"]
 
-_POINTS = 401
-_FARTHEST_GAP = 10.0
 # The curve ends this factor of H0 + 1 inside the zero-load gap, where the load has turned compressive.
 _INSIDE = 0.97
 
@@ -97,7 +95,7 @@ class Bradley(ClosedForm):
         """Return Eq. 42 from H0 = 10 to a compressive load; column ``central_gap``."""
         n = float(problem.n)
         nearest = _INSIDE * _zero_load_gap(n).value
-        central_gap = np.geomspace(_FARTHEST_GAP + 1.0, nearest, _POINTS) - 1.0
+        central_gap = np.geomspace(FARTHEST_GAP + 1.0, nearest, POINTS) - 1.0
         return Curve(displacement=-central_gap, load=rigid_load(n, central_gap), columns={"central_gap": central_gap})
 
 

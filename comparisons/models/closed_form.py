@@ -22,6 +22,8 @@ EPS = 2.0**-52
 # (7 eps) on B(3 - 2/n, 2/n), 0.7 <= n <= 20; 16 leaves a factor of two.
 FACTOR_ROUNDING = 16.0 * EPS
 
+#: Points of a curve.
+POINTS = 401
 
 #: Ranges of parameters as `comparisons.domain` reads them; None is no limit.
 Limits = dict[str, list[Any]]

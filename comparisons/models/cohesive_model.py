@@ -11,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from comparisons.model import Curve, NotApplicable, RadialField, Result
-from comparisons.models.closed_form import EPS, FIELDS, IN_CONTACT, ClosedForm, Limits
+from comparisons.models.closed_form import EPS, FIELDS, IN_CONTACT, POINTS, ClosedForm, Limits
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import STATE_ROUNDING, CohesiveEvents, Event
 from comparisons.models.cohesive_profiles import PROFILE_ROUNDING, CohesiveProfiles, cohesive_profiles
@@ -22,7 +22,6 @@ from comparisons.problem import Problem
 
 __all__ = ["CohesiveModel"]
 
-_POINTS = 401
 # Radii of a stored profile in each of its three parts.
 _PROFILE_POINTS = 60
 # The curve starts at a = 0 and then at this fraction of its largest contact radius.
@@ -95,7 +94,7 @@ class CohesiveModel(ClosedForm):
         log_first = contact.log_contact_radius(end) + np.log(_FIRST_RADIUS)
         start = float(events.w[events.states.contact_radius >= np.exp(log_first)][0])
         bend = max(start, pull_off.w - _NEAR / contact.punch.n)
-        even, dense = np.linspace(start, end, _POINTS // 2), np.linspace(bend, end, _POINTS // 2)
+        even, dense = np.linspace(start, end, POINTS // 2), np.linspace(bend, end, POINTS // 2)
         w = np.unique(np.concatenate(([-np.inf, pull_off.w], even, dense)))
         state = contact.at(w)
         scale = GradedPunch.of(problem).scales(problem.mu)

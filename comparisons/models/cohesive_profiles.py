@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.model import NotApplicable
+from comparisons.model import FARTHEST_GAP, NotApplicable
 from comparisons.models.cohesive_contact import CohesiveContact, ContactState
 from comparisons.models.graded_punch import Scales
 from comparisons.models.quadrature import FINE
@@ -31,7 +31,6 @@ PROFILE_ROUNDING = 1e-12
 _POINTS_A_ZONE = 200
 # The profiles end beyond this many cohesive radii and beyond this gap, in z0.
 _FARTHEST = 3.0
-_FARTHEST_GAP = 10.0
 # The radius nearest to the axis, over c: a cone on a homogeneous half-space has infinite pressure at r = 0.
 _NEAREST = 1e-6
 # Still two different numbers after the change of units.
@@ -157,7 +156,7 @@ def cohesive_profiles(
     both = np.sin(np.linspace(0.0, 0.5 * np.pi, points)) ** 2
     inside = _NEAREST * c + (a - _NEAREST * c) * dense if a > _NEAREST * c else np.array([_NEAREST * c])
     # H = r^n/n - delta + w, and the traction lifts the surface by less than the amplitude.
-    n, height = contact.punch.n, _FARTHEST_GAP / scale.displacement + abs(float(state.displacement[0]))
+    n, height = contact.punch.n, FARTHEST_GAP / scale.displacement + abs(float(state.displacement[0]))
     end = max(_FARTHEST * c, float((n * (height + contact.amplitude(L))) ** (1.0 / n)))
     beyond = c + (end - c) * (1.0 - dense[::-1])
     r = np.unique(np.concatenate((inside, a + (c - a) * both, [c * (1.0 - _BELOW_EDGE)], beyond)))

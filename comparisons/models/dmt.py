@@ -18,14 +18,12 @@ from typing import ClassVar
 import numpy as np
 
 from comparisons.model import Curve, Result
-from comparisons.models.closed_form import CYCLE, FACTOR_ROUNDING, JUMPS, ClosedForm, Limits, monomial
+from comparisons.models.closed_form import CYCLE, FACTOR_ROUNDING, JUMPS, POINTS, ClosedForm, Limits, monomial
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
 __all__ = ["DMT", "DMTStrength", "dmt_pull_off"]
-
-_POINTS = 401
 
 
 def dmt_pull_off(n: float, cohesive_stress: float) -> Result:
@@ -92,7 +90,7 @@ class DMT(ClosedForm):
         adhesion = self.pull_off_force(problem).value
         hertz = _hertz(punch, problem.mu)
         end = (2.0 * adhesion / hertz) ** (1.0 / (n + k + 1.0))
-        a = end * np.linspace(0.0, 1.0, _POINTS)
+        a = end * np.linspace(0.0, 1.0, POINTS)
         return Curve(
             displacement=punch.flattening * a**n,
             load=hertz * a ** (n + k + 1.0) - adhesion,

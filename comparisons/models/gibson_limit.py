@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.model import Curve, RadialField
+from comparisons.model import FARTHEST_GAP, Curve, RadialField
 from fscm.gibson import GibsonSolid, LocalEquilibrium, root
 from fscm.problem import Problem
 
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 #: Points of each part of a curve and of each side of the front of a profile.
 _POINTS = 120
 #: Curves begin at the central gap 10 + 5 mu as those for k < 1; profiles end at a gap of 10.
-_FARTHEST_GAP, _START_PER_MU = 10.0, 5.0
+_START_PER_MU = 5.0
 #: Step inwards, as a factor of the gap less that of the singularity, in search of the end of a curve.
 _INWARDS = 0.97
 #: Bound on the error of a load as a fraction of the range of the curve; the quadrature has tolerance 1e-13 (measured
@@ -43,7 +43,7 @@ def gibson_curve(problem: Problem) -> Curve:
     """
     solid = GibsonSolid(problem)
     local = LocalEquilibrium(problem.law, problem.compliance)
-    start = _FARTHEST_GAP + _START_PER_MU * problem.mu
+    start = FARTHEST_GAP + _START_PER_MU * problem.mu
     if local.folds and local.front:
         approach = [*_between(start, local.folds[1]), *_between(local.folds[1], local.front.far)]
         entry = local.front.near
@@ -102,9 +102,9 @@ def gibson_profile(problem: Problem) -> RadialField:
     inner, outer = local.near(-delta), local.far(-delta)
     in_contact = local.front is not None and -delta < local.front.level and solid.load(inner) <= solid.load(outer)
     if local.front and in_contact:
-        gap = np.concatenate([_towards(inner, local.front.near), _towards(local.front.far, _FARTHEST_GAP)])
+        gap = np.concatenate([_towards(inner, local.front.near), _towards(local.front.far, FARTHEST_GAP)])
     else:
-        gap = _towards(outer, _FARTHEST_GAP)
+        gap = _towards(outer, FARTHEST_GAP)
     level = np.array([local.level(float(H)) for H in gap])
     radius = (problem.n * np.maximum(level + delta, 0.0)) ** (1.0 / problem.n)
     # The two levels of the front are one, but for rounding.

@@ -15,13 +15,11 @@ from typing import ClassVar
 import numpy as np
 
 from comparisons.model import Curve, Result
-from comparisons.models.closed_form import EPS, IN_CONTACT, ClosedForm, monomial
+from comparisons.models.closed_form import EPS, IN_CONTACT, POINTS, ClosedForm, monomial
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
 __all__ = ["JKR"]
-
-_POINTS = 401
 
 
 class JKR(ClosedForm):
@@ -78,7 +76,7 @@ class JKR(ClosedForm):
         n, k, s = punch.n, punch.k, punch.s
         pull_off = monomial(*_radius_power(punch, s + k + 1.0, 1.0)).value
         # P(a) / P(a_c) depends on a / a_c alone: x^(n+k+1) theta_c - x^(s+k+1) (n+k+1) over its value at 1.
-        shares = np.linspace(0.0, 1.0, _POINTS)
+        shares = np.linspace(0.0, 1.0, POINTS)
         end = 1.0
         while (s + k + 1.0) * end ** (n + k + 1.0) - (n + k + 1.0) * end ** (s + k + 1.0) < n - s:
             end *= 1.02

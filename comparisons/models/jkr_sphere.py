@@ -21,13 +21,12 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from comparisons.model import Curve, NotApplicable, Result
-from comparisons.models.closed_form import EPS, ClosedForm, Limits
+from comparisons.models.closed_form import EPS, POINTS, ClosedForm, Limits
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
 __all__ = ["JKRSphere"]
 
-_POINTS = 401
 
 #: Largest contact radius in radii of the ball, as in both references.
 _REACH = 0.95
@@ -152,7 +151,7 @@ class JKRSphere(ClosedForm):
         end = pull_off = ball.at("pull_off")
         while end < _REACH and ball.load(end) < -ball.load(pull_off):
             end = min(1.02 * end, _REACH)
-        alpha = end * np.linspace(0.0, 1.0, _POINTS) ** 2
+        alpha = end * np.linspace(0.0, 1.0, POINTS) ** 2
         return Curve(
             displacement=ball.radius * ball.displacement(alpha),
             load=ball.load(alpha),

@@ -19,13 +19,12 @@ from typing import Any, ClassVar
 import numpy as np
 
 from comparisons.model import Curve, NotApplicable, Result
-from comparisons.models.closed_form import FACTOR_ROUNDING, IN_CONTACT, Limits
+from comparisons.models.closed_form import FACTOR_ROUNDING, IN_CONTACT, POINTS, Limits
 from comparisons.models.homogeneous_sphere import HomogeneousSphere, transition_parameter
 from comparisons.problem import Problem
 
 __all__ = ["PietrementTroyon"]
 
-_POINTS = 401
 # Below this alpha the fit of S turns negative: -2.160 and 2.7531 belong to powers that differ by 0.045 alone.
 _SMALLEST_ALPHA = 0.01
 # Maugis's unit of the displacement over (R dgamma^2 / E*^2)^(1/3), the unit of the tilde variables.
@@ -72,7 +71,7 @@ class PietrementTroyon(HomogeneousSphere):
 
     def force_curve(self, problem: Problem) -> Curve:
         """Return the branch from the pull-off to a load as compressive as the pull-off is tensile."""
-        root = math.sqrt(2.0) * np.linspace(0.0, 1.0, _POINTS)
+        root = math.sqrt(2.0) * np.linspace(0.0, 1.0, POINTS)
         grown, lift, unit = self._terms(problem, root)
         force = _pull_off(transition_parameter(float(problem.mu)))
         return Curve(displacement=unit * (grown - lift), load=force * (root**2 - 1.0))

@@ -16,15 +16,13 @@ import math
 import numpy as np
 
 from comparisons.model import Curve, Result
-from comparisons.models.closed_form import EPS, FACTOR_ROUNDING
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, POINTS
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.homogeneous_sphere import HomogeneousSphere, transition_parameter
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
 __all__ = ["Schwarz", "short_range_share"]
-
-_POINTS = 401
 
 
 def short_range_share(alpha: float) -> float:
@@ -85,7 +83,7 @@ class Schwarz(HomogeneousSphere):
         punch, x = GradedPunch.of(problem), short_range_share(transition_parameter(float(problem.mu)))
         scale = punch.scales(problem.mu)
         end = float(JKR().curve(problem).columns["contact_radius"][-1]) / scale.radius
-        a = end * np.linspace(0.0, 1.0, _POINTS) ** 2
+        a = end * np.linspace(0.0, 1.0, POINTS) ** 2
         load = punch.hertz_load * a**3 - punch.stiffness * punch.adhesion * np.sqrt(x * a**3) - 2.0 * (1.0 - x)
         return Curve(
             displacement=scale.displacement * (a**2 - punch.adhesion * np.sqrt(x * a)),

@@ -16,16 +16,13 @@ from typing import ClassVar
 import numpy as np
 from scipy.special import beta, gamma
 
-from comparisons.model import Curve, NotApplicable, Result
+from comparisons.model import FARTHEST_GAP, Curve, NotApplicable, Result
 from comparisons.models.bradley import rigid_load
-from comparisons.models.closed_form import EPS, ClosedForm, Limits, monomial
+from comparisons.models.closed_form import EPS, POINTS, ClosedForm, Limits, monomial
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 
 __all__ = ["SemiRigid", "attraction_coefficient", "jump_in_coefficient"]
-
-_POINTS = 401
-_FARTHEST_GAP = 10.0
 
 
 def _reach(n: float, k: float, j: int) -> float:
@@ -101,7 +98,7 @@ class SemiRigid(ClosedForm):
         """
         n, k, mu = float(problem.n), float(problem.k), float(problem.mu)
         nearest = max(_fold(n, k, mu).value, 1.0)
-        H0 = np.geomspace(max(_FARTHEST_GAP + 1.0, 2.0 * nearest), nearest, _POINTS) - 1.0
+        H0 = np.geomspace(max(FARTHEST_GAP + 1.0, 2.0 * nearest), nearest, POINTS) - 1.0
         b, c = (1.0 - k) / n, 2.0 / n
         q = 1.0 / (H0 + 1.0)
         pull = attraction_coefficient(n, k) * mu ** (2.0 - b) * q ** (3.0 - b)
