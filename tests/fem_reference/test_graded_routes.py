@@ -1,7 +1,6 @@
 """Events of graded solids, other laws and other punches: inside the bounds of routes that share nothing with the mesh.
 
-Hankel transforms, the integral equation (punches and laws on a power law), limits in which two solids are one, units,
-and finer meshes.
+The integral equation (punches and laws on a power law), limits in which two solids are one, units, and finer meshes.
 """
 
 import math
@@ -21,48 +20,17 @@ from fem_reference import (
     RoundedCone,
     TabulatedLaw,
     solve,
-    solve_together,
 )
 from fem_reference.coating import CoatingModulus
-from fem_reference.depth_profiles import TableModulus, TablePoisson
-from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
-from fem_reference.poisson import CoatingPoisson
-from tests.fem_reference.hankel_reference import pull_off
+from fem_reference.modulus import OffsetPowerLawModulus
 from tests.fem_reference.profile_solid import ProfileSolid
 from tests.fem_reference.solved_together import COARSEST, pull_off_on_the_coarsest_mesh, sphere_on
-from tests.fem_reference.test_coatings import HANKEL_ERROR
 
 NU = 0.3
 LAW = LennardJones(1.0, 1.0)
 SPHERE = PowerPunch(2.0, 1.0)
-FORCE, DISPLACEMENT = "pull_off_force", "pull_off_displacement"
+FORCE = "pull_off_force"
 SOFT = PowerLaw(1.0, 1.0, 0.0, NU)
-NUS = CoatingPoisson(0.2, 0.45, 1.0)
-LAYERS_OF_NU = ProfileSolid(PowerLawModulus(1.0, 1.0, 0.0), NUS)
-
-
-@pytest.mark.heavy
-@pytest.mark.parametrize(
-    ("solid", "nu", "options"),
-    [
-        pytest.param(LAYERS_OF_NU, NUS, {}, id="nu of layers"),
-        pytest.param(ProfileSolid(CoatingModulus(10.0, 1.0, 1.0), NUS), NUS, {"radius": 22.0}, id="both"),
-        pytest.param(
-            ProfileSolid(TableModulus((0.0, 1.0, 2.0), (1.0, 1.5, 4.0)), TablePoisson((0.0, 2.0), (0.4, 0.1))),
-            TablePoisson((0.0, 2.0), (0.4, 0.1)),
-            {},
-            id="table",
-        ),
-    ],
-)
-def test_poissons_ratio_of_depth_against_hankel_transforms(solid, nu, options):
-    """Force and displacement (measured difference: 9e-8)."""
-    sharp = (1.0,) if nu is NUS else ()
-    reference = pull_off(solid.modulus, nu, lambda r: r**2 / 2, sharp=sharp, **options)
-    solutions = solve_together(sphere_on(solid), (FORCE, DISPLACEMENT), "quick")
-    for name, exact in ((FORCE, reference.force), (DISPLACEMENT, reference.displacement)):
-        assert abs(solutions[name].value - exact) <= solutions[name].u_num + HANKEL_ERROR
-        assert solutions[name].u_num <= 1e-5
 
 
 def _integral_equation(punch=None, law=None, mu=(1.0 - NU**2) ** (2.0 / 3.0)):
