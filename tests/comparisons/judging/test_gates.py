@@ -100,7 +100,10 @@ MEASURED = '"measured"\nworst_measured = '
         ('"derived"', '"measured"', "states its worst_measured"),
         ("min_cases = 3", "min_cases = 3\nworst_measured = 0.1", "states its worst_measured"),
         ("min_cases = 3", "min_cases = 3\nmeasured_range = [0, 0.1]", "states its worst_measured"),
-        *(('"derived"', MEASURED + value, f"worst_measured = {value}") for value in ("nan", "inf", "0.1001", "-0.1001")),
+        *(
+            ('"derived"', MEASURED + worst, f"worst_measured = {worst}")
+            for worst in ("nan", "inf", "0.1001", "-0.1001")
+        ),
         (
             '"derived"',
             MEASURED + '0.1\nexpected_failure = "Known."\nmeasured_range = [0.09, 0.11]',
