@@ -40,19 +40,16 @@ class Variation:
     section, key : str
         The key of one entry of a list has the number of the entry, from 1, behind a dot.
     values : tuple of float or str
-    text : str
-        As it was written.
 
     Examples
     --------
-    >>> Variation("solid", "nu", (0.3, 0.4), "solid.nu=0.3,0.4").name
+    >>> Variation("solid", "nu", (0.3, 0.4)).name
     'solid.nu'
     """
 
     section: str
     key: str
     values: tuple[float | str, ...]
-    text: str
 
     @classmethod
     def of_values(cls, name: str, values: Sequence[float | str], text: str = "") -> Variation:
@@ -79,7 +76,7 @@ class Variation:
             raise ValueError(f"{where}: a kind is not varied, since its keys differ; write one file for each")
         if "" in values or len(set(map(str, values))) < len(values):
             raise ValueError(f"{where} has an empty value or one value twice; give each value once")
-        return cls(section, key, tuple(values), text or name)
+        return cls(section, key, tuple(values))
 
     @property
     def name(self) -> str:

@@ -17,6 +17,7 @@ from comparisons.runs.cases import load_grids
 from comparisons.runs.frames import frame
 from comparisons.runs.parameter_sets import latin_hypercube
 from comparisons.runs.tasks import Task, evaluate, evaluate_task
+from tests.comparisons.conftest import GATES, with_entries
 from tests.comparisons.grid_text import grid_text
 
 FORCE = {"quantities": ["pull_off_force"]}
@@ -84,34 +85,16 @@ def test_a_model_is_not_evaluated_outside_its_domain(toys, monkeypatch):
     assert row.reason == "outside the domain that the model declares: it has no jump_in_gap"
 
 
-GATE = """
-[[gate]]
-id = "GIVEN"
-requirement = "A gate of this test."
-quantity = "pull_off_force"
-candidate = "given"
-reference = "bradley"
-cases = {}
-metric = "rel"
-lower = -0.5
-upper = 0.5
-max_reference_uncertainty = 1e-6
-basis = "derived"
-grounds = "a gate of this test"
-min_cases = 1
-tier = "quick"
-not_applicable = "leave-out"
-"""
-
-
 def test_not_applicable_is_a_failure_inside_the_declared_domain_and_outside_it_nothing_counts():
     """Outside, a row counts for nothing even if it has a value."""
+    limits = {"lower": -0.5, "upper": 0.5, "min_cases": 1, "not_applicable": "leave-out"}
+    gate = with_entries(GATES, candidate="given", reference="bradley", cases="{}", **limits)
     grids = load_grids(grid_text(["jkr"], tier="quick", n=[2], k=[0], mu=[0.1, 0.5, 1, 2]))
     rows = frame([evaluate_task(Task("bradley", "pull_off_force", case)) for case in grids[0].cases])
     candidate = rows.assign(model="jkr", status=["ok", "ok", "not-applicable", "ok"])
     candidate.loc[candidate["status"] != "ok", ["value", "u_num"]] = math.nan
     domains = {"jkr": Domain.of({**FORCE, "mu": [0.1, 1]})}
-    table = judge(load_gates(GATE), grids, pd.concat([rows, candidate]), None, ["jkr"], domains)
+    table = judge(load_gates(gate), grids, pd.concat([rows, candidate]), None, ["jkr"], domains)
     assert table["verdict"].tolist() == ["PASS", "PASS", "FAIL", "NOT-APPLICABLE"]
     assert table["reason"].iloc[2].endswith("(inside the domain that the model declares)")
     summary = summarise(table).iloc[0]

@@ -155,19 +155,14 @@ def test_every_command_parses():
         cli._parser(arguments).parse_args(arguments)
 
 
-TABLES = [(path, text) for path in DOCUMENTS for text in blocks(path, "toml")]
-
-
-def tables_with(name):
-    return [text for _, text in TABLES if f"[[{name}]]" in text]
-
-
 def test_every_grid_and_gate_of_a_document_loads():
-    assert tables_with("grid")
-    assert tables_with("gate")
-    for text in tables_with("grid"):
+    tables = [text for path in DOCUMENTS for text in blocks(path, "toml")]
+    with_grids, with_gates = ([text for text in tables if f"[[{name}]]" in text] for name in ("grid", "gate"))
+    assert with_grids
+    assert with_gates
+    for text in with_grids:
         assert all(grid.cases for grid in load_grids(text, tier="quick", folder=DOCS / "examples" / "problems"))
-    assert all(load_gates(text) for text in tables_with("gate"))
+    assert all(load_gates(text) for text in with_gates)
 
 
 def anchors(path):

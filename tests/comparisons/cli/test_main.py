@@ -61,11 +61,11 @@ def test_csv_is_a_header_and_a_row(capsys):
 )
 def test_a_refusal_is_an_answer_and_a_failure_has_status_4(toys, capsys, model, status, word, form):
     assert solve(model, "--format", form) == status
-    captured = capsys.readouterr()
-    assert word in captured.out
-    assert "Traceback" not in captured.out + captured.err
+    out, err = capsys.readouterr()
+    assert word in out
+    assert "Traceback" not in out + err
     if form == "json":
-        content = json.loads(captured.out)
+        content = json.loads(out)
         assert (content["value"], content["u_num"], content["status"]) == (None, None, word)
         assert content["reason"]
 

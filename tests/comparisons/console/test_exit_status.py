@@ -66,11 +66,6 @@ def test_the_traceback_of_a_defect_is_shown_on_request(capsys, monkeypatch):
     assert "Traceback" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(("code", "status"), [(None, 0), (0, 0), (2, 2), ("text", FAILED)])
-def test_an_exit_of_argparse_keeps_its_status(code, status):
-    assert guarded(raising(SystemExit(code))) == status
-
-
 def program(command, redirected, **environment):
     """Run a command in a shell, its streams redirected; return status, stdout and stderr."""
     code = f"import sys; from comparisons.__main__ import main; sys.argv[1:] = {command!r}; sys.exit(main())"
