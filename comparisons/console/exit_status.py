@@ -118,7 +118,7 @@ def _finished(command: Callable[[], int]) -> int:
     try:
         status = command()
     except SystemExit as end:  # argparse, after --help and --version
-        status = end.code if isinstance(end.code, int) else OK if end.code is None else FAILED
+        status = FAILED if end.code else OK
     with writing_stdout():
         sys.stdout.flush()
     return status
