@@ -8,6 +8,7 @@ weights 1, u^-k and (u^-k - 1)/k, in which the two parts of the kernel (`Kernel.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from itertools import pairwise
@@ -28,6 +29,8 @@ _NEAR = 1.0
 # Nodes of the rule on a piece; exact for the panel polynomial (degree q-1) times a factor that is analytic
 # to one piece length on either side, whose coefficients fall like 5.8^-m.
 _EXTRA_NODES = 10
+# Rows that are computed at a time: larger temporary arrays are out of the cache, and their memory is requested anew.
+_NEAR_ROWS, _FAR_ROWS = 400, 2000
 
 
 @lru_cache(maxsize=64)
@@ -171,6 +174,13 @@ def _near_rows(
     return np.einsum("ij,jk->ik", total, gauss_rule(order).to_modes)
 
 
+def _batches(mask: NDArray[np.bool_], size: int) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    """Indices (pair, node) of the rows for which the mask holds, up to `size` at a time."""
+    pair, node = np.nonzero(mask)
+    for start in range(0, len(pair), size):
+        yield pair[start : start + size], node[start : start + size]
+
+
 def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp]) -> Array:
     """Blocks of the response matrix between pairs of panels.
 
@@ -198,15 +208,13 @@ def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], 
     nodes = mesh.nodes.reshape(-1, q)
     blocks = np.empty((len(targets), q, q))
 
-    pair, node = np.nonzero(~is_near)
-    if pair.size:
+    for pair, node in _batches(~is_near, _FAR_ROWS):
         panel = sources[pair]
         distance = gap[pair, node, None] + h[panel, None] * np.where(is_left[pair, None], v[::-1], v)
         radius = np.broadcast_to(nodes[targets[pair], node][:, None], distance.shape)
         blocks[pair, node] = kernel.response(radius, nodes[panel], distance) * (h[panel, None] * w)
 
-    pair, node = np.nonzero(is_near)
-    if pair.size:
+    for pair, node in _batches(is_near, _NEAR_ROWS):
         panel = sources[pair]
         blocks[pair, node] = _near_rows(
             kernel,
