@@ -70,12 +70,7 @@ class Discretisation:
 
     def __init__(self, problem: Problem, mesh: PanelMesh, previous: Discretisation | None = None) -> None:
         self.problem, self.mesh = problem, mesh
-        kernel = kernel_of(problem.k)
-        reusable = (
-            (previous.mesh, previous.matrix) if previous is not None and previous.problem.k == problem.k else None
-        )
-        self.matrix: Array = response_matrix(kernel, mesh, reusable)
-        self.axis = axis_row(kernel, mesh)
+        self._previous = previous
         self._at: tuple[float, Any, Array] | None = None
         # On the previous mesh, at the same scale: reused for common panels.
         self._before: tuple[PanelMesh, float, Any] | None = None
@@ -88,6 +83,22 @@ class Discretisation:
         self.factor: BorderedFactor | None = None
         edge = int(np.searchsorted(mesh.offsets, 1.0 - mesh.origin))
         self.edge = mesh.row_at_end(max(edge - 1, 0), 1.0)
+
+    @cached_property
+    def matrix(self) -> Array:
+        """The matrix W of a power law; on demand, because on some meshes nothing is solved."""
+        previous, self._previous = self._previous, None
+        while previous is not None and previous._previous is not None:
+            previous = previous._previous  # on a mesh on which nothing was solved
+        reusable = None
+        if previous is not None and previous.problem.k == self.problem.k and "matrix" in previous.__dict__:
+            reusable = previous.mesh, previous.matrix
+        return response_matrix(kernel_of(self.problem.k), self.mesh, reusable)
+
+    @cached_property
+    def axis(self) -> Array:
+        """The row of W for the axis."""
+        return axis_row(kernel_of(self.problem.k), self.mesh)
 
     @property
     def steep(self) -> bool:
