@@ -24,12 +24,12 @@ import mpmath
 import numpy as np
 
 from fscm._kernel import (
-    _DIGITS,
     _NEAR_LIMIT,
     _SERIES_TERMS,
     _SMALLEST_K,
     _ZERO_K,
     Kernel,
+    _digits,
     _gauss_series,
     _polynomial,
     _scaled,
@@ -63,7 +63,7 @@ class AzimuthalKernel(Kernel):
     def __init__(self, k: float, m: int) -> None:
         self.k = 0.0 if k < _SMALLEST_K else float(k)
         self.m = m
-        with mpmath.workdps(_DIGITS):
+        with mpmath.workdps(_digits(self.k)):
             q = mpmath.mpf(self.k) if self.k > 0 else mpmath.mpf(_ZERO_K)
             a = (1 + q) / 2
             half = mpmath.mpf(1) / 2

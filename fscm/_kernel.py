@@ -46,8 +46,9 @@ _SERIES_TERMS = 110
 _SMALLEST_K = 1e-22
 # Stand-in for k = 0: the O(k) remainder is below double precision.
 _ZERO_K = "1e-30"
-# D loses 2 log10(1/k) digits: k - 1 rounds relative to 1, then the gamma function has its pole there.
-_DIGITS = 100
+# Digits of D where none are lost; it loses 2 log10(1/k): k - 1 rounds relative to 1, then the gamma function has its
+# pole there.
+_DIGITS = 40
 # Binary digits with which D and C, of the size of 1, are summed before they are rounded.
 _BITS = 128
 
@@ -69,12 +70,21 @@ def box_cox(log_y: Array, c: float) -> Array:
     return -log_y if c == 0.0 else np.expm1(-c * log_y) / c
 
 
+def _digits(k: float) -> int:
+    """Decimal digits with which the expansions for an exponent are computed."""
+    return _DIGITS + math.ceil(-2.0 * math.log10(k or float(_ZERO_K)))
+
+
 def _gauss_series(a: mpmath.mpf, b: mpmath.mpf, c: mpmath.mpf, terms: int) -> list[mpmath.mpf]:
-    """Taylor coefficients of F(a, b; c; x)."""
-    coefficients = [mpmath.mpf(1)]
-    for m in range(terms - 1):
-        coefficients.append(coefficients[-1] * (a + m) * (b + m) / ((c + m) * (m + 1)))
-    return coefficients
+    """Taylor coefficients of F(a, b; c; x), in integers of the precision of their arguments."""
+    bits = mpmath.mp.prec
+    unit = 1 << bits
+    a_m, b_m, c_m = (int(mpmath.ldexp(x, bits)) for x in (a, b, c))
+    coefficients = [unit]
+    for m in range(1, terms):
+        coefficients.append((coefficients[-1] * a_m >> bits) * b_m // (c_m * m))
+        a_m, b_m, c_m = a_m + unit, b_m + unit, c_m + unit
+    return [mpmath.ldexp(coefficient, -bits) for coefficient in coefficients]
 
 
 def _polynomial(taylor: list[mpmath.mpf], limit: float) -> Array:
@@ -119,7 +129,7 @@ class Kernel:
         if not 0.0 <= k < 1.0:
             raise ValueError(f"gradient exponent k = {k} is outside [0, 1): the ring response diverges at k = 1")
         self.k = 0.0 if k < _SMALLEST_K else float(k)
-        with mpmath.workdps(_DIGITS):
+        with mpmath.workdps(_digits(self.k)):
             q = mpmath.mpf(self.k) if self.k > 0 else mpmath.mpf(_ZERO_K)
             a = (1 + q) / 2
             half = mpmath.mpf(1) / 2
@@ -133,7 +143,7 @@ class Kernel:
             self._far = np.array([float(c) for c in _gauss_series(a, a, mpmath.mpf(1), 12)])
 
     def _primitive_series(self, less: int, c: int) -> _Primitive:
-        with mpmath.workdps(_DIGITS):
+        with mpmath.workdps(_digits(self.k)):
             q = mpmath.mpf(self.k) if self.k > 0 else mpmath.mpf(_ZERO_K)
             a = (1 + q) / 2
             return _Primitive(a, a - less, mpmath.mpf(c), q)
