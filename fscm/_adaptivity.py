@@ -30,6 +30,7 @@ __all__ = [
     "graded",
     "indicator",
     "initial_mesh",
+    "newton_tolerance",
     "on_mesh",
     "resolved",
     "resolving",
@@ -334,6 +335,11 @@ def lengthened(state: State, end_height: float) -> State:
     return replace(state, disc=Discretisation(problem, longer, state.disc), gap=np.concatenate([state.gap, gap]))
 
 
+def newton_tolerance(tolerance: float) -> float:
+    """Tolerance of Newton's method whose error is negligible relative to that of the mesh."""
+    return max(STEP_TOLERANCE, _NEWTON_MARGIN * tolerance)
+
+
 def resolved(guess: State, tolerance: float) -> State:
     """The guess on a mesh that resolves its pressure, split as by `fit`; nothing is solved."""
     mesh = resolving(guess, guess.disc.mesh, tolerance, partial(_gap_on, guess), _GUESS_ROUNDS)
@@ -369,7 +375,7 @@ def fit(
     """
     iterations = state.iterations
     if step_tolerance is None:
-        step_tolerance = max(STEP_TOLERANCE, _NEWTON_MARGIN * tolerance)
+        step_tolerance = newton_tolerance(tolerance)
     for attempt in range(_MAX_ROUNDS):
         mesh, middles = state.disc.mesh, _unresolved(state, tolerance)
         drop = _superfluous(state, tolerance) if coarsen and attempt == 0 else np.empty(0, np.intp)

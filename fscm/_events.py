@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 import scipy
 
-from fscm._adaptivity import fit, graded, indicator, lengthened, on_mesh, resolved
+from fscm._adaptivity import fit, graded, indicator, lengthened, newton_tolerance, on_mesh, resolved
 from fscm._arc_length import Point, parameter_control, parameter_of, rates_of
 from fscm._continuation import moved
 from fscm._equilibrium import Rates, State
@@ -253,7 +253,7 @@ def refined(state: State, order: int, tolerance: float, end_height: float | None
     if narrow:
         mesh = graded(mesh)
     guess = resolved(on_mesh(state, mesh), tolerance)
-    return fit(newton(guess, control), control, tolerance, coarsen=not narrow)
+    return fit(newton(guess, control, newton_tolerance(tolerance)), control, tolerance, coarsen=not narrow)
 
 
 def sharpened(
@@ -362,7 +362,7 @@ def _root(state: State, condition: Condition, tolerance: float, slope: float | N
         if abs(step) < enough and settled and at_extreme(state, value, slope):
             return state, slope
     for _ in range(_SECANT_STEPS):
-        new = moved(state, rates, parameter_of(state) + step)
+        new = moved(state, rates, parameter_of(state) + step, newton_tolerance(tolerance))
         if abs(step) > _FAR:
             new = fit(new, parameter_control(new, parameter_of(new)), tolerance)
         new_rates = rates_of(new)
