@@ -12,12 +12,9 @@ determined by their central gap, and the load to have one minimum once the cente
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-
 import numpy as np
 
-from fscm._arc_length import Point
+from fscm._arc_length import Point, rates_of
 from fscm._continuation import Tracking, usual_start
 from fscm._equilibrium import STEEP, State
 from fscm._events import brackets, load_fold, with_minima
@@ -29,7 +26,7 @@ from fscm.laws import LennardJones, Mie
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
-__all__ = ["PullOffEnd", "pull_off_path", "rigid_tension"]
+__all__ = ["pull_off_path", "rigid_tension"]
 
 # Heights of the punch at which the tension is evaluated: least, largest, number.
 _LOWEST, _HIGHEST, _HEIGHTS = 1e-4, 1e6, 500
@@ -41,8 +38,6 @@ _SHARE, _SHARE_OF_FLAT = 0.6, 0.3
 _NEAR = 1.0
 # Ratio of successive central gaps in the search.
 _RATIO = 1.2
-# A smaller rise of the load is the error of Newton's method, or of two meshes at one state.
-_RISE = 1e-6
 # Height at which the mesh ends: the error of the closed tail beyond, 1e-6 of the tail, does not affect a bracket.
 _END = 1e3
 # A step is rejected only if the tangent turns by more than 60 degrees, because `completed` finds folds between points.
@@ -50,16 +45,11 @@ _END = 1e3
 _TRACKING = Tracking(newton=1e-3, largest_turn=0.5, prescribed=True)
 
 
-@dataclass
-class PullOffEnd:
-    """Condition that ends the path: the center is compressed and the load has risen."""
-
-    load: float = math.inf
-
-    def __call__(self, state: State) -> bool:
-        compressed = state.follows_edge and float(state.disc.problem.law.traction(np.array(state.central_gap))) > 0.0
-        before, self.load = self.load, state.load
-        return compressed and self.load > before + _RISE * (1.0 + abs(state.load))
+def _rises(state: State) -> bool:
+    """Whether the center is compressed and the load rises along the path, beyond its minimum."""
+    if not state.follows_edge or float(state.disc.problem.law.traction(np.array(state.central_gap))) <= 0.0:
+        return False
+    return state.orientation * rates_of(state).load > 0.0
 
 
 class _RigidSolid:
@@ -132,7 +122,7 @@ def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
         points = path_until(
             problem,
             *meshes.path,
-            PullOffEnd(),
+            _rises,
             "a load minimum",
             start_gap=start,
             end_height=meshes.end_height if problem.punch.growth > STEEP else min(_END, meshes.end_height),
