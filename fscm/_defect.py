@@ -184,9 +184,9 @@ class Defect:
         """Derivatives of a functional by the unknowns."""
         system = self._system
         if name == "load":
-            return np.concatenate([system.load_row, [system.load_slope, system.load_scale]])
+            return system.load_gradient
         if name == "central_gap":
-            return np.concatenate([system.axis_gap_row, [-system.axis_gap_slope, system.axis_gap_scale]])
+            return system.axis_gap_gradient
         if name == "energy":
             return self._energy_gradient()
         unit = np.zeros(len(self._area) + 2)

@@ -309,7 +309,6 @@ class Linearisation:
         d, problem = s.disc, s.disc.problem
         K = d.stiffness_scale(s.scale)
         slope = problem.law.slope(s.gap)
-        mesh = d.mesh
         k = problem.k
         rise = d.rise(s.radius)
         if s.lift is None:
@@ -325,16 +324,8 @@ class Linearisation:
         # Derivatives of the anchor by delta and log c.
         self._anchor_ends = 0.0, 0.0 if s.follows_edge else 1.0
         self.anchor = float(d.edge @ s.gap) - s.gap_at_edge if s.follows_edge else 0.0
-        area = 2.0 * s.scale**2 * mesh.weights * mesh.nodes
-        self.load_row = area * slope
-        self.load_slope = s.tail.load_slope
-        self.load_scale = 2.0 * (s.load - s.tail.load) + s.tail.load_rate
-        self.axis_gap_row = K * d.axis_response(s.scale) * slope
-        self.axis_gap_slope = 1.0 - s.tail.displacement_slope
-        self.axis_gap_scale = (1.0 - k) * (
-            s.central_gap + s.displacement - s.tail.displacement
-        ) + s.tail.displacement_rate
-        self.axis_gap_scale += float(axis_growth)
+        self._growth_on_axis = float(axis_growth)
+        self._slope, self._rise = slope, rise
         if s.lift is not None:
             self._unknown_is_lift(s.lift, K * slope, rise, (1.0 - k) * elastic + growth)
 
@@ -348,10 +339,30 @@ class Linearisation:
             edge = np.array([s.scale])
             self.anchor = float(d.height(edge)[0] - s.displacement + d.edge @ lift) - s.gap_at_edge
             self._anchor_ends = -1.0, float(d.rise(edge)[0])
-        self.load_slope -= float(self.load_row.sum())
-        self.load_scale += float(self.load_row @ rise)
-        self.axis_gap_slope += float(self.axis_gap_row.sum())
-        self.axis_gap_scale += float(self.axis_gap_row @ rise)
+
+    @cached_property
+    def load_gradient(self) -> Array:
+        """Derivatives of the load by the unknowns, shape (N + 2,)."""
+        s, mesh = self.state, self.state.disc.mesh
+        area = 2.0 * s.scale**2 * mesh.weights * mesh.nodes
+        by_scale = 2.0 * (s.load - s.tail.load) + s.tail.load_rate
+        return self._by_unknowns(area * self._slope, s.tail.load_slope, by_scale)
+
+    @cached_property
+    def axis_gap_gradient(self) -> Array:
+        """Derivatives of the central gap by the unknowns, shape (N + 2,)."""
+        s, d = self.state, self.state.disc
+        row = d.stiffness_scale(s.scale) * d.axis_response(s.scale) * self._slope
+        elastic = s.central_gap + s.displacement - s.tail.displacement
+        by_scale = (1.0 - d.problem.k) * elastic + s.tail.displacement_rate + self._growth_on_axis
+        return self._by_unknowns(row, -(1.0 - s.tail.displacement_slope), by_scale)
+
+    def _by_unknowns(self, by_gap: Array, by_displacement: float, by_scale: float) -> Array:
+        """Derivatives by the gaps, delta and log c as those by the unknowns, which are w for a steep punch."""
+        if self.state.lift is not None:
+            by_displacement -= float(by_gap.sum())
+            by_scale += float(by_gap @ self._rise)
+        return np.concatenate([by_gap, [by_displacement, by_scale]])
 
     def bordered(self) -> Array:
         """The bordered matrix in Fortran order, shape (N + 2, N + 2); its last row is not set."""
@@ -395,11 +406,12 @@ class Linearisation:
 
     def row(self, control: Control) -> Array:
         """Derivatives of the left side of a control by the unknowns, shape (N + 2,)."""
-        N = len(self.residual)
-        row = np.empty(N + 2)
-        row[:N] = control.gap * self.axis_gap_row + control.load * self.load_row
-        row[N] = control.displacement - control.gap * self.axis_gap_slope + control.load * self.load_slope
-        row[N + 1] = control.log_scale + control.gap * self.axis_gap_scale + control.load * self.load_scale
+        row = np.zeros(len(self.residual) + 2)
+        row[-2:] = control.displacement, control.log_scale
+        if control.gap:
+            row += control.gap * self.axis_gap_gradient
+        if control.load:
+            row += control.load * self.load_gradient
         return row
 
     def factor(self, control: Control) -> BorderedFactor:
@@ -416,26 +428,20 @@ class Linearisation:
     def violation(self, control: Control) -> float:
         """Left side of the control minus its value."""
         s = self.state
-        return (
-            control.gap * s.central_gap
-            + control.displacement * s.displacement
-            + control.load * s.load
-            + control.log_scale * math.log(s.scale)
-            - control.value
-        )
+        terms = (control.gap, "central_gap"), (control.displacement, "displacement"), (control.load, "load")
+        left = sum(float(weight * getattr(s, name)) for weight, name in terms if weight)
+        return left + control.log_scale * math.log(s.scale) - control.value
 
     def rates(self, control: Control) -> Rates:
         """Derivatives along the path by the left side of the control."""
         N = len(self.residual)
         x = self._tangent(self.row(control))
         dH, dd, dc = x[:N], float(x[N]), float(x[N + 1])
-        return Rates(
-            dH,
-            dd,
-            dc,
-            float(self.axis_gap_row @ dH) - self.axis_gap_slope * dd + self.axis_gap_scale * dc,
-            float(self.load_row @ dH) + self.load_slope * dd + self.load_scale * dc,
+        central_gap, load = (
+            float(gradient[:N] @ dH) + float(gradient[N]) * dd + float(gradient[N + 1]) * dc
+            for gradient in (self.axis_gap_gradient, self.load_gradient)
         )
+        return Rates(dH, dd, dc, central_gap, load)
 
     def _tangent(self, row: Array) -> Array:
         """Tangent with unit product with a row, by the factors of a neighbouring state and corrections, or new ones."""
