@@ -40,9 +40,9 @@ def held(**values: float) -> str:
     return ", ".join(f"{_SYMBOLS[name]} = {value:g}" for name, value in values.items())
 
 
-def gradient(k: float) -> str:
-    """Name of a gradient exponent in a legend."""
-    return held(k=k) + (" (Gibson)" if k == 1.0 else "")
+def label_of(name: str, value: float) -> str:
+    """Return the label of a line for one value of a parameter."""
+    return held(**{name: value}) + (" (Gibson)" if (name, value) == ("k", 1.0) else "")
 
 
 def panels(
@@ -85,8 +85,7 @@ def lines_by(
 ) -> None:
     """Draw a line for each value of a parameter."""
     for index, (value, rows) in enumerate(table.groupby(name)):
-        text = label + (gradient(value) if name == "k" else held(**{name: value}))
-        axes.plot(rows[x], scale * rows[y], **{"label": text} | dashed(index) | style)
+        axes.plot(rows[x], scale * rows[y], **{"label": label + label_of(name, value)} | dashed(index) | style)
 
 
 def crosses(axes: Axes, x: Any, y: Any, **style: Any) -> None:

@@ -6,13 +6,14 @@ points are not lost.  Bounds on numerical errors are named ``u_...``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from functools import wraps
 from operator import attrgetter
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
@@ -20,6 +21,8 @@ from comparisons.model import FARTHEST_GAP, ComputationFailed, HasCurve, HasProf
 from comparisons.models.gibson_limit import gibson_profile
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from comparisons.models.solver import translated
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.paper_figure import Plan, rows_of
 from comparisons.problem import Problem
 from comparisons.registry import create
 from comparisons.runs.tasks import evaluate
@@ -94,6 +97,14 @@ def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
     """
     row = evaluate(create(model), name, Problem.dimensionless(n, k, mu))
     return {name: getattr(row, name) for name in ("value", "u_num", "status", "reason")}
+
+
+def values_of(name: str, cases: Iterable[tuple[str, float, float, float]]) -> Plan[pd.DataFrame]:
+    """Plan the table of a quantity for models, n, k and mu."""
+    return rows_of(
+        ({"model": model, "n": n, "k": k, "mu": mu}, CachedCall.of(quantity, model, name, n, k, mu))
+        for model, n, k, mu in cases
+    )
 
 
 @_with_status()

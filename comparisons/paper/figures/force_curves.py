@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered
 from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import LABELS, by_model, crosses, gradient, held, legend_below, level, of_model, panels
+from comparisons.paper.drawing import LABELS, by_model, crosses, held, label_of, legend_below, level, of_model, panels
 from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, together
 from comparisons.paper.statements.paths import turning_points
 from comparisons.paper.tasks import GRADIENTS, curve, named_points, quantity
@@ -127,8 +127,8 @@ def _family(axes: Axes, table: pd.DataFrame, name: str, ranges: tuple[Range, Ran
     for index, (value, path) in enumerate(table.groupby(name)):
         # Dashes would hide folds; markers at equal distances tell the curves apart in grey.
         marked: Any = {"color": COLOURS[index], "marker": MARKERS[index], "markevery": (0.03 * (1 + index), 0.24)}
-        label = gradient(value) if name == "k" else held(mu=value)
-        axes.plot(path["displacement"], path["load"], ms=3.0, mfc="white", lw=1.0, label=label, **marked)
+        marked |= {"ms": 3.0, "mfc": "white", "lw": 1.0, "label": label_of(name, value)}
+        axes.plot(path["displacement"], path["load"], **marked)
     level(axes)
     axes.set(xlim=ranges[0], ylim=ranges[1])
 

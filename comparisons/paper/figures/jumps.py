@@ -10,11 +10,10 @@ from matplotlib.figure import Figure
 
 from comparisons.models.semi_rigid import jump_in_coefficient
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
-from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, crosses, dashed, held, legend_below, level, lines_by, of_model, panels
 from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, table_of, together
 from comparisons.paper.statements.measures import named, table_of_terms
-from comparisons.paper.tasks import GRADIENTS, SHAPES, jumps, near_critical, quantity
+from comparisons.paper.tasks import GRADIENTS, SHAPES, jumps, near_critical, quantity, values_of
 
 __all__ = ["TABOR_NUMBERS", "asymptotes", "coefficients"]
 
@@ -29,7 +28,7 @@ _INSET_RANGES = {"displacement": (-1.7, -1.1), "gap": (0.0, 0.6)}
 _NAMED_AT = 3.5
 _OFFSETS = {"displacement": ((12, 10), (32, 2)), "gap": ((-28, 10), (-75, 6))}
 #: A Tabor number at which the gradient exponent decides whether there are jumps, and the cases shown.
-_ONSET = [(model, k, 0.74) for model in ("fscm", "fem") for k in (0.0, 0.4)]
+_ONSET = [(model, _N, k, 0.74) for model in ("fscm", "fem") for k in (0.0, 0.4)]
 #: Reference, n and mu at which the deformation is shown.
 _DEFORMED = [
     *(("fscm", n, mu) for n in SHAPES for mu in (1.25, 1.5, 2.0, 3.0, 5.0)),
@@ -172,11 +171,7 @@ def _draw_onset(figure: Figure, table: pd.DataFrame, energies: pd.DataFrame) -> 
 @paper_figure(_draw_onset, size=(5.0, 3.6))
 def finding_onset() -> Plan[Tables]:
     """Onset of hysteresis over the gradient exponent at n = 2."""
-    energies = (
-        ({"model": model, "n": _N, "k": k, "mu": mu}, CachedCall.of(quantity, model, "hysteresis_energy", _N, k, mu))
-        for model, k, mu in _ONSET
-    )
-    return together({"": _onsets(), "energies": rows_of(energies)})
+    return together({"": _onsets(), "energies": values_of("hysteresis_energy", _ONSET)})
 
 
 def _onsets() -> Plan[pd.DataFrame]:

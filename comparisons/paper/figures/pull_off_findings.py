@@ -6,13 +6,10 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
-from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, crosses, dashed, held, legend_below, level, lines_by, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure, rows_of, together
+from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, rows_of, together
 from comparisons.paper.statements.measures import named, table_of_terms
 from comparisons.paper.tasks import COHESIVE, GRADIENTS, SHAPES, quantity
-
-__all__: list[str] = []
 
 _K = 0.4
 #: Reference, n and mu of the errors.
@@ -73,13 +70,7 @@ def _draw_falls_first(figure: Figure, table: pd.DataFrame) -> None:
 @paper_figure(_draw_falls_first)
 def finding_falls_first() -> Plan[Tables]:
     """Pull-off force and its displacement at n = 1.5, which fall before they rise."""
-    calls = (
-        (
-            {"model": model, "quantity": name, "n": _FALLING_N, "k": k, "mu": mu},
-            CachedCall.of(quantity, model, name, _FALLING_N, k, mu),
-        )
-        for model, name, k, mu in _FALLING
-    )
+    calls = (keyed(quantity, model=model, quantity=name, n=_FALLING_N, k=k, mu=mu) for model, name, k, mu in _FALLING)
     return together({"": rows_of(calls)})
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -16,10 +16,9 @@ from scipy.interpolate import CubicSpline
 from comparisons.output.errors import relative_error
 from comparisons.output.figures.of_run import kappa_handles, kappa_panels
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered
-from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import LABELS, by_model, dashed, gradient, held, legend_below, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure, rows_of, together
-from comparisons.paper.tasks import GRADIENTS, quantity
+from comparisons.paper.drawing import LABELS, by_model, dashed, held, label_of, legend_below, level, of_model, panels
+from comparisons.paper.paper_figure import Plan, Tables, paper_figure, together
+from comparisons.paper.tasks import GRADIENTS, values_of
 
 __all__ = ["TABOR_NUMBERS", "by_limit"]
 
@@ -43,13 +42,6 @@ _TICKS = {
 }
 
 
-def _forces(cases: Iterable[tuple[str, float, float, float]]) -> Plan[pd.DataFrame]:
-    return rows_of(
-        ({"model": model, "n": n, "k": k, "mu": mu}, CachedCall.of(quantity, model, "pull_off_force", n, k, mu))
-        for model, n, k, mu in cases
-    )
-
-
 def _log_forces(axes: Axes, low: float, high: float) -> None:
     """A logarithmic axis with plain numbers: 2, not 2 x 10^0."""
     axes.set(yscale="log", ylim=(low, high))
@@ -66,7 +58,7 @@ def _transition(figure: Figure, table: pd.DataFrame) -> None:
     for axes, (n, limits) in zip(lattice, _SHAPES.items(), strict=True):
         fscm, jkr, bradley = of_model(forces[forces["n"] == n], "fscm", "jkr", "bradley")
         for index, (k, line) in enumerate(fscm.groupby("k")):
-            axes.plot(*_smooth(line), label=f"FSCM, {gradient(k)}", **dashed(index))
+            axes.plot(*_smooth(line), label=f"FSCM, {label_of('k', k)}", **dashed(index))
             axes.plot("mu", "value", data=jkr[jkr["k"] == k], color=COLOURS[index], label="_", **thin)
         axes.plot(bradley["mu"], bradley["value"], color="0.5", ls="--", lw=0.9, label=MODEL_NAMES["bradley"])
         axes.plot([], [], color=COLOURS[0], **thin, label=f"{MODEL_NAMES['jkr']}, colours as FSCM")
@@ -86,12 +78,13 @@ def _smooth(forces: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
 def fig10_transition() -> Plan[Tables]:
     """Pull-off force from the Bradley to the JKR limit."""
     gradients = (*GRADIENTS, 1.0)
-    table = yield from _forces(
+    table = yield from values_of(
+        "pull_off_force",
         [
             *product(("fscm",), _SHAPES, gradients, _TRANSITION),
             *product(("jkr",), _SHAPES, gradients, (_JKR_FROM, _ENDS[1])),
             *product(("bradley",), _SHAPES, (0.0,), _ENDS),
-        ]
+        ],
     )
     return {"": table.sort_values(["model", "n", "k", "mu"], ignore_index=True)}
 
@@ -99,7 +92,8 @@ def fig10_transition() -> Plan[Tables]:
 def _of_models(*limits: str) -> Plan[pd.DataFrame]:
     """Forces of the three models, then those of limiting ones."""
     models = [*product(_SHAPES, ("fscm", "md-original", "md-improved")), *product(_SHAPES, limits)]
-    table = yield from _forces((model, n, _K, mu) for (n, model), mu in product(models, TABOR_NUMBERS))
+    cases = [(model, n, _K, mu) for (n, model), mu in product(models, TABOR_NUMBERS)]
+    table = yield from values_of("pull_off_force", cases)
     columns = ["n", "k", "mu", "model", "value", "u_num", "status", "reason"]
     return table[columns].astype({"value": float, "u_num": float})
 
@@ -119,11 +113,11 @@ def by_limit(limit: str) -> Plan[Tables]:
     return {"": scaled, "kappa": kappa[["quantity", "n", "k", "mu", "model", "kappa", "u_kappa"]]}
 
 
-def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str, draw: Callable[..., None]) -> None:
+def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str) -> None:
     words = [held(n=n, k=_K) for n in _SHAPES]
     lattice = panels(figure, 2, 2, words, LABELS["mu"], label, sharex=True)
     for axes, (_, of_shape) in zip(lattice, table.groupby("n"), strict=True):
-        draw(axes, of_shape)
+        _limits(axes, of_shape, y)
         by_model(axes, of_shape, "mu", y)
         forces_of_models = of_shape.loc[of_shape["model"].isin(MODEL_LINES), y]
         axes.set(xscale="log", xlim=(0.008, 12.0))
@@ -133,29 +127,23 @@ def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str, d
     legend_below(figure, 5)
 
 
-def _with_limits(figure: Figure, table: pd.DataFrame) -> None:
-    def limits(axes: Axes, of_shape: pd.DataFrame) -> None:
-        for name, dashes in (("bradley", "-."), ("jkr", ":")):
-            (line,) = of_model(of_shape, name)
-            axes.plot(line["mu"], line["value"], color="0.55", lw=0.9, ls=dashes, label=MODEL_NAMES[name])
+def _limits(axes: Axes, table: pd.DataFrame, y: str) -> None:
+    """Draw the limiting models; a ratio to one of them has the limit 1."""
+    if y == "ratio":
+        level(axes, 1.0, color="0.55", lw=0.9, ls="-.")
+        return
+    for name, dashes in (("bradley", "-."), ("jkr", ":")):
+        (line,) = of_model(table, name)
+        axes.plot(line["mu"], line[y], color="0.55", lw=0.9, ls=dashes, label=MODEL_NAMES[name])
 
-    _panels_of_models(figure, table, "value", LABELS["force"], limits)
 
-
-@paper_figure(_with_limits, size=(7.2, 5.6))
+@paper_figure(partial(_panels_of_models, y="value", label=LABELS["force"]), size=(7.2, 5.6))
 def fig14_pull_off_models() -> Plan[Tables]:
     """Pull-off force of the original and improved Maugis-Dugdale models and of the FSCM, k = 0.4."""
     return together({"": _of_models("bradley", "jkr")})
 
 
-def _by_rigid(figure: Figure, table: pd.DataFrame) -> None:
-    def limit(axes: Axes, of_shape: pd.DataFrame) -> None:
-        axes.axhline(1.0, color="0.55", lw=0.9, ls="-.")
-
-    _panels_of_models(figure, table, "ratio", r"$P_c/P_c^{\mathrm{Bradley}}$", limit)
-
-
-@paper_figure(_by_rigid, size=(7.2, 5.6))
+@paper_figure(partial(_panels_of_models, y="ratio", label=r"$P_c/P_c^{\mathrm{Bradley}}$"), size=(7.2, 5.6))
 def fig15_pull_off_by_rigid_limit() -> Plan[Tables]:
     """Pull-off force scaled by the rigid (Bradley) limit, k = 0.4."""
     tables = yield from by_limit("bradley")

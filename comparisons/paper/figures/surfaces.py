@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,8 +15,6 @@ from comparisons.output.style import COLOURS, MODEL_LINES, MODEL_NAMES
 from comparisons.paper.drawing import LABELS, by_model, held, legend_below, level, lines_by, of_model, panels
 from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, table_of, together
 from comparisons.paper.tasks import COHESIVE, GRADIENTS, cohesive_surface, profile, quantity, surface
-
-__all__: list[str] = []
 
 _TABOR_NUMBERS = (0.1, 0.3, 0.5, 1.0, 2.0, 3.0)
 _N, _K, _MU = 2.0, 0.4, 1.0
@@ -50,21 +49,17 @@ def _draw(figure: Figure, table: pd.DataFrame, name: str, words: str, farthest: 
     legend_below(figure, 4)
 
 
-def _over_tabor_numbers(figure: Figure, table: pd.DataFrame) -> None:
-    _draw(figure, table, "mu", held(n=_N, k=_K), 5.0, 6.2)
-
-
-@paper_figure(_over_tabor_numbers, size=(7.2, 3.7), follows_path=True)
+@paper_figure(
+    partial(_draw, name="mu", words=held(n=_N, k=_K), farthest=5.0, top=6.2), size=(7.2, 3.7), follows_path=True
+)
 def fig05_pull_off_over_tabor_numbers() -> Plan[Tables]:
     """Surface and pressure at pull-off for n = 2, k = 0.4, over the Tabor number."""
     return _surfaces((_K, mu) for mu in _TABOR_NUMBERS)
 
 
-def _over_gradients(figure: Figure, table: pd.DataFrame) -> None:
-    _draw(figure, table, "k", held(n=_N, mu=_MU), 4.0, 2.0)
-
-
-@paper_figure(_over_gradients, size=(7.2, 3.7), follows_path=True)
+@paper_figure(
+    partial(_draw, name="k", words=held(n=_N, mu=_MU), farthest=4.0, top=2.0), size=(7.2, 3.7), follows_path=True
+)
 def fig07_pull_off_over_gradients() -> Plan[Tables]:
     """Surface and pressure at pull-off for n = 2, mu = 1, over the gradient exponent."""
     return _surfaces((k, _MU) for k in (*GRADIENTS, 1.0))

@@ -7,6 +7,7 @@ beyond -z0, so no divisor is small, and an experiment measures this displacement
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -159,33 +160,20 @@ def _draw_pull_off(figure: Figure, table: pd.DataFrame, across: str, fixed: str,
     _finish(figure, "pull-off force")
 
 
-def _draw_shapes(figure: Figure, table: pd.DataFrame) -> None:
-    _draw_pull_off(figure, table, "n", "k", (0.0, 0.4))
-
-
-@paper_figure(_draw_shapes, size=(7.2, 10.4))
+@paper_figure(partial(_draw_pull_off, across="n", fixed="k", values=(0.0, 0.4)), size=(7.2, 10.4))
 def error_maps_shape() -> Plan[Tables]:
     """Error of the pull-off force of the closed forms over shape index and Tabor number."""
     return together({"": errors_along(_SHAPES, ["pull_off_force"])})
 
 
-def _draw_gradients(figure: Figure, table: pd.DataFrame) -> None:
-    _draw_pull_off(figure, table, "k", "n", (1.5, 2.0))
-
-
-@paper_figure(_draw_gradients, size=(7.2, 10.4))
+@paper_figure(partial(_draw_pull_off, across="k", fixed="n", values=(1.5, 2.0)), size=(7.2, 10.4))
 def error_maps_gradient() -> Plan[Tables]:
     """Error of the pull-off force of the closed forms over gradient exponent and Tabor number."""
     return together({"": errors_along(_GRADIENTS, ["pull_off_force"])})
 
 
 def _draw_jumps(figure: Figure, table: pd.DataFrame) -> None:
-    rows = [
-        ("n", "k", 0.0, _SHAPES),
-        ("n", "k", 0.4, _SHAPES),
-        ("k", "n", 1.5, _GRADIENTS),
-        ("k", "n", 2.0, _GRADIENTS),
-    ]
+    rows = [("n", "k", k, _SHAPES) for k in (0.0, 0.4)] + [("k", "n", n, _GRADIENTS) for n in (1.5, 2.0)]
     words = [f"{name}, {held(**{fixed: value})}" for _, fixed, value, _ in rows for name in _JUMPS.values()]
     lattice = panels(figure, len(rows), 2, words, y=LABELS["mu"], sharey=True)
     for axes, ((across, fixed, value, lines), model) in zip(lattice, product(rows, _JUMPS), strict=True):

@@ -14,6 +14,7 @@ FSCM: the homogeneous solid of the surface, the solid at great depth, and the eq
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import product
 from typing import Any, NamedTuple
 
@@ -159,7 +160,7 @@ def by_fscm(kind: str, parameter: float) -> Json:
     >>> round(value, 6), u_num < 1e-7
     (1.42152, True)
     """
-    return _solved(case_of(kind, parameter).problem.posed)
+    return _events(fscm, case_of(kind, parameter).problem.posed, QUANTITIES)
 
 
 def of_power_law(k: float, mu: float) -> Json:
@@ -170,14 +171,15 @@ def of_power_law(k: float, mu: float) -> Json:
     >>> round(of_power_law(0.0, 1.0)["pull_off_force"][0], 8)
     1.67066478
     """
-    return _solved(fscm.Problem(_N, k, mu))
+    return _events(fscm, fscm.Problem(_N, k, mu), QUANTITIES)
 
 
-def _solved(problem: fscm.Problem) -> Json:
-    with translated(fscm.NoSuchEvent, fscm.NotConverged):
-        events = fscm.solve_together(problem, QUANTITIES)
+def _events(solver: Any, problem: Any, names: Sequence[str], *accuracy: str) -> Json:
+    """By quantity value and bound in the units of the solver, or the reason why there is no such event."""
+    with translated(solver.NoSuchEvent, solver.NotConverged):
+        events = solver.solve_together(problem, names, *accuracy)
     return {
-        name: str(event) if isinstance(event, fscm.NoSuchEvent) else [event.value, event.u_num]
+        name: str(event) if isinstance(event, solver.NoSuchEvent) else [event.value, event.u_num]
         for name, event in events.items()
     }
 
@@ -203,14 +205,11 @@ def by_elements(event: str, kind: str, parameter: float) -> Json:
     'the displacement rises all along the path: this solid is too stiff for jumps'
     """
     problem = case_of(kind, parameter).problem
-    with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-        events = fem_reference.solve_together(problem.build(fem_reference), EVENTS[event], "quick")
-    return {
-        name: str(solution)
-        if isinstance(solution, fem_reference.NoSuchEvent)
-        else [number / problem.units[_UNITS.get(name, "displacement")] for number in (solution.value, solution.u_num)]
-        for name, solution in events.items()
-    }
+    events = _events(fem_reference, problem.build(fem_reference), EVENTS[event], "quick")
+    for name, result in events.items():
+        if not isinstance(result, str):
+            events[name] = [number / problem.units[_UNITS.get(name, "displacement")] for number in result]
+    return events
 
 
 def equivalent_of(kind: str, parameter: float) -> tuple[float, float]:

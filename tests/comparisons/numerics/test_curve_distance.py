@@ -12,22 +12,18 @@ def s_curve(m, shift=0.0):
     return t**3 - t, t + shift
 
 
-def test_a_curve_is_at_no_distance_from_itself_however_it_is_sampled():
-    distance = curve_distance(*s_curve(37), *s_curve(301))
-    assert distance.value < 1e-7
-    assert distance.value <= 3 * distance.u_interpolation
-
-
 def test_the_interpolation_error_is_bounded_and_of_fourth_order():
     distances = [curve_distance(*s_curve(97), *s_curve(m)) for m in (21, 41, 81)]
     assert all(distance.value <= distance.u_interpolation for distance in distances)
-    assert distances[0].u_interpolation / distances[1].u_interpolation > 8
-    assert distances[1].u_interpolation / distances[2].u_interpolation > 8
+    bounds = [distance.u_interpolation for distance in distances]
+    assert min(bounds[0] / bounds[1], bounds[1] / bounds[2]) > 8
 
 
 def test_a_shifted_line_is_at_its_perpendicular_distance():
     x, longer = np.linspace(0.0, 2.0, 30), np.linspace(-1.0, 3.0, 81)
     distance = curve_distance(x, 3.0 * x + 0.6, longer, 3.0 * longer)
+    # What is outside the common range of x does not count.
+    assert curve_distance(longer, 3.0 * longer, x, 3.0 * x).value < 1e-12
     # Scaled by the ranges 2 and 6 the lines have slope 1 and are 0.1 apart, seen from the vertical.
     assert distance.value == pytest.approx(0.1 / np.sqrt(2), rel=1e-9)
 
@@ -39,11 +35,6 @@ def test_units_of_the_axes_do_not_matter():
     assert scaled.value == pytest.approx(plain.value, rel=1e-9)
     reversed_ = curve_distance(a[0][::-1], a[1][::-1], *b)
     assert reversed_.value == pytest.approx(plain.value, rel=1e-12)
-
-
-def test_only_the_common_range_counts():
-    x, longer = np.linspace(0, 1, 30), np.linspace(-5, 5, 301)
-    assert curve_distance(longer, longer**2, x, x**2).value < 1e-6
 
 
 def test_a_branch_that_is_left_out_is_far_off():

@@ -49,6 +49,9 @@ def test_without_a_run_it_names_fscm_bench_and_the_paper():
     assert cited["fscm-bench"]["author"] == "{The fscm-bench developers}"
     assert cited["fscm-bench"]["note"] == "version 1.2.3"
     assert cited["zhu-adhesion"]["author"].startswith("Zhu, Yudong and ")
+    work = Work("a", {"author": "A, B. and others", "title": "T", "journal": "J", "year": "2022", "doi": "10.1/x_y"})
+    assert work.text() == "A, B. et al. T. J (2022). doi:10.1/x_y."
+    assert "doi = {10.1/x_y}" in work.bibtex()
 
 
 def test_a_run_names_its_versions_and_models():
@@ -72,9 +75,3 @@ def test_the_paragraph_states_model_reference_bound_and_versions():
         "2.4.6",
     )
     assert [fact for fact in facts if fact not in text] == []
-
-
-def test_a_paper_with_journal_year_and_doi():
-    work = Work("a", {"author": "A, B. and others", "title": "T", "journal": "J", "year": "2022", "doi": "10.1/x_y"})
-    assert work.text() == "A, B. et al. T. J (2022). doi:10.1/x_y."
-    assert "doi = {10.1/x_y}" in work.bibtex()

@@ -59,13 +59,10 @@ def test_the_unstable_section_of_a_curve_is_thin():
     marks = {"stable_under_displacement": [1.0, 1.0, 0.0, 0.0, 0.0, 1.0]}
     points = {"a": Points(x.tolist(), (-x).tolist(), 0.0, marks), "b": Points(x.tolist(), x.tolist(), 0.0)}
     axes = curves.draw(points, CURVES["force_curve"], "n = 2").axes[0]
-    lines = axes.get_lines()[:4]
-    assert [line.get_xdata().tolist() for line in lines] == [[0, 1, 2], [2, 3, 4], [4, 5], x.tolist()]
-    widths = [line.get_linewidth() for line in lines]
+    widths = [line.get_linewidth() for line in axes.get_lines()[:4]]
     assert widths[1] < widths[0] == widths[2] == widths[3]
     texts = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert texts[:2] == ["a", "b"]
-    assert "unstable" in texts[2]
+    assert (texts[:2], "unstable" in texts[2]) == (["a", "b"], True)
 
 
 @pytest.mark.parametrize("suffix", FORMATS)

@@ -18,7 +18,6 @@ from comparisons.paper.statements.evidence import (
     Evidence,
     Number,
     by_clause,
-    clauses,
     flips,
     flips_text,
     verdict_at,
@@ -38,7 +37,6 @@ def comparison(value, limit=0.0, u=0.0, u_limit=0.0, relation="<", model="fscm",
         (1.0, 0.7, 0.25, FAILS),
         # Both bounds are added, and a difference equal to their sum decides nothing.
         (-1.0, 0.75, 0.25, UNDECIDED),
-        (1.0, 0.75, 0.25, UNDECIDED),
         (math.nan, 0.0, 0.0, UNDECIDED),
         (-1.0, math.nan, 0.0, UNDECIDED),
     ],
@@ -59,22 +57,6 @@ def test_each_clause_model_and_kind_of_limit_keeps_the_largest_failure_before_wh
         by_clause([])
 
 
-@pytest.mark.parametrize(
-    ("values", "outcome"),
-    [
-        ({"fscm": 1.0}, UNDECIDED),
-        ({"fem": 1.0}, UNDECIDED),
-        ({"fscm": 1.0, "fem": 1.0}, FAILS),
-        ({"fscm": 1.0, "fem": -1.0}, UNDECIDED),
-        ({"fscm": -1.0, "fem": -1.0}, HOLDS),
-        ({"formula": 1.0}, FAILS),
-        ({"fscm-stieltjes": -1.0}, HOLDS),
-    ],
-)
-def test_a_failure_needs_both_references(values, outcome):
-    assert clauses(comparison(value, model=model) for model, value in values.items()) == {"n = 2": outcome}
-
-
 def read(*values, limit=2.0, relation="<", u=0.0, title=READING):
     return [
         comparison(value, limit, u, relation=relation, clause=f"mu = {i}", title=title)
@@ -87,7 +69,6 @@ def read(*values, limit=2.0, relation="<", u=0.0, title=READING):
     [
         (read(3.0, 5.0), {IN_PART: 1.5, TRUE: 2.5}),
         (read(1.0, 5.0), {FALSE: 0.5, TRUE: 2.5}),
-        (read(1.0, 0.5), {IN_PART: 0.5, FALSE: 0.25}),
         (read(3.0, relation=">"), {FALSE: 1.5}),
         # Within its bound nothing is decided.
         (read(3.0, u=0.5), {TRUE: 1.75}),
@@ -102,12 +83,11 @@ def test_the_nearest_factor_of_every_other_verdict(evidence, expected):
 
 
 @pytest.mark.parametrize(
-    ("value", "text"),
-    [(3.262, "true above x 1.64"), (2.0006817, "true above x 1.00035"), (72.8, "true above x 36.4"), (1e-9, NO_FLIP)],
+    ("value", "u", "text"),
+    [(3.262, 0.0, "true above x 1.64"), (72.8, 0.0, "true above x 36.4"), (1e-9, 1.0, NO_FLIP)],
 )
-def test_a_factor_is_rounded_away_from_one(value, text):
-    assert flips_text(read(value, u=1.0 if value < 1.0 else 0.0)) == text
-    assert flips_text(read(1.0, title="")) == ""
+def test_a_factor_is_rounded_away_from_one(value, u, text):
+    assert flips_text(read(value, u=u)) == text
 
 
 def sequence(function, u=0.0):
@@ -128,41 +108,30 @@ def test_a_power_has_its_limit_whose_bound_is_that_of_the_members():
 
 
 @pytest.mark.parametrize(
-    ("function", "u", "outcomes"),
-    [
-        (lambda mu: -3.0 / mu, 0.0, {HOLDS}),
-        (lambda mu: 0.05 + 3.0 / mu, 0.0, {HOLDS, FAILS}),
-        # It passes through zero and grows again.
-        (lambda mu: 0.1 - 3.0 / mu, 0.0, {HOLDS, FAILS}),
-        (lambda mu: mu / 100.0, 0.0, {HOLDS, FAILS}),
-        (lambda mu: 3.0 / mu, 1.0, {UNDECIDED}),
-    ],
+    ("end", "u", "outcomes"),
+    # The last passes through zero and grows again.
+    [(0.0, 0.0, {HOLDS}), (0.0, 1.0, {UNDECIDED}), (-0.05, 0.0, {HOLDS, FAILS}), (0.1, 0.0, {HOLDS, FAILS})],
 )
-def test_only_what_falls_to_zero_vanishes(function, u, outcomes):
-    rows = vanishes("n = 2", sequence(function, u), Number(1e-3, 0.0, READING))
+def test_only_what_falls_to_zero_vanishes(end, u, outcomes):
+    rows = vanishes("n = 2", sequence(lambda mu: end - 3.0 / mu, u), Number(1e-3, 0.0, READING))
     assert {row.outcome for row in rows} == outcomes
 
 
 @pytest.mark.parametrize(
     ("corners", "turns", "jumps"),
     [
-        ([0, 1], 0, 0),
         # An inner pair within the outer one is passed over both ways.
         ([0, 4, 2, 3, 1, 5], 4, 2),
         # A second maximum above the first stops the machine before it, on the way there or on the way back.
         ([0, 3, 2, 4, 1, 5], 4, 3),
-        ([0, 4, 1, 3, 2, 5], 4, 3),
         ([0, 2, 1, 4, 3, 5], 4, 4),
     ],
 )
 def test_turns_and_jumps_are_those_that_a_machine_sees(corners, turns, jumps):
     path = np.interp(np.linspace(0, len(corners) - 1, 20 * len(corners)), range(len(corners)), corners)
     assert (len(turning_points(path, 2e-3)), count_jumps(path, 2e-3)) == (turns, jumps)
-
-
-def test_a_fall_within_twice_the_bound_is_no_turn():
-    falls = [turning_points(np.array([0.0, 1.0, 1.0 - fall, 2.0]), 0.1) for fall in (0.15, 0.25)]
-    assert falls == [[], [1, 2]]
+    # A fall within twice the bound is no turn.
+    assert [len(turning_points(np.array([0.0, 1.0, 1.0 - fall, 2.0]), 0.1)) for fall in (0.15, 0.25)] == [0, 2]
 
 
 def test_measures_of_a_surface():

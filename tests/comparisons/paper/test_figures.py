@@ -4,15 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import trapezoid
 
 from comparisons.model import NotApplicable
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.paper.figures import force_curves, pull_off_forces
 from comparisons.paper.figures.force_curves import fig03_s_curve, loop
-from comparisons.paper.figures.functions import RATIOS, fig12_surface_laws, kernel_functions
-from comparisons.paper.figures.gradient_effect import chi, insensitive_regions, largest_chi, over_gradients
-from comparisons.paper.figures.jumps import asymptotes, coefficients
 from comparisons.paper.figures.surfaces import fig17_surface_models
 from comparisons.paper.tasks import curve, jumps, near_critical, profile, quantity, surface
 from comparisons.problem import Problem
@@ -29,10 +25,8 @@ def of_model(model, name, *case):
 @pytest.mark.parametrize(
     ("function", "arguments", "status", "reason"),
     [
-        (quantity, ("bradley", "jump_in_gap", 2, 0.4, 1), "not-applicable", "jump_in_gap"),
         (quantity, ("fscm", "pull_off_force", 0.5, 0.4, 1), "failed", "diverges"),
         (curve, ("dmt", 0.4, 0.1, 1), "failed", "shape index"),
-        (profile, ("bradley", 2, 0.4, 1), "not-applicable", "no profile"),
         (profile, ("fscm", 2, 0.4, -1), "failed", "Tabor number"),
     ],
 )
@@ -40,21 +34,6 @@ def test_a_refusal_is_a_result(function, arguments, status, reason):
     result = function(*arguments)
     assert result["status"] == status
     assert reason in result["reason"]
-
-
-def functions(k):
-    return {name: np.array(column, float) for name, column in kernel_functions(k).items()}
-
-
-@pytest.mark.parametrize("k", [0.0, 0.4, 1.0])
-def test_psi_is_phi_less_the_power_and_the_slope_is_the_derivative(k):
-    of_k, positive = functions(k), RATIOS > 0
-    assert of_k["psi"][positive] == pytest.approx((of_k["phi"] - RATIOS ** (1 - k))[positive], abs=1e-13)
-    even = np.flatnonzero(np.isclose(RATIOS, np.round(RATIOS / 0.02) * 0.02, atol=1e-9))
-    s = RATIOS[even]
-    away = (np.abs(s - 1) > 0.3) & (s > 0.1) & (s < 2.9)
-    assert of_k["slope"][even][away] == pytest.approx(np.gradient(of_k["phi"][even], s)[away], rel=5e-3)
-    assert np.isnan(of_k["slope"][RATIOS == 1]).all()
 
 
 def test_the_named_points_are_events_and_their_loop_has_the_area_of_the_energy_lost(made_of):
@@ -114,7 +93,6 @@ def test_the_branches_part_as_at_a_cusp():
     critical = near_critical(2.0, 0.4)
     assert round(critical["mu"], 2) == 0.78
     at_cusp, far = critical["jumps"][0], critical["jumps"][3]
-    assert at_cusp["mu"] / critical["mu"] - 1 == pytest.approx(1e-4, rel=1e-6)
     ratio = (far["mu"] - critical["mu"]) / (at_cusp["mu"] - critical["mu"])
     # Two roots of a square part like its root, and their values like the power 3/2.
     for kind, power, tolerance in (("gap", 0.5, 0.02), ("displacement", 1.5, 0.05)):
@@ -131,68 +109,23 @@ def test_jumps_are_the_quantities_of_the_model_and_there_is_none_below_the_criti
         jumps(2.0, 0.4, 0.7)
 
 
-def test_coefficients_of_the_asymptotes_and_the_asymptotes_beside_the_model():
-    for n in (1.0, 2.0, 5.0):
-        # Sec. 3.3: 8/3 and 2 as k -> 1, whatever n.
-        gibson = [column[-1] for column in coefficients(n).values()]
-        assert gibson == [1.0, pytest.approx(8 / 3), pytest.approx(2)]
-    # Eq. 49, and JKR's (3/4) (pi^2)^(1/3) of a sphere in our units.
-    homogeneous = {name: column[0] for name, column in coefficients(2.0).items()}
-    assert homogeneous["C_in"] == pytest.approx(1.4 * (5 * math.pi / math.sqrt(2)) ** (2 / 7), rel=1e-13)
-    assert homogeneous["C_out"] == pytest.approx(0.75 * math.pi ** (2 / 3), rel=1e-13)
-    closed, exact = asymptotes(2.0, 0.4), jumps(2.0, 0.4, 5.0)
-    assert (closed["mu"][0], closed["mu"][-1]) == (0.05, 5.0)
-    # Measured at mu = 5: Eq. 54 is off by 0.25 %, Eq. 47 by 6 %.
-    assert closed["jump_out_displacement"][-1] == pytest.approx(exact["jump_out_displacement"], rel=3e-3)
-    assert 1.04 < closed["jump_in_displacement"][-1] / exact["jump_in_displacement"] < 1.08
-    # Eq. 46 gives no jump-in at a small Tabor number.
-    assert closed["jump_in_displacement"][0] is None
-
-
 def test_pull_off_forces_tend_to_both_limits_and_kappa_is_that_of_every_scale(made_of, monkeypatch):
     monkeypatch.setattr(pull_off_forces, "TABOR_NUMBERS", (0.01, 10.0))
     monkeypatch.setattr(pull_off_forces, "_SHAPES", (1.0, 2.0))
     rigid, soft = (made_of(lambda limit=limit: pull_off_forces.by_limit(limit)) for limit in ("bradley", "jkr"))
     force, limit = (of_model(model, "pull_off_force", 1.0, 0.4, 10.0) for model in ("fscm", "jkr"))
     row = soft[""].query("model == 'fscm' and n == 1 and mu == 10").iloc[0]
-    assert row["ratio"] == pytest.approx(force.value / limit.value)
-    assert row["u_ratio"] == pytest.approx((force.u_num + row["ratio"] * limit.u_num) / limit.value)
+    u_ratio = (force.u_num + row["ratio"] * limit.u_num) / limit.value
+    assert (row["ratio"], row["u_ratio"]) == pytest.approx((force.value / limit.value, u_ratio))
     ratios = rigid[""].set_index(["model", "n", "mu"])["ratio"]
     assert ratios["md-improved", :, 0.01].to_numpy() == pytest.approx(1.0, abs=0.02)
     # The model that ignores the rigid limit is off there, for the cone by two thirds.
     assert ratios["md-original", 1.0, 0.01] == pytest.approx(1.0 - 0.65, abs=0.01)
     assert soft[""].query("mu == 10")["ratio"].to_numpy() == pytest.approx(1.0, abs=6e-3)
-    for tables in (rigid, soft):
-        kappa = tables["kappa"].set_index(["n", "mu", "model"])["kappa"]
-        ratio = tables[""].pivot(index=["n", "mu"], columns="model", values="ratio")
-        for model in STRESSES:
-            same = ratio[model] / ratio["fscm"] - 1.0
-            np.testing.assert_allclose(same, kappa.xs(model, level="model").loc[same.index], atol=1e-12)
-
-
-def test_chi_of_the_paraboloid_is_a_third_of_the_gradient_and_its_largest_is_found():
-    # Eq. 57 at n = 2: (k + 3) / 2, so that chi = k / 3.
-    line = over_gradients(2.0)
-    np.testing.assert_allclose(line["chi"], np.array(line["k"]) / 3, atol=1e-14)
-    for n in (0.95, 1.5, 5.0):
-        largest, k = largest_chi(n)
-        assert largest == pytest.approx(chi(n, k), rel=1e-12)
-        assert largest >= max(chi(n, 0.01 * step) for step in range(101)) - 1e-14
-    for n in insensitive_regions():
-        assert largest_chi(n)[0] == pytest.approx(0.1, abs=1e-9)
-
-
-def test_three_surface_laws_have_the_same_area(made_of):
-    tables = made_of(fig12_surface_laws)
-    # The 9-3 law from H = 0: the work of adhesion, of which (1/3) 5^-8 - (4/3) 5^-2 is beyond H = 4.
-    exact = tables["laws"].query("model == 'fscm' and gap > -1e-12")
-    assert trapezoid(exact["pressure"], exact["gap"]) == pytest.approx(-1 + 4 / 75, abs=2e-3)
-    for model, stress in STRESSES.items():
-        law = tables["laws"].query(f"model == '{model}'")
-        assert trapezoid(law["pressure"], law["gap"]) == pytest.approx(-1.0, abs=1e-14)
-        assert law["pressure"].min() == -stress
-    assert tables[""]["eta"].is_monotonic_increasing
-    assert tables[""]["eta"].iloc[-1] == pytest.approx(THEORETICAL_STRENGTH, rel=1e-14)
+    kappa = soft["kappa"].pivot(index=["n", "mu"], columns="model", values="kappa")
+    ratio = soft[""].pivot(index=["n", "mu"], columns="model", values="ratio")
+    for model in STRESSES:
+        np.testing.assert_allclose(ratio[model] / ratio["fscm"] - 1.0, kappa[model], atol=1e-12)
 
 
 def test_surfaces_touch_inside_a_and_part_by_the_work_of_adhesion_at_c(made_of):

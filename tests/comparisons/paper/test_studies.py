@@ -4,12 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from scipy.special import beta
 
 import fscm
 from comparisons.paper.studies.error_maps import errors_along
 from comparisons.paper.studies.graded_solids import (
-    OFFSET,
     SERIES,
     by_elements,
     by_fscm,
@@ -22,8 +20,6 @@ from comparisons.paper.tasks import quantity
 from fscm import Coating
 from tests.solvers.layered_jkr import Stack, minima_with_error
 
-#: Distance of k and mu from those of a power law with an offset of 1e-6 L: see the test for how it falls.
-LARGEST_OFFSET = 3e-4
 NU = 0.3
 
 
@@ -63,37 +59,10 @@ def test_a_stored_point_is_computed_again_by_the_finite_elements(committed):
     assert abs(value - row["fem"]) <= u_num + row["u_fem"]
 
 
-@pytest.mark.heavy
-def test_the_equivalent_power_law_of_a_power_law_is_itself():
-    """The skin changes the compliance at the contact radius by its share, z_s^(1-k)."""
-    apart = [max(np.abs(np.subtract(equivalent_of("offset power law", z_s), OFFSET))) for z_s in (1e-4, 1e-6)]
-    assert apart[1] < min(LARGEST_OFFSET, apart[0] / 3.0)
-
-
 @pytest.mark.parametrize("kind", [pytest.param("exponential", marks=pytest.mark.heavy), "coating"])
 def test_the_equivalent_power_law_of_a_thin_layer_is_that_of_the_depth(kind):
     """What is left is the share of the depth in the lengths of the contact."""
     assert equivalent_of(kind, 1e-6) == pytest.approx(case_of(kind, 1e-6).depth, abs=1e-5)
-
-
-def response_factor(k: float, nu: float) -> float:
-    """Eq. 7."""
-    q = math.sqrt((1 + k) * (1 - k * nu / (1 - nu)))
-    factor = 2 ** (k + 1) * (k + 2) * q * math.sin(q * math.pi / 2) / (k * (k + 1) * beta(k / 2, 0.5))
-    return factor * beta((3 + k + q) / 2, (3 + k - q) / 2)
-
-
-def test_tabor_number_of_the_uniform_solid():
-    """Eq. 29 for both solids, divided: every scale but z_s / L drops out."""
-    k, mu = OFFSET
-    ratio = 0.3**-k * (1 - k) / response_factor(k, 0.3)
-    assert case_of("offset power law", 0.3).mu == pytest.approx((mu ** ((3 + k) / 2) * ratio) ** (2 / 3))
-
-
-def test_without_jumps_there_is_a_reason():
-    results = by_elements("jump-out", "offset power law", 100.0)
-    assert {"too stiff" in reason for reason in results.values()} == {True}
-    assert math.isnan(number_of(results, "jump_out_displacement")[0])
 
 
 def coated(ratio, thickness):
@@ -130,9 +99,3 @@ def test_a_coated_solid_approaches_its_own_limit(ratio, thickness):
     assert abs(value - derived(ratio, thickness)) <= bound < 1e-5
     # A coating that is one in a thousand thicker is told apart.
     assert ratio == 1.0 or abs(value - derived(ratio, 1.001 * thickness)) > bound
-
-
-def test_a_coated_solid_is_its_coating_if_that_is_thick_and_a_layer_of_springs_if_it_is_thin():
-    """Twice w R pi on a rigid substrate, approached linearly in thickness over contact radius, 0.263 and 0.113."""
-    assert derived(4.0, 40.0) == pytest.approx(1.5, abs=1e-3)
-    assert (2.0 - derived(1e6, 0.3)) / (2.0 - derived(1e6, 0.1)) == pytest.approx(0.263 / 0.113, rel=0.1)

@@ -9,9 +9,8 @@ from comparisons.data.paper_values import paper_values
 from comparisons.models.cohesive_stress import eta
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved
 from comparisons.paper.baseline import PAPER_BASELINE
-from comparisons.paper.figures.gradient_effect import LAST_K, insensitive_regions, largest_chi
 from comparisons.paper.paper_figure import FIGURES
-from comparisons.paper.values.printed_values import COMPUTED, Computed, cohesive_forces, first_or_last_step, judged
+from comparisons.paper.values.printed_values import COMPUTED, Computed, cohesive_forces, judged
 from comparisons.paper.values.scheme_forces import exact_force, scheme_force
 from comparisons.paper.values.tabor_curve import RANGE, TaborCurve, largest_error, tabor_numbers
 from comparisons.problem import Problem
@@ -41,19 +40,8 @@ def test_the_committed_verdicts_are_those_of_the_committed_numbers(table):
     for printed, row in zip(paper_values(), table.itertuples(), strict=True):
         again = judged(printed, Computed(row.computed, row.u, row.at_mu, row.scheme, row.by_scheme, row.u_scheme))
         assert (again["verdict"], again["scheme_verdict"]) == (row.verdict, row.scheme_verdict)
-    assert table["verdict"].value_counts().to_dict() == {"agrees": 24, "agrees if truncated": 4, "differs": 6}
-    # One scheme gives all numbers but those of the cone.
-    not_given = table[(table["scheme"] != "") & (table["scheme_verdict"] != "agrees")]
-    assert not_given["printed"].tolist() == ["65.0", "5.8"]
     for suffix, page in FIGURES["numbers"].texts({"": table}).items():
         assert (FOLDER / f"paper_values{suffix}").read_text(encoding="utf-8") == page
-
-
-def test_the_steps_of_the_regions_are_inside_and_the_next_ones_outside():
-    steps = [first_or_last_step(end, first=i % 2 == 0) for i, end in enumerate(insensitive_regions(LAST_K))]
-    assert steps == [0.974, 1.056, 3.335, 6.219]
-    inside, outside = ([largest_chi(n, LAST_K)[0] for n in of] for of in (steps, (0.973, 1.057, 3.334, 6.220)))
-    assert max(inside) <= 0.1 < min(outside)
 
 
 @pytest.mark.parametrize("n", [1.5, pytest.param(5.0, marks=pytest.mark.heavy)])

@@ -9,9 +9,9 @@ import pandas as pd
 from comparisons.judging.gates import gates_text, load_gates
 from comparisons.output.errors import largest, relative_error
 from comparisons.output.verdicts import write_verdicts
-from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.frames import curve_frame, frame, write_table
 from comparisons.runs.record import read_record, write_record
+from tests.comparisons.records import record_of_run
 from tests.comparisons.rows import row as made_row
 
 IMAGE = """<img src=x onerror="window.hostile='image'">"""
@@ -73,15 +73,10 @@ VERDICTS = [
 
 def record(count):
     described = {"version": LINE, "citation": f"{IMAGE} {LINE}", "domain": SCRIPT}
-    arguments = {"tier": "quick", "model": [IMAGE, SCRIPT], "grid": None, "external": SPECS, "gates": None, "jobs": 2}
-    started = "2026-01-01T00:00:00+00:00"
-    return environment() | {
-        **{"format": 5, "command_name": "run", "arguments": arguments | {"out": LINE}},
-        **{"command": ["fscm-bench", "run", SCRIPT], "started": started, "finished": "2026-01-01T00:00:09+00:00"},
-        **{"seconds": {"run": 9.0, "by_model": {"fscm": 8.5}}, "models": {SCRIPT: described, IMAGE: described}},
-        **{"rows": {"all": count, "resumed": 0, "ok": count}, "verdicts": {"all": "PASS", "PASS": 2}},
-        **{"cases_sha256": "0" * 64, "gates_sha256": "f" * 64},
-        "parts": [{"started": started, "seconds": 9.0, "computations": 2, **computing_environment()}],
+    return record_of_run(model=[IMAGE, SCRIPT], external=SPECS, out=LINE) | {
+        "command": ["fscm-bench", "run", SCRIPT],
+        "models": {SCRIPT: described, IMAGE: described},
+        "rows": {"all": count, "resumed": 0, "ok": count},
     }
 
 
