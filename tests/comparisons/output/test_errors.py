@@ -5,7 +5,7 @@ import math
 import pandas as pd
 import pytest
 
-from comparisons.output.errors import comparison_table, largest, relative_error
+from comparisons.output.errors import agreement, comparison_table, largest, relative_error
 from comparisons.problem import Problem
 from comparisons.runs.cases import Grid
 
@@ -22,6 +22,12 @@ def test_kappa_is_relative_to_the_one_reference_of_the_same_case():
     twice = [stored("m", 1, 3.0), stored("ref", 1, 2.0), stored("ref", 1, 2.1)]
     with pytest.raises(pd.errors.MergeError):
         relative_error(pd.DataFrame(twice), "ref")
+
+
+def test_two_references_are_compared_also_where_one_alone_depends_on_the_poisson_ratio():
+    rows = [stored("fem", 1.0, 2.002, 0.002, nu=0.3), stored("fscm", 1.0, 2.0)]
+    (row,) = agreement(pd.DataFrame(rows), "fem", "fscm").to_dict("records")
+    assert (row["nu"], row["en"]) == (0.3, pytest.approx(1.0))
 
 
 def test_a_comparison_states_why_the_reference_has_no_value():
