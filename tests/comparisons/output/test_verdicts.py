@@ -33,6 +33,7 @@ JUDGED = pd.DataFrame(
         ROW | {"gate": "TWO", "error": math.nan, **REFUSED},
         ROW | {"gate": "THREE", **WHOLE_GATE},
         ROW | {"gate": "FOUR", "verdict": "INCONCLUSIVE", "nu": 0.25},
+        ROW | {"gate": "FIVE", "verdict": "XPASS"},
     ]
 )
 AGAIN = partial(command, specs={})
@@ -66,13 +67,13 @@ def test_the_step_summary_is_appended_where_there_is_one(tmp_path, monkeypatch):
 def test_junit_has_one_test_case_a_gate_and_case():
     rows = JUDGED.iloc[:2].rename(columns={"candidate": "model"}).assign(seconds=[0.25, 1e-6])
     root = ElementTree.fromstring(junit(JUDGED, AGAIN, evaluation_seconds(rows)))
-    counts = {"tests": "6", "errors": "1", "failures": "2", "skipped": "2"}
-    # The other two of the first case use its evaluation, too.
-    assert root.attrib == {"name": "fscm-bench", **counts, "time": "0.750001"}
+    counts = {"tests": "7", "errors": "1", "failures": "3", "skipped": "2"}
+    # The other three of the first case use its evaluation, too.
+    assert root.attrib == {"name": "fscm-bench", **counts, "time": "1.000001"}
     assert [case.get("time") for case in root[0].findall("testcase")] == ["0.250000", "0.000001"]
-    assert [suite.get("name") for suite in root] == ["ONE", "TWO", "THREE", "FOUR"]
+    assert [suite.get("name") for suite in root] == ["ONE", "TWO", "THREE", "FOUR", "FIVE"]
     cases = root.findall(".//testcase")
-    tags = ["system-out", "failure", "skipped", "skipped", "error", "failure"]
+    tags = ["system-out", "failure", "skipped", "skipped", "error", "failure", "failure"]
     assert [[child.tag for child in case] for case in cases] == [[tag] for tag in tags]
     assert len({(case.get("classname"), case.get("name")) for case in cases}) >= 5
     covered = {entry.get("name"): entry.get("value") for entry in root[1].find("properties")}
@@ -112,11 +113,11 @@ def test_the_files_are_worst_first(tmp_path):
     page = write_verdicts(tmp_path, JUDGED, [], {})
     assert {path.name for path in tmp_path.iterdir()} == set(VERDICT_FILES)
     assert pd.read_parquet(tmp_path / "verdicts.parquet")["verdict"].tolist() == JUDGED["verdict"].tolist()
-    worst = ["ERROR", "FAIL", "INCONCLUSIVE", "XFAIL"]
+    worst = ["ERROR", "FAIL", "XPASS", "INCONCLUSIVE", "XFAIL"]
     assert pd.read_parquet(tmp_path / "summary.parquet")["verdict"].tolist() == worst
     rows = [line.removeprefix("| ").split(" | ") for line in page.splitlines()[4:]]
     assert [row[0] for row in rows] == worst
-    assert [row[4] for row in rows] == ["", "2 of 2", "1 of 1", "1 of 2 (1 n/a)"]
+    assert [row[4] for row in rows] == ["", "2 of 2", "1 of 1", "1 of 1", "1 of 2 (1 n/a)"]
 
 
 @pytest.mark.parametrize(
