@@ -29,7 +29,7 @@ def test_each_shape_or_quantity_has_its_largest_error_with_its_case():
     assert title.startswith("pull_off_force: ")
     assert percents.split() == ["jkr", "-41.000(5)", "-41.500(5)", "-42.000(5)", "-45.000(5)"]
     assert cases.split() == ["0.4,", "0.837"] * 4
-    both = pd.concat([maxima, maxima.assign(quantity="jump_in_gap")])
+    both = pd.concat([maxima, maxima.assign(quantity="jump_in_gap")], ignore_index=True)
     lines = [line.split() for line in shown(largest_table(both))[-2:]]
     assert lines == [[name, "jkr", "-45.000(5)", "5", "0.4", "0.837"] for name in ("jump_in_gap", "pull_off_force")]
 
