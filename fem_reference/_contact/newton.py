@@ -129,11 +129,13 @@ def newton(contact: Contact, y: Array, fixed: Control, varied: Control) -> State
         limit = NEWTON_TOLERANCE * (1.0 + largest)
         if singular:
             break
-        step = linalg.lu_solve((lu, pivots), G, check_finite=False)
+        step, _ = linalg.lapack.dgetrs(lu, pivots, G)
         settled = np.abs(step[: m + 1]).max() <= STEP_SHARE * limit * law.z0
         if settled and size <= max(limit, AMPLIFIED * largest * growth):
             parameter_rate = varied.parameter_rate(contact, y) if isinstance(varied, EdgeRadius) else 1.0
-            rate = parameter_rate * linalg.lu_solve((lu, pivots), np.eye(m + 2)[-1], check_finite=False)
+            G[:] = 0.0
+            G[-1] = parameter_rate
+            rate, _ = linalg.lapack.dgetrs(lu, pivots, G)
             slope = float(contact.load_gradient(y) @ rate)
             return State(y, contact.load(y), slope, rate, iteration, size)
         if not np.all(np.isfinite(step)):

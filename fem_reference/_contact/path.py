@@ -124,9 +124,20 @@ class Point:
     rates: tuple[float, float] | None = None
     held: bool = False
 
-    def predict(self, parameter: float) -> Array:
-        """Extrapolate the state along its tangent; the size at most halves or doubles."""
-        y = self.state.y + (parameter - self.parameter) * self.state.rate
+    def predict(self, parameter: float, before: Point | None = None) -> Array:
+        """Extrapolate the state along its tangent, or by the cubic through it and the point before.
+
+        The size at most halves or doubles.
+        """
+        step = parameter - self.parameter
+        y = self.state.y + step * self.state.rate
+        if before is not None:
+            # Terms of Newton's form, with both points double.
+            length = self.parameter - before.parameter
+            chord = (self.state.y - before.state.y) / length
+            second = (self.state.rate - chord) / length
+            third = (self.state.rate - 2.0 * chord + before.state.rate) / length**2
+            y += step**2 * (second + (step + length) * third)
         y[-1] = np.clip(y[-1], 0.5 * self.state.size, 2.0 * self.state.size)
         return y
 
@@ -160,14 +171,15 @@ def continuation(point: Point, step: float, stop: float) -> Iterator[Point]:
         When the step size has been reduced to `SMALLEST_STEP`.
     """
     direction = 1.0 if step > 0 else -1.0
+    before: Point | None = None
     while (stop - point.parameter) * direction > 0:
         largest = point.branch.largest_step(point.parameter)
         step = direction * min(abs(step), largest, abs(stop - point.parameter))
         target = stop if abs(stop - point.parameter - step) <= 1e-12 * abs(stop) else point.parameter + step
         try:
-            new = point.branch.solve(target, point.predict(target))
+            new = point.branch.solve(target, point.predict(target, before))
         except NotConverged as error:
-            step *= 0.4
+            before, step = None, 0.4 * step
             if abs(step) < SMALLEST_STEP * largest:
                 raise NotConverged(
                     f"the path stops at H0 = {point.state.central_gap:.6g}, delta = "
@@ -175,7 +187,7 @@ def continuation(point: Point, step: float, stop: float) -> Iterator[Point]:
                 ) from error
             continue
         step *= 1.6 if new.state.iterations <= 4 else (0.7 if new.state.iterations > 7 else 1.0)
-        point = new
+        before, point = point, new
         yield point
 
 
