@@ -114,9 +114,10 @@ def solve_cg(
         r = preconditioner.residual(b, x)
     count = 0
     with np.errstate(invalid="ignore", over="ignore"):
-        left = preconditioner(r)
+        # Residuals and loads pass through the preconditioner together.
+        left, of_load = np.split(preconditioner(np.concatenate([r, b], axis=1)), 2, axis=1)
         direction, product, step = left.copy(), _products(r, left), left
-        norm = product if start is None else _products(b, preconditioner(b))
+        norm = _products(b, of_load)
         # The recursive residual differs from the true one by rounding, so half the tolerance is required of it.
         # One that is not finite ends the iteration; it is refused below.
         while np.any(product > (0.5 * tolerance) ** 2 * norm) and count < iterations:
