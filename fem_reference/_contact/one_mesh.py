@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from fem_reference._contact.cusp import slowest_sample
@@ -44,6 +45,10 @@ FAILURES = 3
 #: Meshes too coarse to tell the width of the edge, after which the narrowest one is taken to tell it: at k = 0.88 and
 #: mu = 1.2 under a cone the edge is 1e-5 of its radius wide.
 MOST_UNRESOLVED = 4
+
+#: Ratio of the density of the first mesh of a search to that of the others: the width of the edge, which is rounded to
+#: a power of 2, is known well enough there.
+ESTIMATE = 1.5
 
 #: Largest number of meshes tried to find the width of the edge.
 REFINEMENTS = 10
@@ -96,7 +101,7 @@ class OneMesh:
         NotConverged
             If the path cannot be traced, or the edge is narrower than the mesh can resolve.
         """
-        spec, size = self._first() if start is None else start
+        spec, size = self._estimated() if start is None else start
         for _ in range(REFINEMENTS):
             try:
                 samples = self.choice.search_path(spec, size).samples
@@ -124,6 +129,15 @@ class OneMesh:
         width = 0.5 * balance_length(self.choice.problem, size) / size
         check_width(width, UNRESOLVED * NARROWEST_OF_ONE_MESH)
         return self._spec(width, size), size
+
+    def _estimated(self) -> tuple[MeshSpec, float]:
+        """The mesh for the edges of a path on elements that are too long: the search ends on what it accepts."""
+        spec, size = self._first()
+        with suppress(NotConverged):
+            samples = self.choice.search_path(replace(spec, density=ESTIMATE * spec.density), size).samples
+            if all(edge_width(point) > 0.0 for point in self._needed(samples) if point.branch.touching):
+                return self._following(spec, size, samples) or spec, size
+        return spec, size
 
     def _spec(self, width: float, size: float) -> MeshSpec:
         choice = self.choice
