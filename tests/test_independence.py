@@ -46,6 +46,7 @@ ALLOWED = {
     "comparisons.models.atlas_model": ("fscm",),
     "comparisons.models.gibson_limit": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),
+    "comparisons.models.large_strain_model": ("fem_reference",),
     "comparisons.models.fem_model": (
         "fscm.problem",
         "fscm.punch",

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.description.overview import FORCE, LIMITS, change_of, model_errors, reference_force, simplest_within
+from comparisons.description.forces import change_of, force_content, reference_force
+from comparisons.description.overview import LIMITS, model_errors, simplest_within
 from comparisons.model import ComputationFailed
 from comparisons.problem import Problem
 from comparisons.problem.elastic_energy import EnergySpectrum, energy_spectrum
@@ -65,7 +66,7 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
         "surface_compliance_deviation": _surface_deviation(problem, spectrum),
         "tabor_number": similar.posed.mu,
         "lengths": [spectrum.length(share) for share in _MIDDLE],
-        "pull_off_force": {name: getattr(of_law, name) for name in FORCE} | {"error": error, "error_u_num": bound},
+        "pull_off_force": force_content(of_law) | {"error": error, "error_u_num": bound},
         "closed_forms": errors,
         "closed_form_within": {
             f"{100 * limit:g} %": simplest_within(errors, limit) if stands else None for limit in LIMITS

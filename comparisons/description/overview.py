@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from comparisons.numerics.bounds import relative_difference, relative_uncertainty
+from comparisons.description.assumptions import total_errors
+from comparisons.description.forces import change_of, force_content
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import REFERENCES
 from comparisons.registry import MODELS
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["LIMITS", "SIMPLEST_FIRST", "change_of", "model_errors", "overview", "reference_force", "simplest_within"]
+__all__ = ["LIMITS", "SIMPLEST_FIRST", "model_errors", "overview", "simplest_within"]
 
 Json = dict[str, Any]
 
@@ -21,21 +22,17 @@ LIMITS = (0.01, 0.05)
 
 #: Order in which a closed form is recommended: limits, asymptote, models of the transition.  Every other one, a fit or
 #: another cohesive stress, comes after them: it may be right in one problem because errors cancel.
-SIMPLEST_FIRST = ("jkr", "dmt", "bradley", "semi-rigid", "md-improved", "md-original", "md-jin", "double-hertz-n-k")
-
-
-def reference_force(problem: Problem) -> Row:
-    """Return the pull-off force of the atlas where it has the problem, and else that of the FSCM."""
-    row = evaluate("atlas", "pull_off_force", problem)
-    return row if row.status == "ok" else evaluate("fscm", "pull_off_force", problem)
-
-
-def change_of(row: Row, force: Row) -> tuple[float, float] | None:
-    """Return the relative difference of a value from a force, and its bound; None where there is no value."""
-    if row.value is None or row.u_num is None or force.value is None or force.u_num is None:
-        return None
-    bound = relative_uncertainty(row.value, row.u_num, force.value, force.u_num)
-    return relative_difference(row.value, force.value), bound
+SIMPLEST_FIRST = (
+    "jkr",
+    "jkr-sphere",
+    "dmt",
+    "bradley",
+    "semi-rigid",
+    "md-improved",
+    "md-original",
+    "md-jin",
+    "double-hertz-n-k",
+)
 
 
 def model_errors(problem: Problem, force: Row) -> list[Json]:
@@ -71,30 +68,49 @@ def simplest_within(errors: Sequence[Json], limit: float) -> str | None:
     return next((name for name in (*SIMPLEST_FIRST, *within) if name in within), None)
 
 
-def overview(problem: Problem, force: Row) -> Json:
+def overview(problem: Problem, force: Row, assumed: Json | None = None) -> Json:
     """Return what is known of a problem without a choice of a model; errors are fractions.
+
+    Parameters
+    ----------
+    problem : Problem
+    force : Row
+        Its pull-off force at small strains.
+    assumed : dict, optional
+        What `assumptions` returns.  Where the error of the assumptions is known, ``total_errors`` has that of each
+        model with it, and a model is recommended by its total error; none is where the assumptions exceed the limit.
 
     Examples
     --------
+    >>> from comparisons.description.forces import reference_force
     >>> problem = Problem.dimensionless(2, 0, 0.26)
     >>> overview(problem, reference_force(problem))["recommended"]["1 %"]
     'md-improved'
     """
     errors = model_errors(problem, force)
+    with_assumptions = total_errors(problem, errors, assumed)
     critical = evaluate("atlas", "critical_tabor_number", problem).value if problem.is_of_the_paper() else None
     return {
         "problem": problem.content,
         "tabor_number": problem.posed.mu,
         "critical_tabor_number": critical,
         "regime": _regime(errors),
-        "pull_off_force": {name: getattr(force, name) for name in FORCE},
+        "pull_off_force": force_content(force),
         "errors": errors,
-        "recommended": {f"{100 * limit:g} %": simplest_within(errors, limit) or force.model for limit in LIMITS},
+        "assumptions": assumed,
+        "total_errors": with_assumptions,
+        "recommended": {
+            f"{100 * limit:g} %": simplest_within(with_assumptions or errors, limit)
+            or _reference_within(force, assumed, limit)
+            for limit in LIMITS
+        },
     }
 
 
-#: What is stated of a force.
-FORCE = ("model", "value", "u_num", "unit", "status", "reason")
+def _reference_within(force: Row, assumed: Json | None, limit: float) -> str | None:
+    """The reference, unless the assumptions that it shares are known to be wrong by more than a limit."""
+    is_known = assumed is not None and assumed["total"]["error"] is not None
+    return force.model if not is_known or (assumed and _is_within(assumed["total"], limit)) else None
 
 
 def _regime(errors: Sequence[Json]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from comparisons.description.overview import change_of
+from comparisons.description.forces import change_of
 from comparisons.problem import Problem
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import Task, evaluate_task

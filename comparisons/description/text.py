@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from comparisons.description.assumptions import SMALL
 from comparisons.numerics.number_text import percent_text
 from comparisons.problem import Problem
 from comparisons.problem.equivalent_solid import LARGEST_DEVIATION
@@ -14,6 +15,9 @@ __all__ = ["equivalent_lines", "overview_lines", "profile_lines", "uncertainty_l
 
 Json = dict[str, Any]
 
+#: Where no model is within a limit.
+NONE_WITHIN = "none: the assumptions alone are wrong by more"
+
 
 def overview_lines(problem: Problem, overview: Json, equivalent: Json | None) -> list[str]:
     """Return the overview; for a solid that is no power law with its equivalent, if it has one."""
@@ -22,6 +26,8 @@ def overview_lines(problem: Problem, overview: Json, equivalent: Json | None) ->
         f"{problem.name}: {problem.solid.kind} solid, {problem.punch.kind} punch, {problem.law.kind} law",
         f"  {_tabor_number(problem, overview['tabor_number'], equivalent)}",
     ]
+    if overview["assumptions"]:
+        lines += _assumption_lines(overview["assumptions"])
     if critical is not None:
         words = "jumps, with hysteresis" if overview["tabor_number"] > critical else "no jumps"
         lines.append(f"  critical Tabor number {critical:.6g}: {words}")
@@ -30,7 +36,32 @@ def overview_lines(problem: Problem, overview: Json, equivalent: Json | None) ->
         return lines
     if overview["errors"]:
         lines += ["  errors of the pull-off force of other models:", *_error_lines(overview["errors"], "    ")]
-    return lines + [f"  recommended for {limit}: {model}" for limit, model in overview["recommended"].items()]
+    if overview["total_errors"]:
+        lines += ["  the same with the error of the assumptions:", *_error_lines(overview["total_errors"], "    ")]
+    where = "" if overview["total_errors"] else ", at small strains"
+    recommended = overview["recommended"].items()
+    return lines + [f"  recommended for {limit}{where}: {model or NONE_WITHIN}" for limit, model in recommended]
+
+
+def _assumption_lines(assumed: Json) -> list[str]:
+    """The error of what all models assume, its two sources, and the measures that are not small."""
+    names = {"geometry": "a paraboloid for the sphere", "strain": "small strains", "total": "both"}
+    width = max(map(len, names.values()))
+    lines = ["  error of the pull-off force by the assumptions that all models share:"]
+    for key, name in names.items():
+        error = assumed[key]["error"]
+        text = (
+            "unknown: " + assumed[key]["reason"] if error is None else f"{percent_text(error, assumed[key]['u_num'])} %"
+        )
+        lines.append(f"    {name:{width}}  {text}")
+    lines.append(
+        f"  at pull-off, contact radius {_rounded(assumed['contact_radius'], 'm', 3)}; small is up to {SMALL:g}:"
+    )
+    width = max(len(measure["meaning"]) for measure in assumed["measures"])
+    for measure in assumed["measures"]:
+        verdict = "" if measure["value"] <= measure["limit"] else "  not small"
+        lines.append(f"    {measure['meaning']:{width}}  {measure['value']:.3g}{verdict}")
+    return lines
 
 
 def _force_text(force: Json) -> str:

@@ -13,7 +13,7 @@ from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, Points
 __all__ = ["REFERENCES", "SOLVERS", "dimensionless_result", "evaluated", "unit_of"]
 
 #: Models that solve the equations; every other one is a closed form or another approximation.
-REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas")
+REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas", "fem-large-strain")
 
 #: Those that take every solid, punch and law.
 SOLVERS = ("fscm", "fem")

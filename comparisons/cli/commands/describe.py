@@ -10,8 +10,10 @@ from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
 from comparisons.description import text
+from comparisons.description.assumptions import assumptions
 from comparisons.description.equivalent_power_law import equivalent_power_law
-from comparisons.description.overview import overview, reference_force
+from comparisons.description.forces import reference_force
+from comparisons.description.overview import overview
 from comparisons.description.profile_sensitivity import profile_sensitivity
 from comparisons.description.uncertainty import uncertainty
 from comparisons.problem import Problem
@@ -23,6 +25,11 @@ _UNCERTAIN = "what the standard deviations and intervals of the file mean for th
 OPTIONS = (
     file("file", help="a problem file, see docs/problem_files.md"),
     option("--uncertain", action="store_true", help=_UNCERTAIN),
+    option(
+        "--large-strain",
+        action="store_true",
+        help="solve the problem with finite strain for the error of small strains; a minute or less",
+    ),
     option("--quantity", metavar="NAME", help="another value at an event, with --uncertain"),
     output_format("json"),
 )
@@ -37,7 +44,7 @@ def call(args: argparse.Namespace) -> int:
         # First: it may refuse the file or the quantity.
         of_values = uncertainty(problem, args.quantity or "pull_off_force") if args.uncertain else None
         force = reference_force(problem)
-        described = overview(problem, force)
+        described = overview(problem, force, assumptions(problem, force, args.large_strain))
         equivalent = equivalent_power_law(problem, force)
         changes = profile_sensitivity(problem, force)
     if args.format == "json":

@@ -10,7 +10,8 @@ import fscm
 from comparisons.cli.main import main
 from comparisons.description import text as text_of
 from comparisons.description.equivalent_power_law import equivalent_power_law
-from comparisons.description.overview import SIMPLEST_FIRST, overview, reference_force, simplest_within
+from comparisons.description.forces import reference_force
+from comparisons.description.overview import SIMPLEST_FIRST, overview, simplest_within
 from comparisons.problem import Problem, Section
 from comparisons.problem.evaluation import REFERENCES
 from comparisons.registry import MODELS

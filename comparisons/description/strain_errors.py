@@ -1,0 +1,189 @@
+"""What small strains leave out of the pull-off force of a ball: interpolation in a table of the finite elements.
+
+`fem_reference.solve_large_strain` gives the force of a neo-Hookean solid, `fscm` that of the linear one, both for the
+exact sphere without friction.  Their relative difference s depends on w/(E* R), mu and nu.  It grows as the contact
+radius: s / (w/(E* R))^(1/3) is smooth, and is what is interpolated.  `python -m comparisons.description.strain_errors`
+computes the table.
+
+At large Tabor numbers the tension makes the surface unstable, and the table has no force.  There s lies
+about where a straight line in 1/mu through the last two points is half way to 1/mu = 0; the bound is the whole way, and
+`FURTHER` of the largest value before.
+"""
+
+from __future__ import annotations
+
+import csv
+import itertools
+import math
+import sys
+from collections.abc import Sequence
+from functools import lru_cache
+from importlib.resources import files
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from comparisons.problem import Problem, Section
+from comparisons.runs.rows import Row
+from comparisons.runs.tasks import evaluate
+
+__all__ = ["FILE", "Change", "beyond", "forces_of_a_ball", "strain_change"]
+
+Array = NDArray[np.float64]
+
+#: Name of the table in `comparisons.data`.
+FILE = "strain_errors.csv"
+
+#: w/(E* R), Tabor numbers and Poisson's ratios of the table.
+SOFTNESS = (1e-5, 1e-4, 1e-3, 5e-3, 2e-2, 5e-2, 1e-1)
+TABOR_NUMBERS = (0.1, 0.3, 1.0, 2.0, 3.0, 5.0)
+POISSON_RATIOS = (0.0, 0.2, 0.35, 0.5)
+
+#: Largest tension w/z0 in E* that is tried: from about 0.4 the surface is unstable.
+LARGEST_TENSION = 0.5
+
+
+#: Share of the change that the bound has in the middle between two rows (measured: a row from its neighbours, twice as
+#: far apart, misses by up to 1 % beside the difference from a straight line).
+BETWEEN = 0.01
+
+#: Share of the largest change at smaller Tabor numbers that the bound has beyond the last one (measured: forces of the
+#: table from those at smaller Tabor numbers, three at least, miss by up to 0.6 of the bound).
+FURTHER = 0.5
+
+
+class Change(NamedTuple):
+    """A relative change and its bound."""
+
+    value: float
+    bound: float
+
+
+def strain_change(softness: float, mu: float, nu: float) -> Change | None:
+    """Return the relative change of the pull-off force of a ball by finite strain.
+
+    Parameters
+    ----------
+    softness : float
+        w/(E* R), dimensionless.
+    mu : float
+        Tabor number.
+    nu : float
+        Poisson's ratio, 0 to 0.5.
+
+    Returns
+    -------
+    Change or None
+        None above the largest w/(E* R) of the table.  Below its smallest one the change is that of the limit.
+
+    Examples
+    --------
+    >>> change = strain_change(5e-3, 2.0, 0.5)
+    >>> round(change.value, 5), change.bound < 1e-5
+    (0.00521, True)
+    >>> strain_change(0.2, 1.0, 0.3) is None
+    True
+    """
+    root = float(np.cbrt(softness))
+    roots = np.cbrt(SOFTNESS)
+    if root > roots[-1] * (1.0 + 1e-12):
+        return None
+    of_ratios = []
+    for ratio in POISSON_RATIOS:
+        nodes = [_between_tabor_numbers(x, ratio, mu) for x in SOFTNESS]
+        known = [i for i, node in enumerate(nodes) if node is not None]
+        of_ratios.append(_between(roots[known], [nodes[i] for i in known], max(root, roots[0])))
+    change = _between(np.array(POISSON_RATIOS), of_ratios, nu)
+    below = abs(change.value) if root < roots[0] else 0.0
+    return Change(change.value * root, float((change.bound + below * (1.0 - root / roots[0])) * root))
+
+
+def _between_tabor_numbers(softness: float, nu: float, mu: float) -> Change:
+    """Interpolate s / (w/(E* R))^(1/3) in the Tabor number."""
+    known = _table()[softness, nu]
+    numbers = np.array(sorted(known))
+    nodes = [known[number] for number in numbers]
+    if mu <= numbers[0]:
+        # It vanishes with mu.
+        return Change(0.5 * nodes[0].value, 0.5 * abs(nodes[0].value) + nodes[0].bound)
+    if mu <= numbers[-1]:
+        return _between(np.log(numbers), nodes, math.log(mu))
+    return beyond(numbers, nodes)
+
+
+def beyond(numbers: Array, nodes: Sequence[Change]) -> Change:
+    """Return what s / (w/(E* R))^(1/3) is above the largest Tabor number.
+
+    Parameters
+    ----------
+    numbers : ndarray, shape (m,)
+        Tabor numbers, rising, two at least.
+    nodes : sequence of Change
+        The value at each.
+    """
+    last, previous = nodes[-1], nodes[-2]
+    further = (last.value - previous.value) * numbers[-2] / (numbers[-1] - numbers[-2])
+    largest = max(abs(node.value) for node in nodes)
+    return Change(last.value + 0.5 * further, abs(further) + FURTHER * largest + last.bound)
+
+
+def _between(points: Array, nodes: Sequence[Change], point: float) -> Change:
+    """Interpolate; the bound is that of the nodes, and what a curve of another form between them differs by."""
+    values, bounds = np.array([node.value for node in nodes]), np.array([node.bound for node in nodes])
+    value = float(PchipInterpolator(points, values)(point))
+    right = int(np.clip(np.searchsorted(points, point), 1, points.size - 1))
+    share = (point - points[right - 1]) / (points[right] - points[right - 1])
+    form = BETWEEN * 4.0 * share * (1.0 - share) * float(np.abs(values[right - 1 : right + 1]).max())
+    straight = abs(value - float(np.interp(point, points, values)))
+    return Change(value, float(np.interp(point, points, bounds) + straight + form))
+
+
+@lru_cache(maxsize=1)
+def _table() -> dict[tuple[float, float], dict[float, Change]]:
+    """Rows by w/(E* R) and nu: Tabor number -> s / (w/(E* R))^(1/3)."""
+    table: dict[tuple[float, float], dict[float, Change]] = {}
+    lines = files("comparisons.data").joinpath(FILE).read_text(encoding="utf-8").splitlines()
+    for row in csv.DictReader(lines):
+        if row["pull_off_force"]:
+            softness, mu, nu, finite, u_finite, linear, u_linear = (float(value) for value in row.values())
+            root = float(np.cbrt(softness))
+            bound = (u_finite + u_linear) / linear
+            table.setdefault((softness, nu), {})[mu] = Change((finite / linear - 1.0) / root, bound / root)
+    return table
+
+
+def forces_of_a_ball(softness: float, mu: float, nu: float) -> tuple[Row, Row]:
+    """Return the pull-off force of a ball with finite strain, by `fem-large-strain`, and with small strain, by `fscm`.
+
+    Parameters
+    ----------
+    softness, mu, nu
+        As for `strain_change`.
+    """
+    ball = Section("ball", {"R": 1.0})
+    law = Section("lennard-jones-9-3", {"work_of_adhesion": 1.0, "z0": float(np.cbrt(softness)) ** 2 / mu})
+    problem = Problem(Section("homogeneous", {"E": (1.0 - nu**2) / softness, "nu": nu}), ball, law)
+    finite, small = (evaluate(model, "pull_off_force", problem) for model in ("fem-large-strain", "fscm"))
+    return finite, small
+
+
+def main() -> None:
+    """Write the table to the standard output."""
+    writer = csv.writer(sys.stdout, lineterminator="\n")
+    writer.writerow(("elasto_adhesion_number", "mu", "nu", "pull_off_force", "u_num", "linear_force", "linear_u_num"))
+    for softness, mu, nu in itertools.product(SOFTNESS, TABOR_NUMBERS, POISSON_RATIOS):
+        if math.sqrt(mu**3 * softness) <= LARGEST_TENSION:
+            numbers = [f"{softness:g}", f"{mu:g}", f"{nu:g}"]
+            for force in forces_of_a_ball(softness, mu, nu):
+                if force.value is None or force.u_num is None:
+                    numbers += ["", ""]
+                else:
+                    numbers += [repr(force.value / math.pi), f"{force.u_num / math.pi:.2g}"]
+            writer.writerow(numbers)
+            sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    main()

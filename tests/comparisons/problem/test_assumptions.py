@@ -1,0 +1,158 @@
+"""Error of what all models assume: its table, how it is continued, and what follows for the choice of a model."""
+
+import itertools
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from comparisons.cli.main import main
+from comparisons.description import strain_errors
+from comparisons.description.assumptions import SMALL, assumptions
+from comparisons.description.forces import reference_force
+from comparisons.description.overview import overview
+from comparisons.description.strain_errors import Change, beyond, strain_change
+from comparisons.problem import Problem, Section
+
+#: A bead of glass on PDMS: w/(E* R) = 0.005.
+BEAD = Problem(
+    Section("homogeneous", {"E": 1.5e6, "nu": 0.5}),
+    Section("sphere", {"R": 5e-6}),
+    Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10}),
+)
+
+
+def described(problem):
+    force = reference_force(problem)
+    return overview(problem, force, assumptions(problem, force))
+
+
+@pytest.fixture(scope="module")
+def bead():
+    return described(BEAD)
+
+
+def test_a_bead_on_a_soft_solid(bead):
+    assumed = bead["assumptions"]
+    # JKR of the exact sphere is exact here: a second route to the error of the paraboloid.
+    softness = 0.05 / (1.5e6 / 0.75 * 5e-6)
+    assert softness == pytest.approx(5e-3)
+    assert 1.0 / (1.0 + assumed["geometry"]["error"]) == pytest.approx(0.973699, abs=2e-5)
+    assert -0.01 < assumed["strain"]["error"] < 0.0
+    assert 0.02 < assumed["total"]["error"] + assumed["total"]["u_num"] < 0.05
+    # The contact radius of JKR: a^3 = 9 pi w R^2 / (8 E*).
+    a = (9 * math.pi * 0.05 * 5e-6**2 / (8 * 2e6)) ** (1 / 3)
+    assert assumed["contact_radius"] == pytest.approx(a, rel=0.02)
+    measures = {row["key"]: row["value"] for row in assumed["measures"]}
+    assert measures["punch_slope"] == pytest.approx(assumed["contact_radius"] / 5e-6)
+    assert min(measures.values()) > SMALL
+    assert bead["recommended"] == {"1 %": "jkr-sphere", "5 %": "jkr"}
+    errors = {row["model"]: row["error"] for row in bead["total_errors"]}
+    assert errors["jkr"] == pytest.approx(assumed["total"]["error"], abs=1e-4)
+    assert errors["jkr-sphere"] == pytest.approx(assumed["strain"]["error"], abs=1e-4)
+
+
+def test_no_model_is_recommended_where_the_assumptions_exceed_the_limit():
+    softer = described(replace(BEAD, solid=Section("homogeneous", {"E": 2e5, "nu": 0.2})))
+    assert softer["assumptions"]["total"]["error"] > 0.05
+    assert softer["recommended"]["1 %"] is None
+
+
+@pytest.mark.parametrize(
+    ("changed", "reason"),
+    [
+        ({"solid": Section("power-law", {"E0": 1e9, "c0": 1e-6, "k": 0.4, "nu": 0.3})}, "homogeneous"),
+        ({"punch": Section("cone", {"half_angle": 1.2})}, "spheres"),
+        ({"solid": Section("homogeneous", {"E": 5e4, "nu": 0.5})}, "as soft as"),
+    ],
+)
+def test_where_nothing_was_computed_the_error_is_unknown(changed, reason):
+    problem = replace(BEAD, **changed)
+    content = described(problem)
+    assert content["assumptions"]["strain"]["error"] is content["assumptions"]["total"]["error"] is None
+    assert reason in content["assumptions"]["strain"]["reason"]
+    assert content["total_errors"] == []
+
+
+def test_the_exact_sphere_has_no_error_of_its_shape():
+    ball = described(replace(BEAD, punch=Section("ball", {"R": 5e-6})))["assumptions"]
+    assert (ball["geometry"]["error"], ball["geometry"]["u_num"]) == (0.0, 0.0)
+    assert ball["total"]["error"] == pytest.approx(ball["strain"]["error"])
+
+
+def test_a_stiff_solid_has_small_errors(tmp_path, capsys):
+    path = tmp_path / "glass.toml"
+    path.write_text(
+        '[solid]\nkind = "homogeneous"\nE = "70 GPa"\nnu = 0.2\n[punch]\nkind = "sphere"\nR = "10 um"\n'
+        '[law]\nkind = "lennard-jones-9-3"\nwork_of_adhesion = "50 mJ/m^2"\nz0 = "0.4 nm"\n'
+    )
+    assert main(["describe", str(path), "--format", "json"]) == 0
+    assumed = json.loads(capsys.readouterr().out)["assumptions"]
+    assert abs(assumed["total"]["error"]) < 1e-3
+    assert all(row["value"] < row["limit"] for row in assumed["measures"])
+    assert main(["describe", str(path)]) == 0
+    assert "not small" not in capsys.readouterr().out
+
+
+def test_a_solution_with_finite_strain_on_request(tmp_path, capsys):
+    """w/(E* R) = 1e-3 and mu = 1, which is a row of the table; a solid of another kind has none."""
+    ball = replace(
+        BEAD,
+        law=Section("lennard-jones-9-3", {"work_of_adhesion": 0.01, "z0": 5e-8}),
+        punch=Section("ball", {"R": 5e-6}),
+    )
+    looked_up, solved = (
+        assumptions(ball, reference_force(ball), by_solution)["strain"] for by_solution in (False, True)
+    )
+    assert solved["error"] == pytest.approx(looked_up["error"], abs=looked_up["u_num"] + solved["u_num"])
+    path = tmp_path / "offset.toml"
+    path.write_text(
+        '[solid]\nkind = "offset-power-law"\nE0 = "2 MPa"\nc0 = "1 um"\nz_s = "1 um"\nk = 0.4\nnu = 0.4\n'
+        '[punch]\nkind = "sphere"\nR = "5 um"\n'
+        '[law]\nkind = "lennard-jones-9-3"\nwork_of_adhesion = "10 mJ/m^2"\nz0 = "50 nm"\n'
+    )
+    assert main(["describe", str(path), "--large-strain", "--format", "json"]) == 0
+    strain = json.loads(capsys.readouterr().out)["assumptions"]["strain"]
+    assert abs(strain["error"]) < 0.01
+    assert strain["u_num"] < 1e-4
+
+
+def test_a_larger_tabor_number_is_inside_the_bound_of_smaller_ones():
+    worst = 0.0
+    for nodes in strain_errors._table().values():
+        numbers = np.array(sorted(nodes))
+        for count in range(3, numbers.size):
+            change = beyond(numbers[:count], [nodes[number] for number in numbers[:count]])
+            worst = max(worst, *(abs(nodes[number].value - change.value) / change.bound for number in numbers[count:]))
+    assert 0.3 < worst < 0.7
+
+
+def test_between_rows_the_error_is_inside_the_bound():
+    """A row that is left out, from its neighbours in w/(E* R)."""
+    roots, ratios = np.cbrt(strain_errors.SOFTNESS), []
+    for nu, mu in itertools.product(strain_errors.POISSON_RATIOS, (0.3, 1.0, 2.0)):
+        nodes = [strain_errors._table()[softness, nu].get(mu) for softness in strain_errors.SOFTNESS]
+        known = [i for i, node in enumerate(nodes) if node is not None]
+        for left_out in known[1:-1]:
+            others = [i for i in known if i != left_out]
+            change = strain_errors._between(roots[others], [nodes[i] for i in others], roots[left_out])
+            ratios.append(abs(change.value - nodes[left_out].value) / change.bound)
+    assert 0.5 < max(ratios) < 1.0
+
+
+def test_the_limits_of_the_table():
+    small, smaller = strain_change(1e-5, 1.0, 0.5), strain_change(1e-8, 1.0, 0.5)
+    assert smaller.value == pytest.approx(small.value / 10.0, rel=0.05)
+    assert strain_change(1e-3, 0.05, 0.5).bound < 1e-4
+    assert strain_change(0.11, 1.0, 0.5) is None
+    assert beyond(np.array([1.0, 2.0]), [Change(1.0, 0.0), Change(1.5, 0.1)]) == (1.75, 0.5 + 0.75 + 0.1)
+
+
+@pytest.mark.parametrize(("softness", "mu", "nu"), [(5e-3, 2.0, 0.5), (1e-3, 1.0, 0.2)])
+def test_rows_of_the_table_are_what_both_references_give(softness, mu, nu):
+    finite, small = strain_errors.forces_of_a_ball(softness, mu, nu)
+    change = strain_change(softness, mu, nu)
+    bound = change.bound + (finite.u_num + small.u_num) / small.value
+    assert finite.value / small.value - 1.0 == pytest.approx(change.value, abs=bound)
