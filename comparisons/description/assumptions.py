@@ -129,9 +129,9 @@ def _strain(problem: Problem, by_solution: bool) -> Json:
         finite = evaluate("fem-large-strain", "pull_off_force", exact)
         change = change_of(evaluate("fscm", "pull_off_force", exact), finite)
         return _error(None, None, finite.reason) if change is None else _error(*change)
-    if problem.punch.kind not in (_PARABOLOID, _BALL) or not problem.has_of_the_paper("law"):
+    if problem.punch.kind not in (_PARABOLOID, _BALL) or not problem.is_of_the_paper("law"):
         return _error(None, None, "it was computed for spheres under the 9-3 law")
-    if not problem.has_power_law or problem.posed.k != 0.0:
+    if not problem.is_of_the_paper("solid") or problem.posed.k != 0.0:
         return _error(None, None, "it was computed for homogeneous solids")
     softness = (problem.posed.mu * problem.units["displacement"] / problem.punch["R"]) ** 1.5
     change = strain_change(softness, problem.posed.mu, problem.solid["nu"])
