@@ -1,50 +1,86 @@
 """Registry of models: from a name or a SPEC to a model.
 
-A module of a model is imported when the model is created, so that a command that needs JKR does not load the finite
-elements.
+The models of this repository are found in the folder `comparisons.models`.  A module there declares its models
+in two literals, which are read without importing the module:
+
+    MODELS = {"jkr": "JKR"}              # name -> class
+    DEPENDS_ON_POISSON_RATIO = ("fem",)  # optional: models whose class takes Poisson's ratio
+
+So a command that needs JKR does not load the finite elements, and a new model is one new file.
 """
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib import import_module
+from importlib.resources import files
 
 from comparisons.domain import Domain, declared_domain
 from comparisons.external.model_source import load_model, source_of
 from comparisons.model import Model
 
-__all__ = ["MODELS", "ExternalIdentity", "create", "depends_on_poisson_ratio", "identify"]
+__all__ = ["MODELS", "ExternalIdentity", "create", "declared_models", "depends_on_poisson_ratio", "identify"]
 
-#: Name -> module of `comparisons.models` and class, in the order of lists and tables: the references, the closed forms
-#: of the paper, those of others.  The class is called without arguments, or with Poisson's ratio alone if it takes it.
-_CLASSES = {
-    "fscm": "fscm_model:FullSelfConsistent",
-    "fscm-stieltjes": "stieltjes_model:StieltjesModel",
-    "fscm-stieltjes-400": "stieltjes_model:CoarseStieltjesModel",
-    "fem": "fem_model:FiniteElements",
-    "jkr": "jkr:JKR",
-    "md-original": "maugis_dugdale:MaugisDugdaleOriginal",
-    "md-improved": "maugis_dugdale:MaugisDugdaleImproved",
-    "dmt": "dmt:DMT",
-    "bradley": "bradley:Bradley",
-    "semi-rigid": "semi_rigid:SemiRigid",
-    "double-hertz-n-k": "double_hertz:DoubleHertz",
-    "md-jin": "maugis_dugdale:MaugisDugdaleJin",
-    "dmt-strength": "dmt:DMTStrength",
-    "carpick-ogletree-salmeron": "carpick_ogletree_salmeron:CarpickOgletreeSalmeron",
-    "pietrement-troyon": "pietrement_troyon:PietrementTroyon",
-    "schwarz": "schwarz:Schwarz",
-    "jump-asymptotes": "jump_asymptotes:JumpAsymptotes",
-    "jkr-sphere": "jkr_sphere:JKRSphere",
-    "atlas": "atlas_model:Atlas",
-}
+_FOLDER = "comparisons.models"
+_LITERALS = ("MODELS", "DEPENDS_ON_POISSON_RATIO")
 
-#: Name -> "module:class".
-MODELS: dict[str, str] = {name: f"comparisons.models.{path}" for name, path in _CLASSES.items()}
+#: Models that come first in lists and tables; the others follow by the name of their module.
+_REFERENCES = ("fscm", "fscm-stieltjes", "fscm-stieltjes-400", "fem")
+_OF_THE_PAPER = ("jkr", "md-original", "md-improved", "dmt", "bradley", "semi-rigid")
+_OF_OTHERS = ("double-hertz-n-k", "md-jin", "dmt-strength", "carpick-ogletree-salmeron", "pietrement-troyon", "schwarz")
+_ORDER = (*_REFERENCES, *_OF_THE_PAPER, *_OF_OTHERS, "jump-asymptotes", "jkr-sphere")
 
-#: Models whose class takes Poisson's ratio.
-_WITH_POISSON_RATIO = ("fem",)
+
+def declared_models(source: str) -> dict[str, tuple[str, bool]]:
+    """Return the models that a module declares: name -> (class, whether it takes Poisson's ratio).
+
+    Parameters
+    ----------
+    source : str
+        Text of the module.
+
+    Raises
+    ------
+    ValueError
+        If the value of `MODELS` or `DEPENDS_ON_POISSON_RATIO` is not a literal.
+
+    Examples
+    --------
+    >>> declared_models('MODELS = {"jkr": "JKR"}')
+    {'jkr': ('JKR', False)}
+    """
+    # Most modules of the folder declare no model and need no parsing.
+    statements = ast.parse(source).body if "\nMODELS" in f"\n{source}" else []
+    literals = {
+        target.id: ast.literal_eval(statement.value)
+        for statement in statements
+        if isinstance(statement, ast.Assign)
+        for target in statement.targets
+        if isinstance(target, ast.Name) and target.id in _LITERALS
+    }
+    with_ratio = literals.get("DEPENDS_ON_POISSON_RATIO", ())
+    return {name: (cls, name in with_ratio) for name, cls in literals.get("MODELS", {}).items()}
+
+
+def _models_in_folder() -> dict[str, tuple[str, bool]]:
+    """Name -> "module:class" and use of Poisson's ratio of every model in the folder, in the order of lists."""
+    models: dict[str, tuple[str, bool]] = {}
+    for entry in sorted(files(_FOLDER).iterdir(), key=lambda entry: entry.name):
+        if entry.name.endswith(".py"):
+            module = f"{_FOLDER}.{entry.name.removesuffix('.py')}"
+            for name, (cls, with_ratio) in declared_models(entry.read_text(encoding="utf-8")).items():
+                if name in models:
+                    raise ValueError(f"{module} declares a model {name}, which another module declares as well")
+                models[name] = f"{module}:{cls}", with_ratio
+    return {name: models[name] for name in [*(name for name in _ORDER if name in models), *models]}
+
+
+_MODELS = _models_in_folder()
+
+#: Name -> "module:class"; the class is called without arguments, or with Poisson's ratio alone if it takes it.
+MODELS: dict[str, str] = {name: path for name, (path, _) in _MODELS.items()}
 
 
 def depends_on_poisson_ratio(name: str) -> bool:
@@ -57,7 +93,7 @@ def depends_on_poisson_ratio(name: str) -> bool:
     >>> depends_on_poisson_ratio("fem"), depends_on_poisson_ratio("fscm")
     (True, False)
     """
-    return name in _WITH_POISSON_RATIO
+    return name in _MODELS and _MODELS[name][1]
 
 
 def create(name: str, poisson_ratio: float | None = None) -> Model:

@@ -12,6 +12,8 @@ from fscm.interpolation.storage import data_digest
 
 __all__ = ["Atlas"]
 
+MODELS = {"atlas": "Atlas"}
+
 
 class Atlas:
     """The function `fscm.atlas`; `u_num` is its bound.

@@ -22,6 +22,8 @@ from comparisons.problem import Problem
 
 __all__ = ["Bradley", "rigid_load", "rigid_pull_off"]
 
+MODELS = {"bradley": "Bradley"}
+
 # The curve ends this factor of H0 + 1 inside the zero-load gap, where the load has turned compressive.
 _INSIDE = 0.97
 

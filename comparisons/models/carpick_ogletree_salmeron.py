@@ -19,6 +19,8 @@ from comparisons.problem import Problem
 
 __all__ = ["CarpickOgletreeSalmeron"]
 
+MODELS = {"carpick-ogletree-salmeron": "CarpickOgletreeSalmeron"}
+
 
 class CarpickOgletreeSalmeron(HomogeneousSphere):
     """The pull-off force over Maugis's lambda by Eq. 12a.

@@ -25,6 +25,8 @@ from comparisons.problem import Problem
 
 __all__ = ["DMT", "DMTStrength", "dmt_pull_off"]
 
+MODELS = {"dmt": "DMT", "dmt-strength": "DMTStrength"}
+
 
 def dmt_pull_off(n: float, cohesive_stress: float) -> Result:
     """Pull-off force n^(2/n) sigma_0^(1 - 2/n) (Eq. 75), sigma_0 in dgamma / z0.

@@ -13,6 +13,8 @@ from comparisons.problem import Problem
 
 __all__ = ["DoubleHertz"]
 
+MODELS = {"double-hertz-n-k": "DoubleHertz"}
+
 
 class DoubleHertz(CohesiveModel):
     """Double-Hertz-n-k with the theoretical strength 16 sqrt(3) / 27 as largest traction.

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 __all__ = ["FiniteElements"]
 
+MODELS = {"fem": "FiniteElements"}
+DEPENDS_ON_POISSON_RATIO = ("fem",)
+
 #: Meshes of a curve: the coarser one, which gives its uncertainty, and that of its points.
 _LEVELS = ("quick", "default")
 

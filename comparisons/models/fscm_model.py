@@ -15,6 +15,8 @@ from fscm.states import radial_field
 
 __all__ = ["FullSelfConsistent"]
 
+MODELS = {"fscm": "FullSelfConsistent"}
+
 #: Step of a curve: other curves are compared with it between its points (measured: a cubic spline is then
 #: within 1e-5 of the picture).
 _STEP = 0.05

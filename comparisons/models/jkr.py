@@ -21,6 +21,8 @@ from comparisons.problem import Problem
 
 __all__ = ["JKR"]
 
+MODELS = {"jkr": "JKR"}
+
 
 class JKR(ClosedForm):
     """JKR-n-k: infinitely short-ranged adhesion, Griffith's balance at the contact edge.

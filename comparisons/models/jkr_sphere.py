@@ -27,6 +27,8 @@ from comparisons.problem import Problem
 
 __all__ = ["JKRSphere"]
 
+MODELS = {"jkr-sphere": "JKRSphere"}
+
 
 #: Largest contact radius in radii of the ball, as in both references.
 _REACH = 0.95

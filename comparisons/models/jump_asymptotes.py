@@ -31,6 +31,8 @@ from comparisons.problem import Problem
 
 __all__ = ["JumpAsymptotes"]
 
+MODELS = {"jump-asymptotes": "JumpAsymptotes"}
+
 
 class JumpAsymptotes(ClosedForm):
     """The cycle between the semi-rigid branch and the JKR branch.

@@ -18,6 +18,12 @@ from comparisons.problem import Problem
 
 __all__ = ["MaugisDugdaleImproved", "MaugisDugdaleJin", "MaugisDugdaleOriginal"]
 
+MODELS = {
+    "md-original": "MaugisDugdaleOriginal",
+    "md-improved": "MaugisDugdaleImproved",
+    "md-jin": "MaugisDugdaleJin",
+}
+
 
 class MaugisDugdaleOriginal(CohesiveModel):
     """M-D-n-k with the theoretical strength 16 sqrt(3) / 27 as cohesive stress (Eq. 73).

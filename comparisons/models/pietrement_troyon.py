@@ -25,6 +25,8 @@ from comparisons.problem import Problem
 
 __all__ = ["PietrementTroyon"]
 
+MODELS = {"pietrement-troyon": "PietrementTroyon"}
+
 # Below this alpha the fit of S turns negative: -2.160 and 2.7531 belong to powers that differ by 0.045 alone.
 _SMALLEST_ALPHA = 0.01
 # Maugis's unit of the displacement over (R dgamma^2 / E*^2)^(1/3), the unit of the tilde variables.

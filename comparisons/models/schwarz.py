@@ -24,6 +24,8 @@ from comparisons.problem import Problem
 
 __all__ = ["Schwarz", "short_range_share"]
 
+MODELS = {"schwarz": "Schwarz"}
+
 
 def short_range_share(alpha: float) -> float:
     """Return x = w_1 / dgamma, the part of the work of adhesion that acts at the contact edge.

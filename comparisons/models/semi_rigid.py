@@ -24,6 +24,8 @@ from comparisons.quantities import QUANTITIES
 
 __all__ = ["SemiRigid", "attraction_coefficient", "jump_in_coefficient"]
 
+MODELS = {"semi-rigid": "SemiRigid"}
+
 
 def _reach(n: float, k: float, j: int) -> float:
     """g_j = (1-k) B(j - b, b), b = (1-k)/n, with its limit n at k = 1."""

@@ -12,6 +12,8 @@ from fscm.stieltjes import STIELTJES_QUANTITIES, StieltjesScheme, stieltjes_solu
 
 __all__ = ["CoarseStieltjesModel", "StieltjesModel"]
 
+MODELS = {"fscm-stieltjes": "StieltjesModel", "fscm-stieltjes-400": "CoarseStieltjesModel"}
+
 
 class StieltjesModel:
     """Eqs. 34-39 as printed in the paper: N uniform segments up to f = 50, Riemann-Stieltjes sums, central-gap control.
