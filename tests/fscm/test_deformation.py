@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from scipy.special import ellipe, gamma, hyp1f1
 
+from fscm import Problem
 from fscm._deformation import axis_row, response_matrix
+from fscm._equilibrium import Discretisation
 from fscm._kernel import Kernel
 from fscm._panels import PanelMesh
 
@@ -54,3 +56,16 @@ def test_order_of_convergence(k: float, order: int) -> None:
         exact = 0.5 * gamma((1 - k) / 2) * hyp1f1((1 + k) / 2, 1, -(mesh.nodes**2))
         errors.append(np.abs(w - exact).max())
     assert np.log2(errors[0] / errors[1]) > order - 0.1
+
+
+def test_a_mesh_on_which_nothing_is_solved_passes_on_the_blocks_of_its_exponent() -> None:
+    """Ends that are no binary fractions are not stored: their blocks come from the mesh before."""
+    ends = np.array([0.0, 1.0 / 3.0, 1.0, 3.0, 10.0])
+    finer = np.sort(np.append(ends, 0.7))
+    meshes = [PanelMesh(offsets, 8) for offsets in (ends, ends, finer)]
+    for k in (0.0, 0.4):
+        disc = Discretisation(Problem(2, 0.0, 1.0), meshes[0])
+        assert disc.matrix.shape == (32, 32)
+        for mesh in meshes[1:]:
+            disc = Discretisation(Problem(2, k, 1.0), mesh, disc)
+        np.testing.assert_array_equal(disc.matrix, Discretisation(Problem(2, k, 1.0), PanelMesh(finer, 8)).matrix)
