@@ -36,7 +36,7 @@ SEARCH_DEGREE = 4
 
 _LEVELS = {
     1e-6: Level(6, 1.05, 1e-6),
-    1e-7: Level(7, 1.04, 1e-7),
+    1e-7: Level(7, 0.95, 1e-7),
     1e-8: Level(8, 0.8, 1e-8),
 }
 
@@ -85,7 +85,7 @@ def level_for(accuracy: float | str) -> Level:
     >>> level_for(1e-7) == level_for("default")
     True
     >>> level_for(3e-7).order, round(level_for(3e-7).density, 3)
-    (7, 1.045)
+    (7, 0.996)
     """
     number = min(relative_error(accuracy), max(_LEVELS))
     if number in _LEVELS:
