@@ -16,12 +16,15 @@ from comparisons.problem import Problem, Section
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["SMALL", "assumptions", "total_errors"]
+__all__ = ["LARGEST_CONTACT", "SMALL", "assumptions", "total_errors"]
 
 Json = dict[str, Any]
 
 #: Largest slope and strain that count as small: their squares, which linear theory leaves out, are 1 %.
 SMALL = 0.1
+
+#: Largest contact radius in radii of a sphere: that of the exact sphere in both references.
+LARGEST_CONTACT = 0.95
 
 #: The edge of the contact is where the tension is above this share of its largest value.
 _EDGE = 0.5
@@ -63,7 +66,8 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
         ``measures`` of the equilibrium at pull-off, each with ``key``, ``value``, ``limit`` and ``meaning``, and
         ``contact_radius`` in m, where the tension is largest.  ``geometry``, ``strain`` and ``total`` have ``error``,
         ``u_num`` and ``reason``: relative errors of the force of small strains against that of a neo-Hookean solid and
-        the exact shape, without friction; None where they are unknown.  None where there is no pull-off force.
+        the exact shape, without friction; None where they are unknown.  ``recommendable`` is false where the contact is
+        larger than the sphere.  None where there is no pull-off force.
     """
     if force.value is None:
         return None
@@ -71,12 +75,19 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
         measures = _measures(problem)
     except (NotApplicable, ComputationFailed):
         return None
-    geometry, strain = _geometry(problem, force), _strain(problem, by_solution)
+    is_sphere = problem.punch.kind in (_PARABOLOID, _BALL)
+    if is_sphere and measures["contact_radius"] > LARGEST_CONTACT * problem.punch["R"]:
+        geometry = strain = _error(None, None, "the contact is larger than the sphere")
+        recommendable = False
+    else:
+        geometry, strain = _geometry(problem, force), _strain(problem, by_solution)
+        recommendable = True
     return {
         **measures,
         "geometry": geometry,
         "strain": strain,
         "total": _product((geometry, strain)),
+        "recommendable": recommendable,
     }
 
 
@@ -124,11 +135,19 @@ def _geometry(problem: Problem, force: Row) -> Json:
 
 def _strain(problem: Problem, by_solution: bool) -> Json:
     """Relative error of the force for linear elasticity."""
-    if by_solution:
-        exact = _exact(problem)
-        finite = evaluate("fem-large-strain", "pull_off_force", exact)
-        change = change_of(evaluate("fscm", "pull_off_force", exact), finite)
-        return _error(None, None, finite.reason) if change is None else _error(*change)
+    if not by_solution:
+        return _tabulated(problem)
+    exact = _exact(problem)
+    finite = evaluate("fem-large-strain", "pull_off_force", exact)
+    change = change_of(evaluate("fscm", "pull_off_force", exact), finite)
+    if change is not None:
+        return _error(*change)
+    tabulated = _tabulated(problem)
+    return tabulated if tabulated["error"] is not None else _error(None, None, finite.reason)
+
+
+def _tabulated(problem: Problem) -> Json:
+    """The same where the table of forces of spheres has it."""
     if problem.punch.kind not in (_PARABOLOID, _BALL) or not problem.is_of_the_paper("law"):
         return _error(None, None, "it was computed for spheres under the 9-3 law")
     if not problem.is_of_the_paper("solid") or problem.posed.k != 0.0:

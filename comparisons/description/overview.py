@@ -46,6 +46,8 @@ def model_errors(problem: Problem, force: Row) -> list[Json]:
         Of this problem, or of another one that this one stands for.
     """
     names = [name for name in MODELS if name not in REFERENCES] if problem.is_of_the_paper() else []
+    if problem.punch.kind == "ball":
+        names = ["jkr-sphere"]
     changes = {name: change_of(evaluate(name, "pull_off_force", problem), force) for name in names}
     errors = [{"model": name, "error": change[0], "u_num": change[1]} for name, change in changes.items() if change]
     return sorted(errors, key=lambda row: abs(row["error"]))
@@ -100,24 +102,30 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None) -> Json:
         "assumptions": assumed,
         "total_errors": with_assumptions,
         "recommended": {
-            f"{100 * limit:g} %": simplest_within(with_assumptions or errors, limit)
-            or _reference_within(force, assumed, limit)
-            for limit in LIMITS
+            f"{100 * limit:g} %": _recommended(with_assumptions or errors, force, assumed, limit) for limit in LIMITS
         },
     }
 
 
-def _reference_within(force: Row, assumed: Json | None, limit: float) -> str | None:
-    """The reference, unless the assumptions that it shares are known to be wrong by more than a limit."""
-    is_known = assumed is not None and assumed["total"]["error"] is not None
-    return force.model if not is_known or (assumed and _is_within(assumed["total"], limit)) else None
+def _recommended(errors: Sequence[Json], force: Row, assumed: Json | None, limit: float) -> str | None:
+    """The simplest model within a limit, or the reference unless what it assumes is known to be wrong by more."""
+    if assumed is None:
+        return simplest_within(errors, limit) or force.model
+    if not assumed["recommendable"]:
+        return None
+    shares_too_much = assumed["total"]["error"] is not None and not _is_within(assumed["total"], limit)
+    return simplest_within(errors, limit) or (None if shares_too_much else force.model)
 
 
 def _regime(errors: Sequence[Json]) -> str:
     """The limit whose pull-off force is within 5 %, by a sentence."""
     if not errors:
         return "not classified: no closed form takes this problem"
-    limits = [row["model"] for row in errors if row["model"] in ("bradley", "jkr") and _is_within(row, LIMITS[-1])]
+    limits = [
+        row["model"]
+        for row in errors
+        if row["model"] in ("bradley", "jkr", "jkr-sphere") and _is_within(row, LIMITS[-1])
+    ]
     if len(limits) == 2:
         return "the rigid limit (Bradley) and the limit of JKR are both within 5 % of the pull-off force"
     if limits:

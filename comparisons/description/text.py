@@ -16,7 +16,7 @@ __all__ = ["equivalent_lines", "overview_lines", "profile_lines", "uncertainty_l
 Json = dict[str, Any]
 
 #: Where no model is within a limit.
-NONE_WITHIN = "none: the assumptions alone are wrong by more"
+NONE_WITHIN = "none, the assumptions alone are wrong by more"
 
 
 def overview_lines(problem: Problem, overview: Json, equivalent: Json | None) -> list[str]:
@@ -27,7 +27,7 @@ def overview_lines(problem: Problem, overview: Json, equivalent: Json | None) ->
         f"  {_tabor_number(problem, overview['tabor_number'], equivalent)}",
     ]
     if overview["assumptions"]:
-        lines += _assumption_lines(overview["assumptions"])
+        lines += _assumption_lines(problem, overview["assumptions"])
     if critical is not None:
         words = "jumps, with hysteresis" if overview["tabor_number"] > critical else "no jumps"
         lines.append(f"  critical Tabor number {critical:.6g}: {words}")
@@ -37,25 +37,28 @@ def overview_lines(problem: Problem, overview: Json, equivalent: Json | None) ->
     if overview["errors"]:
         lines += ["  errors of the pull-off force of other models:", *_error_lines(overview["errors"], "    ")]
     if overview["total_errors"]:
-        lines += ["  the same with the error of the assumptions:", *_error_lines(overview["total_errors"], "    ")]
-    where = "" if overview["total_errors"] else ", at small strains"
-    recommended = overview["recommended"].items()
+        lines += ["  their errors with that of the assumptions:", *_error_lines(overview["total_errors"], "    ")]
+    assumed, recommended = overview["assumptions"], overview["recommended"].items()
+    if assumed and not assumed["recommendable"]:
+        return [*lines, "  no model is recommended: the contact is larger than the sphere"]
+    where = "" if assumed and assumed["total"]["error"] is not None else ", at small strains"
     return lines + [f"  recommended for {limit}{where}: {model or NONE_WITHIN}" for limit, model in recommended]
 
 
-def _assumption_lines(assumed: Json) -> list[str]:
+def _assumption_lines(problem: Problem, assumed: Json) -> list[str]:
     """The error of what all models assume, its two sources, and the measures that are not small."""
-    names = {"geometry": "a paraboloid for the sphere", "strain": "small strains", "total": "both"}
+    names = {"geometry": "a paraboloid for the sphere", "strain": "small strains", "total": "together"}
+    if problem.punch.kind != "sphere":
+        names = {"strain": names["strain"]}
     width = max(map(len, names.values()))
     lines = ["  error of the pull-off force by the assumptions that all models share:"]
     for key, name in names.items():
         error = assumed[key]["error"]
-        text = (
-            "unknown: " + assumed[key]["reason"] if error is None else f"{percent_text(error, assumed[key]['u_num'])} %"
-        )
+        unknown = "unknown" if key == "total" else f"unknown: {assumed[key]['reason']}"
+        text = unknown if error is None else f"{percent_text(error, assumed[key]['u_num'])} %"
         lines.append(f"    {name:{width}}  {text}")
     lines.append(
-        f"  at pull-off, contact radius {_rounded(assumed['contact_radius'], 'm', 3)}; small is up to {SMALL:g}:"
+        f"  at pull-off, contact radius {_rounded(assumed['contact_radius'], 'm', 3)}; assumed to be below {SMALL:g}:"
     )
     width = max(len(measure["meaning"]) for measure in assumed["measures"])
     for measure in assumed["measures"]:

@@ -76,8 +76,20 @@ def test_where_nothing_was_computed_the_error_is_unknown(changed, reason):
     assert content["total_errors"] == []
 
 
+def test_nothing_is_recommended_where_the_contact_is_larger_than_the_sphere():
+    content = described(
+        replace(BEAD, punch=Section("sphere", {"R": 2e-8}), solid=Section("homogeneous", {"E": 1e5, "nu": 0.5}))
+    )
+    assert content["assumptions"]["contact_radius"] > 2e-8
+    assert content["assumptions"]["total"]["error"] is None
+    assert content["recommended"] == {"1 %": None, "5 %": None}
+
+
 def test_the_exact_sphere_has_no_error_of_its_shape():
-    ball = described(replace(BEAD, punch=Section("ball", {"R": 5e-6})))["assumptions"]
+    content = described(replace(BEAD, punch=Section("ball", {"R": 5e-6})))
+    ball = content["assumptions"]
+    assert [row["model"] for row in content["errors"]] == ["jkr-sphere"]
+    assert "JKR" in content["regime"]
     assert (ball["geometry"]["error"], ball["geometry"]["u_num"]) == (0.0, 0.0)
     assert ball["total"]["error"] == pytest.approx(ball["strain"]["error"])
 
