@@ -12,19 +12,17 @@ from comparisons.description.forces import change_of
 from comparisons.description.strain_errors import strain_change
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models.fscm_model import FullSelfConsistent
+from comparisons.models.jkr_sphere import LARGEST_CONTACT
 from comparisons.problem import Problem, Section
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["LARGEST_CONTACT", "SMALL", "assumptions", "total_errors"]
+__all__ = ["SMALL", "assumptions", "total_errors"]
 
 Json = dict[str, Any]
 
 #: Largest slope and strain that count as small: their squares, which linear theory leaves out, are 1 %.
 SMALL = 0.1
-
-#: Largest contact radius in radii of a sphere: that of the exact sphere in both references.
-LARGEST_CONTACT = 0.95
 
 #: The edge of the contact is where the tension is above this share of its largest value.
 _EDGE = 0.5
@@ -76,18 +74,17 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
     except (NotApplicable, ComputationFailed):
         return None
     is_sphere = problem.punch.kind in (_PARABOLOID, _BALL)
-    if is_sphere and measures["contact_radius"] > LARGEST_CONTACT * problem.punch["R"]:
+    is_too_large = is_sphere and measures["contact_radius"] > LARGEST_CONTACT * problem.punch["R"]
+    if is_too_large:
         geometry = strain = _error(None, None, "the contact is larger than the sphere")
-        recommendable = False
     else:
         geometry, strain = _geometry(problem, force), _strain(problem, by_solution)
-        recommendable = True
     return {
         **measures,
         "geometry": geometry,
         "strain": strain,
         "total": _product((geometry, strain)),
-        "recommendable": recommendable,
+        "recommendable": not is_too_large,
     }
 
 

@@ -5,9 +5,9 @@ exact sphere without friction.  Their relative difference s depends on w/(E* R),
 radius: s / (w/(E* R))^(1/3) is smooth, and is what is interpolated.  `python -m comparisons.description.strain_errors`
 computes the table.
 
-At large Tabor numbers the tension makes the surface unstable, and the table has no force.  There s lies
-about where a straight line in 1/mu through the last two points is half way to 1/mu = 0; the bound is the whole way, and
-`FURTHER` of the largest value before.
+At large Tabor numbers the tension makes the surface unstable, and the table has no force.  There s lies about where a
+straight line in 1/mu through the last two points is half way to 1/mu = 0; the bound is the whole way, and `FURTHER` of
+the largest value before.
 """
 
 from __future__ import annotations
@@ -43,7 +43,6 @@ POISSON_RATIOS = (0.0, 0.2, 0.35, 0.5)
 
 #: Largest tension w/z0 in E* that is tried: from about 0.4 the surface is unstable.
 LARGEST_TENSION = 0.5
-
 
 #: Share of the change that the bound has in the middle between two rows (measured: a row from its neighbours, twice as
 #: far apart, misses by up to 1 % beside the difference from a straight line).
@@ -93,8 +92,7 @@ def strain_change(softness: float, mu: float, nu: float) -> Change | None:
     of_ratios = []
     for ratio in POISSON_RATIOS:
         nodes = [_between_tabor_numbers(x, ratio, mu) for x in SOFTNESS]
-        known = [i for i, node in enumerate(nodes) if node is not None]
-        of_ratios.append(_between(roots[known], [nodes[i] for i in known], max(root, roots[0])))
+        of_ratios.append(_between(roots, nodes, max(root, roots[0])))
     change = _between(np.array(POISSON_RATIOS), of_ratios, nu)
     below = abs(change.value) if root < roots[0] else 0.0
     return Change(change.value * root, float((change.bound + below * (1.0 - root / roots[0])) * root))

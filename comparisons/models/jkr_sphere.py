@@ -25,13 +25,13 @@ from comparisons.models.closed_form import EPS, POINTS, ClosedForm, Limits
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
-__all__ = ["JKRSphere"]
+__all__ = ["LARGEST_CONTACT", "JKRSphere"]
 
 MODELS = {"jkr-sphere": "JKRSphere"}
 
 
 #: Largest contact radius in radii of the ball, as in both references.
-_REACH = 0.95
+LARGEST_CONTACT = 0.95
 
 # Below this alpha the series of h has no cancellation; 20 terms leave 1e-22.
 _SERIES_BELOW, _TERMS = 0.3, 20
@@ -81,12 +81,13 @@ class _Ball:
         rise, start, theta = _EVENTS[event]
         target = theta * math.sqrt(2.0 * math.pi * self.softness)
         largest = (target / start) ** (2.0 / 3.0)
-        if rise(_REACH) < target:
+        if rise(LARGEST_CONTACT) < target:
             raise NotApplicable(
-                f"the ball is smaller than the contact: its radius is that of the contact over {_REACH} or less"
+                "the ball is smaller than the contact: its radius is that of the contact over "
+                f"{LARGEST_CONTACT} or less"
             )
-        smallest = min(largest, _REACH) / 1e3
-        largest = min(largest * (1.0 + 8.0 * EPS), _REACH)
+        smallest = min(largest, LARGEST_CONTACT) / 1e3
+        largest = min(largest * (1.0 + 8.0 * EPS), LARGEST_CONTACT)
         return float(brentq(lambda alpha: rise(alpha) - target, smallest, largest, xtol=1e-300, rtol=4.0 * EPS))
 
     def displacement_at(self, event: str) -> Result:
@@ -151,8 +152,8 @@ class JKRSphere(ClosedForm):
         """
         ball = _Ball.of(problem)
         end = pull_off = ball.at("pull_off")
-        while end < _REACH and ball.load(end) < -ball.load(pull_off):
-            end = min(1.02 * end, _REACH)
+        while end < LARGEST_CONTACT and ball.load(end) < -ball.load(pull_off):
+            end = min(1.02 * end, LARGEST_CONTACT)
         alpha = end * np.linspace(0.0, 1.0, POINTS) ** 2
         return Curve(
             displacement=ball.radius * ball.displacement(alpha),

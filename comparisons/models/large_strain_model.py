@@ -42,7 +42,7 @@ class LargeStrain:
         """Return the quantity, or raise as in `comparisons.model.Model`."""
         if quantity not in fem_reference.LARGE_STRAIN_QUANTITIES:
             raise NotApplicable(f"finite strain does not state {quantity}")
-        if problem["mu"] is not None:
+        if not problem.name:
             raise NotApplicable("n, k and mu do not state how large the strains are; give a problem file")
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             solution = fem_reference.solve_large_strain(self._body(problem), quantity)

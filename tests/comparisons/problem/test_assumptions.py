@@ -138,7 +138,7 @@ def test_a_larger_tabor_number_is_inside_the_bound_of_smaller_ones():
         for count in range(3, numbers.size):
             change = beyond(numbers[:count], [nodes[number] for number in numbers[:count]])
             worst = max(worst, *(abs(nodes[number].value - change.value) / change.bound for number in numbers[count:]))
-    assert 0.3 < worst < 0.7
+    assert 0.5 < worst < 0.7
 
 
 def test_between_rows_the_error_is_inside_the_bound():
@@ -162,8 +162,8 @@ def test_the_limits_of_the_table():
     assert beyond(np.array([1.0, 2.0]), [Change(1.0, 0.0), Change(1.5, 0.1)]) == (1.75, 0.5 + 0.75 + 0.1)
 
 
-@pytest.mark.parametrize(("softness", "mu", "nu"), [(5e-3, 2.0, 0.5), (1e-3, 1.0, 0.2)])
-def test_rows_of_the_table_are_what_both_references_give(softness, mu, nu):
+@pytest.mark.parametrize(("softness", "mu", "nu"), [(5e-3, 2.0, 0.5), (4e-2, 0.6, 0.45), (2e-3, 0.05, 0.3)])
+def test_rows_and_values_between_them_are_what_both_references_give(softness, mu, nu):
     finite, small = strain_errors.forces_of_a_ball(softness, mu, nu)
     change = strain_change(softness, mu, nu)
     bound = change.bound + (finite.u_num + small.u_num) / small.value
