@@ -23,7 +23,6 @@ from comparisons.data.file_names import BENCH, BENCH_SUMMARY
 from comparisons.output.style import save
 from comparisons.runs.atomic_files import atomic, prepare_folder, write_json
 from comparisons.runs.csv_format import csv_text
-from comparisons.runs.data_package import write_data_package
 from comparisons.runs.environment import environment
 from comparisons.runs.store import Form, Store
 
@@ -112,7 +111,7 @@ def _measure(parts: Sequence[Part], full: bool, store: Store[Measurement]) -> No
         (part, settings) for part in parts for settings in part.plan(full) if (part.name, key(settings)) not in stored
     ]
     note(f"{len(missing)} measurements" + (f", {len(stored)} are stored" if stored else ""))
-    made = ((measured(part, settings), None) for part, settings in missing)
+    made = (measured(part, settings) for part, settings in missing)
     store.complete("measurements", len(missing), made)
 
 
@@ -142,7 +141,6 @@ def _written(
     write_json(content, folder / BENCH)
     with atomic(folder / BENCH_SUMMARY) as file:
         file.write("".join(f"{line}\n" for line in summary).encode())
-    write_data_package(folder, [part.files(folder)[0].name for part in parts])
     return FinishedBench(summary, failures)
 
 

@@ -74,24 +74,14 @@ class _Parser(argparse.ArgumentParser):
         print(message, end="", file=file or sys.stderr)
 
 
-class _Print(argparse.Action):
-    """An option that prints what the function `const` makes of its value."""
+class _Version(argparse.Action):
+    """The option that prints the version, which takes a moment to find out."""
 
-    def __call__(self, parser: argparse.ArgumentParser, _: Any, value: Any, __: Any = None) -> None:
-        print(self.const(value), end="")
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+        from comparisons.runs.environment import version_text
+
+        print(f"fscm-bench {version_text()}")
         parser.exit()
-
-
-def _version(_: object) -> str:
-    from comparisons.runs.environment import version_text
-
-    return f"fscm-bench {version_text()}\n"
-
-
-def _completion(shell: str) -> str:
-    from comparisons.cli.completion import completion_script
-
-    return completion_script(_parser(list(_COMMANDS)), shell)
 
 
 def _examples(commands: Sequence[str]) -> str:
@@ -105,12 +95,7 @@ def _parser(called: Collection[str], program: str = "fscm-bench") -> argparse.Ar
         description="How wrong is a model of adhesive contact, and how certain is that error?",
         epilog=f"{_examples(_EXAMPLES)}\n{_EXIT_STATUS}",
     )
-    completion: dict[str, Any] = {"metavar": "SHELL", "choices": ("bash", "zsh", "tcsh")}
-    completion["help"] = "print the script that completes commands in bash, zsh or tcsh"
-    parser.add_argument(
-        "--version", action=_Print, const=_version, nargs=0, help="print the version and, if known, the commit"
-    )
-    parser.add_argument("--print-completion", action=_Print, const=_completion, **completion)
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and, if known, the commit")
     parsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, text in _COMMANDS.items():
         command = parsers.add_parser(name, help=text, description=textwrap.fill(f"{text[0].upper()}{text[1:]}."))

@@ -19,7 +19,7 @@ def option(*names: str, **settings: Any) -> Option:
 
 
 def file(*names: str, metavar: str = "FILE", **settings: Any) -> Option:
-    """Declare an option that is a path; completion takes a metavar that starts with DIR for a folder."""
+    """Declare an option that is a path."""
     return names, {"metavar": metavar, "type": Path, **settings}
 
 

@@ -15,7 +15,7 @@ __all__ = ["EXTRAS", "check_packages", "sentence_on_missing_module"]
 _PACKAGES = ("fscm", "fem_reference", "comparisons")
 
 #: Module -> the extra of fscm-bench that installs it.
-EXTRAS = {"bokeh": "report", "shtab": "completion"}
+EXTRAS = {"bokeh": "report"}
 
 #: Metadata of a distribution that is called as one of the packages, as the `fscm` and the `comparisons` of PyPI.
 _OTHERS = re.compile(rf"({'|'.join(_PACKAGES)})-([^-]+)(-py[^-]*)?\.(dist|egg)-info", re.IGNORECASE)

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-#: Type, unit and meaning of every column of the tables of a folder.
-DATA_PACKAGE = "datapackage.json"
-
 #: The record of the run, and the store of finished computations.
 RECORD, STORE = "run.json", "store.sqlite"
 

@@ -131,6 +131,6 @@ def make_calls(calls: Iterable[CachedCall], folder: Path, jobs: int = 1, *, retr
         log_failures_used(Counter(call.name for call in failed - again))
         missing = [call for call in planned if call not in stored or call in again]
         outcomes = each(_make, missing, jobs, lost=lambda call: Outcome(call, failure=LOST))
-        store.complete("paper", len(missing), ((outcome, None) for outcome in outcomes))
+        store.complete("paper", len(missing), outcomes)
         parts = store.parts(lambda outcome: outcome.call in planned)
         return MadeCalls({outcome.call: outcome for outcome in store.items}, len(missing), parts)

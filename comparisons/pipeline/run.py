@@ -15,7 +15,6 @@ from comparisons.registry import identify
 from comparisons.runs.computation import checked_jobs, complete, folder_for
 from comparisons.runs.record import now
 from comparisons.runs.shards import parse_shard, tasks_of_shard
-from comparisons.runs.workers import backend_of
 
 __all__ = ["run"]
 
@@ -31,8 +30,6 @@ def run(
     *,
     jobs: int = 1,
     retry_failed: bool = False,
-    backend: str = "processes",
-    scheduler: str | None = None,
     shard: str | None = None,
     random: int = 0,
     seed: int | None = None,
@@ -57,13 +54,8 @@ def run(
         Number of processes.  With more than one, a script needs the guard ``if __name__ == "__main__":``.
     retry_failed : bool
         Whether stored failures are computed again.
-    backend : str
-        Where it is computed: "processes" of this machine, or "dask" for a Dask cluster.
-    scheduler : str, optional
-        The address of the scheduler of a Dask cluster; by default a cluster is started on this machine.
     shard : str, optional
         The part i/N of cases without gates, as "2/3"; `comparisons.pipeline.merge.merge` puts the N folders together.
-
     random : int
         How many fresh cases are drawn at random for each model and gate, from the domain that the model declares.
     seed : int, optional
@@ -100,7 +92,6 @@ def run(
     (None, 2, [-0.25])
     """
     checked_jobs(jobs)
-    workers = backend_of(backend, scheduler)
     if shard is not None:
         parse_shard(shard)
     # Before anything is computed or written, every model is loaded and every text is read.
@@ -113,11 +104,9 @@ def run(
     tasks = inputs.plan() if shard is None else tasks_of_shard(shard, inputs.plan())
     by_gates = inputs.cases.tier is not None and (models is not None or gates is not None)
     needed = (lambda rows: inputs.needed({row.key: row.status for row in rows})) if by_gates else None
-    completed = complete(tasks, target, jobs, retry_failed, workers, needed)
+    completed = complete(tasks, target, jobs, retry_failed, needed)
     arguments = {
         "jobs": jobs,
-        "backend": None if backend == "processes" else backend,
-        "scheduler": scheduler,
         "shard": shard,
         "random": inputs.fresh and inputs.fresh.count,
         "seed": inputs.fresh and inputs.fresh.seed,

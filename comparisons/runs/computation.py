@@ -7,18 +7,16 @@ from collections.abc import Callable, Collection, Generator, Mapping
 from contextlib import closing
 from dataclasses import dataclass
 from datetime import datetime
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from comparisons.console.progress import log, note
 from comparisons.runs.atomic_files import prepare_folder
-from comparisons.runs.environment import computing_environment, differences, fingerprint
 from comparisons.runs.reevaluation import drop_changed
 from comparisons.runs.rows import Key, Row
 from comparisons.runs.store import rows_in
 from comparisons.runs.tasks import Task, batches, evaluate_task, lost_row
-from comparisons.runs.workers import LOST, Backend, each, processes
+from comparisons.runs.workers import LOST, each
 
 __all__ = ["Completed", "checked_jobs", "complete", "compute", "folder_for", "is_row_of", "log_failures_used"]
 
@@ -70,7 +68,6 @@ def complete(
     folder: Path,
     jobs: int,
     retry_failed: bool = False,
-    backend: Backend = processes,
     needed: Callable[[list[Row]], Collection[Key]] | None = None,
 ) -> Completed:
     """Compute the tasks that the store of a folder does not have.
@@ -89,8 +86,6 @@ def complete(
         Number of processes.
     retry_failed : bool
         Whether stored failures of our own models do not count either.
-    backend : Backend
-        Where the tasks are computed.
     needed : callable, optional
         Returns the keys of the results that are needed, from the rows that are there: it is called again with the new
         ones, until nothing is missing.  By default all are needed.
@@ -98,7 +93,7 @@ def complete(
     Raises
     ------
     ValueError
-        If the folder or a worker is of other code, or another process computes into the folder.
+        If the folder is of other code, or another process computes into the folder.
     comparisons.model.ComputationFailed
         If the workers cannot compute.
     """
@@ -122,11 +117,10 @@ def complete(
             evaluated_again = drop_changed(planned, store)
         stored = rows = rows_of_plan()
         log_failures_used(Counter(row.model for row in stored.values() if row.status == "failed"))
-        workers = f"{jobs} processes" if backend is processes else "a Dask cluster"
         missing = [planned[key] for key in needed_keys(rows) if key not in rows]
-        note(f"{len(missing)} computations on {workers}" + (f", {len(stored)} are stored" if stored else ""))
+        note(f"{len(missing)} computations on {jobs} processes" + (f", {len(stored)} are stored" if stored else ""))
         while missing:
-            store.complete("computing", len(missing), compute(missing, jobs, backend))
+            store.complete("computing", len(missing), compute(missing, jobs))
             rows = rows_of_plan()
             missing = [planned[key] for key in needed_keys(rows) if key not in rows]
             if missing:
@@ -149,56 +143,33 @@ def log_failures_used(failures: Mapping[str, int]) -> None:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class _Computed:
-    rows: list[Row]
-    environment: dict[str, str]
-    code: str
+def _evaluate_batch(batch: list[Task]) -> list[Row]:
+    return [evaluate_task(task) for task in batch]
 
 
-@lru_cache(maxsize=1)
-def _of_this_process() -> tuple[dict[str, str], str]:
-    return computing_environment(), fingerprint()
-
-
-def _evaluate_batch(batch: list[Task]) -> _Computed:
-    return _Computed([evaluate_task(task) for task in batch], *_of_this_process())
-
-
-def _lost_batch(batch: list[Task]) -> _Computed:
-    return _Computed([lost_row(task) for task in batch], *_of_this_process())
-
-
-def _single(batch: list[Task]) -> list[list[Task]]:
-    return [[task] for task in batch]
-
-
-def compute(tasks: list[Task], jobs: int, backend: Backend = processes) -> Generator[tuple[Row, dict[str, str]]]:
-    """Evaluate tasks and yield each row, as it is finished, with the environment of the process that computed it.
+def compute(tasks: list[Task], jobs: int) -> Generator[Row]:
+    """Evaluate tasks and yield each row, as it is finished.
 
     A task whose process ends is evaluated once more, alone; if that process ends too, its row has failed.
 
     Raises
     ------
-    ValueError
-        If a worker runs other code than this process.
     concurrent.futures.BrokenExecutor
-        If the backend cannot work.
+        If the processes cannot work.
 
     Examples
     --------
     >>> from comparisons.problem import Problem
-    >>> ((row, environment),) = compute([Task("bradley", "pull_off_force", Problem.dimensionless(2, 0, 1))], 1)
-    >>> row.value, "cpu" in environment
-    (2.0, True)
+    >>> [row.value for row in compute([Task("bradley", "pull_off_force", Problem.dimensionless(2, 0, 1))], 1)]
+    [2.0]
     """
-    computed = each(_evaluate_batch, batches(tasks), jobs, lost=_lost_batch, split=_single, backend=backend)
-    with closing(computed) as batches_done:
-        for batch in batches_done:
-            if changed := differences(_of_this_process()[1], batch.code):
-                raise ValueError(
-                    "a worker runs another version of the code, of NumPy or of SciPy than this command "
-                    f"({changed}): install the same on every machine, and start the workers again"
-                )
-            for row in batch.rows:
-                yield row, batch.environment
+    finished = each(
+        _evaluate_batch,
+        batches(tasks),
+        jobs,
+        lost=lambda batch: [lost_row(task) for task in batch],
+        split=lambda batch: [[task] for task in batch],
+    )
+    with closing(finished) as batches_done:
+        for rows in batches_done:
+            yield from rows

@@ -22,10 +22,9 @@ from jsonschema.exceptions import best_match
 
 from comparisons.console.progress import log
 from comparisons.data.contained_paths import path_inside
-from comparisons.data.file_names import DATA_PACKAGE, INPUTS, RECORD, RUN_FILES, VERDICTS, is_of_verdicts
+from comparisons.data.file_names import INPUTS, RECORD, RUN_FILES, VERDICTS, is_of_verdicts
 from comparisons.data.input_files import LARGEST_ROWS, LARGEST_TABLE, read_bytes
 from comparisons.runs.atomic_files import write_json
-from comparisons.runs.data_package import write_data_package
 from comparisons.runs.environment import differences, environment, fingerprint
 
 __all__ = ["FORMAT", "check_files", "now", "read_record", "record_content", "warn_of_other_code", "write_record"]
@@ -93,7 +92,7 @@ def record_content(
 
 
 def write_record(content: dict[str, Any], path: Path, files: Collection[str] | None = None) -> None:
-    """Write a record with the checksums of the files beside it, and before it the data package of the tables.
+    """Write a record with the checksums of the files beside it.
 
     Parameters
     ----------
@@ -112,8 +111,6 @@ def write_record(content: dict[str, Any], path: Path, files: Collection[str] | N
     if files is None:
         paths = [*folder.glob(f"{VERDICTS}.*"), *(folder / INPUTS).rglob("*")]
         files = [*RUN_FILES, *(path.relative_to(folder).as_posix() for path in sorted(paths))]
-    if write_data_package(folder, files):
-        files = [*files, DATA_PACKAGE]
     sums = {name: _sum_of(folder / name) for name in files if (folder / name).is_file()}
     content = content | {"files": sums}
     content["sha256"] = _own_sum(content)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import sqlite3
 import time
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import BrokenExecutor
 from contextlib import closing, contextmanager
 from dataclasses import asdict, dataclass
@@ -106,8 +106,8 @@ class Store(Generic[_Item]):
         self.path = folder / STORE
         self._form = form
         self._code = code or fingerprint()
-        self._started = datetime.now(UTC).isoformat(timespec="seconds")
-        self._environment = computing_environment()
+        started = datetime.now(UTC).isoformat(timespec="seconds")
+        self._part = json.dumps({"started": started, "code": self._code, **computing_environment()})
         self._clock = time.perf_counter()
         self._entries: dict[str, _Entry[_Item]] = {}
         with _explained(self.path):
@@ -132,23 +132,15 @@ class Store(Generic[_Item]):
         """The items that are stored."""
         return [entry.item for entry in self._entries.values()]
 
-    def add(self, item: _Item, environment: Mapping[str, str] | None = None) -> None:
+    def add(self, item: _Item) -> None:
         """Store an item that this command has computed.
-
-        Parameters
-        ----------
-        item
-        environment : mapping of str to str, optional
-            As `comparisons.runs.environment.computing_environment` of the process that computed it; by default of this
-            one.
 
         Raises
         ------
         ValueError
             If JSON cannot hold it, as one with a NaN.
         """
-        part = {"started": self._started, "code": self._code, **(environment or self._environment)}
-        self._write([_Entry(item, json.dumps(part), time.perf_counter() - self._clock)])
+        self._write([_Entry(item, self._part, time.perf_counter() - self._clock)])
 
     def take(self, source: Store[_Item], wanted: Callable[[_Item], bool]) -> None:
         """Store items of another store, with the parts that computed them."""
@@ -177,12 +169,7 @@ class Store(Generic[_Item]):
             del part["code"]
         return sorted(parts.values(), key=lambda part: str(part["started"]))
 
-    def complete(
-        self,
-        description: str,
-        count: int,
-        computed: Generator[tuple[_Item, Mapping[str, str] | None]],
-    ) -> None:
+    def complete(self, description: str, count: int, computed: Generator[_Item]) -> None:
         """Store items as they are computed, with a progress bar.
 
         Parameters
@@ -192,7 +179,6 @@ class Store(Generic[_Item]):
         count : int
             Number of items.
         computed : generator
-            Yields each item with the environment of its computation, as of `add`.
 
         Raises
         ------
@@ -200,8 +186,8 @@ class Store(Generic[_Item]):
             If the workers cannot compute.
         """
         with self.interruptible(), counting(description, count) as advance, closing(computed):
-            for item, environment in computed:
-                self.add(item, environment)
+            for item in computed:
+                self.add(item)
                 advance()
 
     @contextmanager

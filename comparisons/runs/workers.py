@@ -11,26 +11,19 @@ from contextlib import closing
 from importlib import import_module
 from multiprocessing import active_children, get_context, parent_process, resource_tracker
 from multiprocessing.process import BaseProcess
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import log
 
-__all__ = ["BACKENDS", "LOST", "Backend", "backend_of", "each", "one_thread", "processes", "usable_cores"]
+__all__ = ["LOST", "each", "one_thread", "processes", "usable_cores"]
 
 Item = TypeVar("Item")
 Output = TypeVar("Output")
 
 #: Why an item has no output of its own; that may be the machine's fault and not the item's.
 LOST = "its worker process ended twice before it was finished, perhaps for lack of memory"
-
-#: Calls a function with every item, on a number of processes, and yields each item with its output, in any order; the
-#: output is None if the process that worked on the item ended.
-Backend = Callable[[Callable[[Any], Any], Sequence[Any], int], Generator[tuple[Any, Any]]]
-
-#: Names of the backends; the first is the default.
-BACKENDS = ("processes", "dask")
 
 #: Items in sequence whose process ends.  More are no fault of single items: the processes cannot start, or the machine
 #: has no memory for any of them.
@@ -42,41 +35,13 @@ def usable_cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def backend_of(name: str, scheduler: str | None = None) -> Backend:
-    """Return the backend of a name: processes of this machine, or a Dask cluster.
-
-    Parameters
-    ----------
-    name : str
-        One of `BACKENDS`.
-    scheduler : str, optional
-        The address of the scheduler of a Dask cluster.
-
-    Raises
-    ------
-    ValueError
-        If there is no such backend, it has no scheduler, or its package is not installed.
-
-    Examples
-    --------
-    >>> backend_of("processes") is processes
-    True
-    """
-    if name == "dask":
-        from comparisons.runs.dask_cluster import dask_cluster
-
-        return dask_cluster(scheduler)
-    if name not in BACKENDS:
-        raise ValueError(f"unknown backend {name!r}: the backends are {', '.join(BACKENDS)}")
-    if scheduler is not None:
-        raise ValueError(f"the scheduler {scheduler} belongs to the backend 'dask', and the backend is {name!r}")
-    return processes
-
-
 def processes(
     function: Callable[[Item], Output], items: Sequence[Item], jobs: int
 ) -> Generator[tuple[Item, Output | None]]:
-    """Call a function on processes of this machine, as `Backend` states; with one job in this process."""
+    """Yield every item with its output, in any order; None if the process that worked on it ended.
+
+    With one job the function is called in this process.
+    """
     if jobs == 1:
         for item in items:
             yield item, function(item)
@@ -160,7 +125,6 @@ def each(
     *,
     lost: Callable[[Item], Output],
     split: Callable[[Item], Iterable[Item]] = _whole,
-    backend: Backend = processes,
 ) -> Generator[Output]:
     """Yield `function(item)` for every item, as each is finished.
 
@@ -179,13 +143,11 @@ def each(
         Returns the output for an item that has ended its process twice.
     split : callable
         Returns the items that are tried in place of one whose process ended.
-    backend : Backend
-        Where the function is called.
 
     Raises
     ------
     concurrent.futures.BrokenExecutor
-        If the backend cannot work.
+        If the processes cannot work.
 
     Examples
     --------
@@ -194,7 +156,7 @@ def each(
     """
     again: list[Item] = []
     deaths = 0
-    with closing(backend(function, items, jobs)) as outputs:
+    with closing(processes(function, items, jobs)) as outputs:
         for item, output in outputs:
             if output is not None:
                 deaths = 0
@@ -208,7 +170,7 @@ def each(
                 )
     if again:
         log(f"worker processes ended early: what they worked on ({len(again)}) is tried once more")
-        with closing(backend(function, again, jobs)) as outputs:
+        with closing(processes(function, again, jobs)) as outputs:
             for item, output in outputs:
                 yield lost(item) if output is None else output
 

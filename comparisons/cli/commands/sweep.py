@@ -12,7 +12,6 @@ from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.pipeline.run import run
 from comparisons.registry import identify
-from comparisons.runs.workers import BACKENDS
 
 EXAMPLES = (
     "fscm-bench sweep my_cases.toml --model jkr md-improved --out results/sweep",
@@ -35,8 +34,6 @@ OPTIONS = (
         help="compare these models instead of those each grid names; of a problem file: fscm if there are none",
     ),
     JOBS,
-    option("--backend", choices=BACKENDS, default=BACKENDS[0], help="where it is computed (default: %(default)s)"),
-    option("--scheduler", metavar="ADDRESS", help="scheduler of a Dask cluster (default: one started on this machine)"),
     option("--shard", metavar="i/N", help="compute the i-th of N parts, to be put together by fscm-bench merge"),
     OUT,
     RETRY_FAILED,
@@ -62,8 +59,6 @@ def call(args: argparse.Namespace) -> int:
         folder=args.out,
         jobs=args.jobs,
         retry_failed=args.retry_failed,
-        backend=args.backend,
-        scheduler=args.scheduler,
         shard=args.shard,
     )
     return show(finished, with_summary=not args.quiet)

@@ -34,8 +34,6 @@ def test_a_run_writes_table_figure_and_record(tiny, tmp_path):
     assert {"host", "cpu", "numpy", "started"} <= record["parts"][0].keys()
     assert (tmp_path / "bench.txt").read_text().splitlines() == finished.summary
     assert (finished.summary[1:], finished.failures) == (["2 sizes"], [])
-    (resource,) = json.loads((tmp_path / "datapackage.json").read_text())["resources"]
-    assert resource["path"] == "tiny.csv"
 
 
 def test_a_resumed_run_measures_what_is_missing_and_keeps_the_record_of_the_machine(tiny, tmp_path, monkeypatch):

@@ -11,13 +11,14 @@ from comparisons.data.file_names import VERDICT_FILES
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import load_grids
 from comparisons.runs.computation import compute
+from comparisons.runs.environment import computing_environment
 from comparisons.runs.frames import read_table
 from comparisons.runs.record import read_record
 from tests.comparisons.grid_text import grid_text
 
 TABLES = ("results", "kappa", "largest_kappa", "curves")
 FILES = {
-    *("store.sqlite", "run.json", "datapackage.json", "gates.toml"),
+    *("store.sqlite", "run.json", "gates.toml"),
     *(f"{table}.{suffix}" for table in TABLES for suffix in ("csv", "parquet")),
     *VERDICT_FILES,
 }
@@ -69,8 +70,8 @@ def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_
 
 
 def interrupt_after(count, error=KeyboardInterrupt):
-    def interrupted(tasks, jobs, backend):
-        for number, row in enumerate(compute(tasks, jobs, backend)):
+    def interrupted(tasks, jobs):
+        for number, row in enumerate(compute(tasks, jobs)):
             if number == count:
                 raise error
             yield row
@@ -126,9 +127,9 @@ def test_stored_failures_are_used_and_computed_again_on_request(small_grid, tmp_
     assert "stored failures" not in capsys.readouterr().err
     computed = []
 
-    def counted(tasks, jobs, backend):
+    def counted(tasks, jobs):
         computed.extend(task.model for task in tasks)
-        return compute(tasks, jobs, backend)
+        return compute(tasks, jobs)
 
     monkeypatch.setattr(computing, "compute", counted)
     assert run(tmp_path, *models) == 4
@@ -141,11 +142,11 @@ def test_stored_failures_are_used_and_computed_again_on_request(small_grid, tmp_
 
 
 def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):
-    this_machine, code = computing._of_this_process()
+    this_machine = computing_environment()
     other_machine = this_machine | {"python": "3.99.0", "cpu": "another"}
     with monkeypatch.context() as patch:
         patch.setattr(computing, "compute", interrupt_after(5, BrokenProcessPool))
-        patch.setattr(computing, "_of_this_process", lambda: (other_machine, code))
+        patch.setattr("comparisons.runs.store.computing_environment", lambda: other_machine)
         assert run(tmp_path) == 4
     assert run(tmp_path) == 0
     record = read_record(tmp_path / "run.json")

@@ -9,8 +9,8 @@ from comparisons.cli.main import main
 from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.pipeline.run import run
 from comparisons.registry import create
-from comparisons.runs import computation
 from comparisons.runs.cases import load_grids
+from comparisons.runs.environment import computing_environment
 from comparisons.runs.record import read_record
 from comparisons.runs.shards import tasks_of_shard
 from comparisons.runs.tasks import plan
@@ -86,10 +86,10 @@ def test_merged_shards_are_the_whole_sweep(sweep, tmp_path, capsys):
 
 
 def test_every_part_keeps_its_machine(sweep, tmp_path, monkeypatch):
-    environment, code = computation._of_this_process()
+    environment = computing_environment()
     for number in ("1", "2"):
         machine = environment | {"host": number}
-        monkeypatch.setattr(computation, "_of_this_process", lambda machine=machine: (machine, code))
+        monkeypatch.setattr("comparisons.runs.store.computing_environment", lambda machine=machine: machine)
         sweep(number, "--shard", f"{number}/2")
     main(["merge", "2", "1", "--out", "merged", "--quiet"])
     parts = read_record(tmp_path / "merged" / "run.json")["parts"]

@@ -14,7 +14,7 @@ import threadpoolctl
 
 from comparisons.model import Result
 from comparisons.problem import Problem
-from comparisons.runs import computation, workers
+from comparisons.runs import workers
 from comparisons.runs.computation import compute
 from comparisons.runs.tasks import Task, evaluate, evaluate_task
 from comparisons.runs.workers import LOST, each, processes
@@ -103,35 +103,17 @@ TASKS = [
 ]
 
 
-def elsewhere(environment, code):
-    """A backend whose worker has another environment and perhaps other code."""
-
-    def backend(function, items, jobs):
-        for item in items:
-            yield item, computation._Computed(function(item).rows, environment, code)
-
-    return backend
-
-
-def test_a_row_has_the_environment_of_its_worker_and_other_code_is_refused():
-    _, code = computation._of_this_process()
-    computed = list(compute(TASKS, 1, elsewhere({"cpu": "another"}, code)))
-    assert [row.key for row, _ in computed] == [task.key for task in TASKS]
-    assert all(environment == {"cpu": "another"} for _, environment in computed)
-    with pytest.raises(ValueError, match=r"NumPy .*, now NumPy 0\."):
-        list(compute(TASKS, 1, elsewhere({}, code.replace("NumPy ", "NumPy 0."))))
-
-
-def test_a_task_that_ends_its_process_costs_its_own_row():
+def test_a_task_that_ends_its_process_costs_its_own_row(monkeypatch):
     """The others of its batch are tried again, each alone."""
     tried = []
 
-    def backend(function, items, jobs):
+    def tasks_that_end(function, items, jobs):
         tried.append([len(item) for item in items])
         for item in items:
             yield item, None if TASKS[0] in item else function(item)
 
-    rows = {row.key: row for row, _ in compute(TASKS, 1, backend)}
+    monkeypatch.setattr(workers, "processes", tasks_that_end)
+    rows = {row.key: row for row in compute(TASKS, 1)}
     assert tried == [[2, 2], [1, 1]]
     assert [rows[task.key].status for task in TASKS] == ["failed", "not-applicable", "ok", "not-applicable"]
     assert rows[TASKS[0].key].reason == LOST
@@ -158,6 +140,6 @@ def test_a_row_does_not_depend_on_what_its_process_computed_before():
     """Of the solver, which keeps meshes and paths: in one process, and each alone in the other order."""
     quantities = ("pull_off_force", "jump_out_displacement")
     tasks = [Task("fscm", quantity, Problem.dimensionless(2, 0.4, mu)) for mu in (1.5, 1) for quantity in quantities]
-    together = {row.key: replace(row, seconds=0) for row, _ in compute(tasks, 1)}
+    together = {row.key: replace(row, seconds=0) for row in compute(tasks, 1)}
     alone = {row.key: replace(row, seconds=0) for _, row in processes(evaluate_task, tasks[::-1], 2)}
     assert alone == together
