@@ -37,8 +37,7 @@ from comparisons.paper import baseline as paper_baseline
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.case_columns import with_problem
 from comparisons.runs.committed import committed
-from comparisons.runs.csv_format import csv_text, read_csv
-from comparisons.runs.frames import read_table
+from comparisons.runs.csv_format import csv_text, read_table
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.rows import CASE
 
@@ -50,8 +49,8 @@ BASELINE = BASELINE_FOLDER
 _KEY = ["model", "quantity", *CASE]
 # Without the columns that depend on the machine or on the work done (seconds, iterations, residual).
 _TABLES = {
-    "quick.csv": (f"{RESULTS}.parquet", [*_KEY, "value", "u_num", "status", "reason"]),
-    "curves.csv": (f"{CURVES}.parquet", [*_KEY, "point", "x", "y", "u_distance", "status", "reason"]),
+    "quick.csv": (f"{RESULTS}.csv", [*_KEY, "value", "u_num", "status", "reason"]),
+    "curves.csv": (f"{CURVES}.csv", [*_KEY, "point", "x", "y", "u_distance", "status", "reason"]),
 }
 #: Files that are copied, by tier: the committed name, and the name in the folder of the run.
 _COPIES = {
@@ -61,7 +60,6 @@ _COPIES = {
     },
     "full": {f"references_agreement.{suffix}": f"{AGREEMENT}.{suffix}" for suffix in ("csv", "png")},
 }
-_TEXTS = ("model", "quantity", "problem", "status", "reason")
 
 #: A bound that is so many times the stored one, or so small a part of it, has drifted.  On one machine bounds repeat
 #: to the last digits.
@@ -124,7 +122,7 @@ def read_baseline(target: Path | None = None) -> tuple[pd.DataFrame, pd.DataFram
     ValueError
         If they are not there.
     """
-    results, curves = (read_csv(target / name if target else committed(name), _TEXTS) for name in _TABLES)
+    results, curves = (read_table(target / name if target else committed(name)) for name in _TABLES)
     return results, curves
 
 
@@ -164,9 +162,9 @@ def check(folder: Path) -> pd.DataFrame:
         If it is no finished run, or a file of it was changed.
     """
     if _standing_run(folder)["tier"] == "quick":
-        return drift(read_baseline()[0], read_table(folder / f"{RESULTS}.parquet"))
+        return drift(read_baseline()[0], read_table(folder / f"{RESULTS}.csv"))
     paths = (committed(f"references_{AGREEMENT}.csv"), folder / f"{AGREEMENT}.csv")
-    stored, computed = (_by_model(read_csv(path, ("model", "quantity", "reference", "problem"))) for path in paths)
+    stored, computed = (_by_model(read_table(path)) for path in paths)
     missing = stored.merge(computed[_KEY], on=_KEY, how="left", indicator=True)["_merge"] == "left_only"
     lost = stored[missing].assign(status="missing", value=float("nan"), u_num=float("nan"))
     return drift(stored, pd.concat([computed, lost], ignore_index=True))

@@ -19,37 +19,32 @@ GATES_TEXT, GRID_TEXT = "gates.toml", "grid.toml"
 #: Folder of the copies of a problem file and of its tables.
 INPUTS = "inputs"
 
-#: Tables: each is written as CSV and as Parquet.
+#: Tables, each written as CSV.
 RESULTS, CURVES, KAPPA, LARGEST_KAPPA, AGREEMENT = "results", "curves", "kappa", "largest_kappa", "agreement"
 #: Tables of the gates: a row for each gate and case, what each requires, a row for each gate and candidate.
 VERDICTS, GATES, SUMMARY = "verdicts", "gates", "summary"
 #: Tables that are written when a run is judged.
 VERDICT_TABLES = (VERDICTS, GATES, SUMMARY)
-#: All tables of a run.
-TABLES = (RESULTS, CURVES, KAPPA, LARGEST_KAPPA, AGREEMENT, *VERDICT_TABLES)
 
 #: Table and picture of `comparisons.compare`.
 COMPARISON = "comparison"
 #: Files of `comparisons.compare`.
-COMPARISON_FILES = tuple(f"{COMPARISON}.{suffix}" for suffix in ("csv", "parquet", "png", "pdf"))
+COMPARISON_FILES = tuple(f"{COMPARISON}.{suffix}" for suffix in ("csv", "png", "pdf"))
 
 #: Pictures: each is written as PNG and as PDF.
 KAPPA_FIGURE, REFERENCES = "fig16b_kappa", "references"
 #: All pictures of a run.
 FIGURES = (KAPPA_FIGURE, AGREEMENT, REFERENCES)
 
-#: The verdicts as Markdown, as LaTeX and as JUnit XML, and the page of `fscm-bench report`.
-VERDICTS_MARKDOWN, VERDICTS_LATEX, JUNIT, REPORT = "verdicts.md", "verdicts.tex", "junit.xml", "report.html"
+#: The verdicts as JUnit XML, and the page of `fscm-bench report`.
+JUNIT, REPORT = "junit.xml", "report.html"
 
-#: What is written when a run is judged.
-VERDICT_FILES = (
-    *(f"{table}.{suffix}" for table in VERDICT_TABLES for suffix in ("csv", "parquet")),
-    *(VERDICTS_MARKDOWN, VERDICTS_LATEX, JUNIT),
-)
+#: What is written when a run is judged, besides the verdicts in other formats (`is_of_verdicts`).
+VERDICT_FILES = (*(f"{table}.csv" for table in VERDICT_TABLES), JUNIT)
 
 #: Files of a run that have a checksum in its record, as far as they exist.
 RUN_FILES = (
-    *(f"{table}.{suffix}" for table in TABLES if table not in VERDICT_TABLES for suffix in ("csv", "parquet")),
+    *(f"{table}.csv" for table in (RESULTS, CURVES, KAPPA, LARGEST_KAPPA, AGREEMENT)),
     *(f"{figure}.{suffix}" for figure in FIGURES for suffix in ("png", "pdf")),
     *(GATES_TEXT, GRID_TEXT),
     *VERDICT_FILES,

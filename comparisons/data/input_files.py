@@ -15,7 +15,7 @@ LARGEST_TEXT = 4_000_000
 #: Most bytes of a table in CSV, and of the record of a run: a million rows of fifty bytes.
 LARGEST_TABLE = 50_000_000
 
-#: Most bytes of the rows that this program has stored, a journal or a Parquet file: six million rows of 600 bytes.
+#: Most bytes of the rows that this program has stored, as a table or as the store: six million rows of 600 bytes.
 LARGEST_ROWS = 4_000_000_000
 
 _KINDS = {stat.S_IFIFO: "a pipe", stat.S_IFCHR: "a device", stat.S_IFBLK: "a device", stat.S_IFSOCK: "a socket"}

@@ -1,13 +1,11 @@
-"""Tables as GitHub's Markdown, with the summary page of a GitHub Actions job, and as HTML.
+"""Tables as GitHub's Markdown, and as HTML.
 
 In HTML a number stands in an element `data` with all its digits, by which scripts sort.
 """
 
 from __future__ import annotations
 
-import os
 import re
-from pathlib import Path
 
 import pandas as pd
 from markupsafe import Markup, escape
@@ -16,7 +14,7 @@ from comparisons.judging.decision import Verdict
 from comparisons.output.style import VERDICT_SYMBOLS
 from comparisons.output.table import Column, Record, Table
 
-__all__ = ["badge", "html_table", "markdown", "to_step_summary"]
+__all__ = ["badge", "html_table", "markdown"]
 
 #: What a table, HTML or Markdown takes for its own, and the starts of addresses that become links without any mark.
 _OWN = {
@@ -51,28 +49,6 @@ def markdown(texts: pd.DataFrame, title: str) -> str:
 def _escaped(text: str) -> str:
     """Text that neither a table nor HTML nor Markdown takes for its own."""
     return _OWN_TEXT.sub(lambda match: _OWN.get(match[0]) or f"{match[0][:-1]}&#46;", text)
-
-
-def to_step_summary(text: str) -> None:
-    """Append to the summary page if this is a job of GitHub Actions.
-
-    An empty text only makes sure, before anything is computed, that the page can be written.
-
-    Raises
-    ------
-    OSError
-        If it cannot; one sentence gives the system's reason.
-    """
-    path = os.environ.get("GITHUB_STEP_SUMMARY")
-    if path:
-        try:
-            with Path(path).open("a", encoding="utf-8") as file:
-                file.write(text)
-        except OSError as error:
-            raise OSError(
-                f"the file {path}, which the environment variable GITHUB_STEP_SUMMARY names, cannot be written "
-                f"({error.strerror}); unset the variable or name another file"
-            ) from error
 
 
 def badge(verdict: str) -> Markup:

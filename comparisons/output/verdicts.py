@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from comparisons.data.file_names import GATES, JUNIT, SUMMARY, VERDICTS, VERDICTS_MARKDOWN
+from comparisons.data.file_names import GATES, JUNIT, SUMMARY, VERDICTS
 from comparisons.judging.card_gates import CARD, without_card_gates
 from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import Gate
@@ -24,8 +24,7 @@ from comparisons.problem import PARAMETERS
 from comparisons.problem.problem import split_name
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic
-from comparisons.runs.frames import write_table
-from comparisons.runs.rows import Key
+from comparisons.runs.csv_format import write_table
 
 __all__ = ["GATE_COLUMNS", "command", "gate_lines", "gates_sentence", "unexpected", "verdict_counts", "write_verdicts"]
 
@@ -160,17 +159,10 @@ def declared_sentence(gates: pd.DataFrame) -> str:
     return f"as declared (XFAIL; --verbose prints the commands): {', '.join(names[:_NAMES])}{more}" if names else ""
 
 
-def write_verdicts(
-    folder: Path,
-    judged: pd.DataFrame,
-    gates: list[Gate],
-    specs: Mapping[str, str],
-    seconds: Mapping[Key, float] | None = None,
-) -> str:
-    """Write the verdicts as CSV, Parquet, Markdown, LaTeX and JUnit XML (with `seconds`); return the Markdown.
+def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate], specs: Mapping[str, str]) -> None:
+    """Write the verdicts as CSV, Markdown, LaTeX and JUnit XML.
 
-    The summary by gate, and what the gates required, go beside them as CSV and Parquet: a gates file may change
-    later.
+    The summary by gate, and what the gates required, go beside them as CSV: a gates file may change later.
     """
     summary = summarise(judged)
     required = [[str(getattr(gate, name)) for name in GATE_COLUMNS] for gate in gates]
@@ -186,10 +178,9 @@ def write_verdicts(
     ]
     by_gate = Table("verdicts", "Verdicts", layout, summary)
     worst = Table("verdicts", "Verdicts of fscm-bench, worst first, each in its worst case", _WORST_CASES, summary)
-    contents = {folder / JUNIT: junit(judged, again, seconds)}
+    contents = {folder / JUNIT: junit(judged, again)}
     for suffix, text_of in FORMATS.items():
         contents[folder / f"{VERDICTS}.{suffix}"] = text_of(by_gate, worst).encode()
     for path, content in contents.items():
         with atomic(path) as file:
             file.write(content)
-    return contents[folder / VERDICTS_MARKDOWN].decode()

@@ -18,7 +18,7 @@ from comparisons.output.summaries import case_tables, summary_tables
 from comparisons.pipeline.inputs import Cases, grid_text, load_cases
 from comparisons.pipeline.run import run
 from comparisons.quantities import CURVES
-from comparisons.runs.frames import write_table
+from comparisons.runs.csv_format import write_table
 from comparisons.runs.record import read_record, write_record
 from comparisons.runs.rows import Row
 
@@ -43,7 +43,7 @@ class Comparison:
         One row for each quantity and model: coverage, largest and root mean square error
         (`comparisons.output.errors.error_summary`).
     folder : Path
-        The run folder, with `table` and `figure` as ``comparison.csv``, ``.parquet``, ``.png`` and ``.pdf``.
+        The run folder, with `table` and `figure` as ``comparison.csv``, ``.png`` and ``.pdf``.
     failures : tuple of Row
         The rows of computations that failed.
     """

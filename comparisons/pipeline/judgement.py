@@ -20,14 +20,13 @@ from comparisons.judging.fresh_verdicts import compare_with_standing, judge_undr
 from comparisons.judging.judge import judge
 from comparisons.judging.selection import relevant
 from comparisons.judging.summary import COVERAGE, summarise
-from comparisons.output.junit import evaluation_seconds
 from comparisons.output.verdicts import write_verdicts
 from comparisons.pipeline.inputs import RunInputs, read_gates, stored_inputs
 from comparisons.problem import PARAMETERS
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.case_columns import keys_in
+from comparisons.runs.csv_format import read_table
 from comparisons.runs.environment import fingerprint
-from comparisons.runs.frames import read_table
 from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
 from comparisons.runs.rows import Key
 from comparisons.runs.tasks import plan
@@ -46,8 +45,6 @@ class Judgement:
         What was computed, and the gates.
     verdicts : DataFrame
         One row for each gate and case, as of `comparisons.judging.judge.judge`.
-    markdown : str
-        The table of gates, for the summary page of a job.
     cards : mapping
         The report cards of the external models.
     """
@@ -55,7 +52,6 @@ class Judgement:
     folder: Path
     inputs: RunInputs
     verdicts: pd.DataFrame
-    markdown: str
     cards: Mapping[str, Any]
 
     @property
@@ -98,8 +94,8 @@ def judge_and_write(
     of_cards = every_verdict([judge_cards(cards), judge_digits(of_gates, cards)])
     verdicts = every_verdict([of_gates, of_cards])
     written = [*gates, *{part.gate.id: part.gate for part in fresh}.values(), *card_gates(of_cards)]
-    markdown = write_verdicts(folder, verdicts, written, inputs.specs, evaluation_seconds(results, curves))
-    return Judgement(folder, inputs, verdicts, markdown, cards)
+    write_verdicts(folder, verdicts, written, inputs.specs)
+    return Judgement(folder, inputs, verdicts, cards)
 
 
 def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
@@ -126,7 +122,7 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
     check_files(record, folder, written_again=True)
     other_code = warn_of_other_code(record, folder)
     inputs = _inputs_with_gates(folder, record, gates)
-    results, curves = (read_table(folder / f"{table}.parquet") for table in (RESULTS, CURVES))
+    results, curves = (read_table(folder / f"{table}.csv") for table in (RESULTS, CURVES))
     if inputs.cases.sha256 != record["cases_sha256"]:
         log(f"the cases have changed since {folder} was computed; it is judged by the present cases")
     assert inputs.gates is not None

@@ -15,7 +15,8 @@ from comparisons.output.style import save
 from comparisons.pipeline.inputs import Cases
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.case_columns import in_case_order, keys_in, varied_of
-from comparisons.runs.frames import curve_frame, frame, write_table
+from comparisons.runs.csv_format import write_table
+from comparisons.runs.frames import curve_frame, frame
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import plan
 
@@ -90,7 +91,7 @@ def _with_keys_of_files(kappa: pd.DataFrame, results: pd.DataFrame) -> pd.DataFr
 
 
 def write_tables(tables: RunTables, folder: Path) -> None:
-    """Write the tables as CSV and Parquet."""
+    """Write the tables as CSV."""
     write_table(tables.results, folder / RESULTS)
     write_table(tables.curves, folder / CURVES)
     write_table(tables.kappa, folder / KAPPA)

@@ -1,21 +1,27 @@
-"""Tables as CSV text that gives every number back exactly and that a spreadsheet does not evaluate."""
+"""Tables as CSV files that give every number and every text back exactly and that a spreadsheet does not evaluate."""
 
 from __future__ import annotations
 
+import io
 import re
-from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
+from comparisons.data.columns import column
+from comparisons.data.input_files import LARGEST_ROWS, read_bytes
 from comparisons.problem import PARAMETERS
+from comparisons.runs.atomic_files import atomic
 
-__all__ = ["csv_text", "read_csv"]
+__all__ = ["csv_text", "read_table", "write_table"]
 
 #: Start of a text that a spreadsheet evaluates, or that `csv_text` has marked already: both get an apostrophe, so that
 #: a reader can take away one.
-_FORMULA = re.compile(r"'*[=+\-@\t]")
+_FORMULA = re.compile(r"[\s']*[=+\-@\t]")
+
+#: The column of what is true or false.
+_FLAG = "at_end"
 
 
 def csv_text(table: pd.DataFrame) -> str:
@@ -42,19 +48,44 @@ def csv_text(table: pd.DataFrame) -> str:
     return safe.to_csv(index=False, float_format="%.17g", lineterminator="\n")
 
 
-def read_csv(path: Path, texts: Collection[str]) -> pd.DataFrame:
-    """Read a table that `csv_text` has written, with every digit.
+def write_table(table: pd.DataFrame, stem: Path) -> None:
+    """Write a table as `stem`.csv, without wall-clock seconds: the file depends on code and cases alone."""
+    with atomic(stem.with_suffix(".csv")) as file:
+        file.write(csv_text(table.drop(columns="seconds", errors="ignore")).encode())
 
-    Parameters
-    ----------
-    path : Path
-    texts : collection of str
-        Columns of texts; every other one is of numbers, NaN where the cell is empty.
+
+def read_table(path: Path) -> pd.DataFrame:
+    """Read a table that `write_table` has written, with every digit.
+
+    A column is of texts if `comparisons.data.columns` states no unit for it, or if a cell is no number.  An empty cell
+    of the others is NaN.
+
+    Raises
+    ------
+    ValueError
+        If there is no such file or it is no CSV; one sentence says which.
     """
-    # The parsers of older versions of pandas are wrong in the last digit; Python's own conversion is exact.
-    table = pd.read_csv(path, dtype=str, keep_default_na=False)
-    numbers = table.columns.difference(list(texts))
-    return table.assign(**{name: [float(text or "nan") for text in table[name]] for name in numbers})
+    try:
+        content = read_bytes(path, LARGEST_ROWS)
+        # The parsers of older versions of pandas are wrong in the last digit; Python's own conversion is exact.
+        table = pd.read_csv(io.BytesIO(content), dtype=str, keep_default_na=False)
+    except FileNotFoundError:
+        raise ValueError(f"{path} does not exist: {path.parent} is not the folder of a finished run") from None
+    except (OSError, ValueError) as error:
+        raise ValueError(f"{path} cannot be read as CSV ({str(error).splitlines()[0]})") from None
+    return pd.DataFrame({name: _read_column(table[name], path.stem) for name in table})
+
+
+def _read_column(cells: pd.Series, stem: str) -> pd.Series:
+    if cells.name == _FLAG:
+        return cells == "True"
+    described = column(stem, str(cells.name))
+    if described is None or described.unit:
+        try:
+            return pd.Series([float(text or "nan") for text in cells], dtype=float)
+        except ValueError:
+            pass
+    return pd.Series([_text(cell) for cell in cells], dtype=str)
 
 
 def _parameter(number: float) -> str:
@@ -66,7 +97,12 @@ def _cell(value: Any) -> Any:
         return value
     # The CSV writer does not quote a carriage return, at which readers begin another row.
     text = value.replace("\r", " ")
-    return f"'{text}" if _FORMULA.match(text.lstrip()) and not _is_number(text) else text
+    return f"'{text}" if _FORMULA.match(text) and not _is_number(text) else text
+
+
+def _text(cell: str) -> str:
+    """Return what `_cell` was given."""
+    return cell.removeprefix("'") if _FORMULA.match(cell) else cell
 
 
 def _is_number(text: str) -> bool:

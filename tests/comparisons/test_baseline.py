@@ -8,8 +8,8 @@ import pytest
 
 from comparisons.baseline import BASELINE, drift, main, renew
 from comparisons.numerics.bounds import combined
-from comparisons.runs.csv_format import read_csv
-from comparisons.runs.frames import curve_frame, frame, write_table
+from comparisons.runs.csv_format import read_table, write_table
+from comparisons.runs.frames import curve_frame, frame
 from comparisons.runs.record import read_record, write_record
 from tests.comparisons.records import record_of_run
 from tests.comparisons.rows import row
@@ -73,10 +73,10 @@ def test_each_tier_renews_its_files(tmp_path, target, tier):
 @pytest.mark.parametrize(
     ("tier", "damage", "name"),
     [
-        ("quick", Path.unlink, "results.parquet"),
+        ("quick", Path.unlink, "results.csv"),
         ("quick", Path.unlink, "references.png"),
         ("full", Path.unlink, "agreement.csv"),
-        ("quick", lambda path: path.write_bytes(path.read_bytes() + b" "), "results.parquet"),
+        ("quick", lambda path: path.write_bytes(path.read_bytes() + b" "), "results.csv"),
         ("quick", lambda path: path.write_bytes(path.read_bytes() + b" "), "largest_kappa.csv"),
     ],
 )
@@ -147,7 +147,7 @@ def test_both_references_of_a_full_run_are_compared(changes, count, tmp_path, mo
 
 
 def test_the_committed_references_agree_within_both_bounds():
-    rows = read_csv(COMMITTED / "references_agreement.csv", ("model", "quantity", "reference"))
+    rows = read_table(COMMITTED / "references_agreement.csv")
     difference = rows["value"] - rows["reference_value"]
     bound = combined(rows["u_num"], rows["u_reference"])
     assert (np.abs(difference) <= bound).all()

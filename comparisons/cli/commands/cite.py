@@ -5,13 +5,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-import pandas as pd
-
 from comparisons.cli.options import file, output_format
 from comparisons.console.exit_status import OK
 from comparisons.console.printable import printable
 from comparisons.data.file_names import KAPPA, RECORD
 from comparisons.output.citation import as_bibtex, as_text, methods, works
+from comparisons.runs.csv_format import read_table
 from comparisons.runs.environment import version_text
 from comparisons.runs.record import check_files, read_record
 
@@ -33,7 +32,7 @@ def call(args: argparse.Namespace) -> int:
     if args.folder is not None:
         record = read_record(args.folder / RECORD)
         check_files(record, args.folder)
-        paragraph = methods(record, _references(args.folder / f"{KAPPA}.parquet"))
+        paragraph = methods(record, _references(args.folder / f"{KAPPA}.csv"))
     cited = works("" if record else version_text(), record)
     print(printable(as_bibtex(cited) if args.format == "bibtex" else as_text(cited, paragraph)), end="")
     return OK
@@ -43,6 +42,6 @@ def _references(table: Path) -> dict[str, float]:
     """The models that were references, each with its largest relative bound; empty without errors."""
     if not table.is_file():
         return {}
-    rows = pd.read_parquet(table, columns=["reference", "reference_value", "u_reference"])
+    rows = read_table(table)
     relative = rows["u_reference"] / rows["reference_value"].abs()
     return {str(name): float(bounds.max()) for name, bounds in relative.groupby(rows["reference"])}

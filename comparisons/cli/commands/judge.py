@@ -8,7 +8,6 @@ from shlex import quote
 from comparisons.cli.options import QUIET, VERBOSE, file
 from comparisons.cli.verdict_screen import STATUS, print_verdicts
 from comparisons.console.progress import note
-from comparisons.output.markup import to_step_summary
 from comparisons.pipeline.judgement import judge_folder
 
 EXAMPLES = ("fscm-bench judge results/mine --verbose",)
@@ -23,10 +22,8 @@ OPTIONS = (
 
 def call(args: argparse.Namespace) -> int:
     """Judge and print; return the exit status."""
-    to_step_summary("")
     judgement = judge_folder(args.folder, args.gates)
     print_verdicts(judgement, verbose=args.verbose, quiet=args.quiet)
     if not judgement.verdicts.empty:
         note(f"next: fscm-bench report {quote(str(args.folder))}")
-    to_step_summary(judgement.markdown)
     return STATUS[judgement.verdict]

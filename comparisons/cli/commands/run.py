@@ -12,7 +12,6 @@ from comparisons.cli.verdict_screen import STATUS, print_verdicts
 from comparisons.console.exit_status import FAILED
 from comparisons.console.progress import note
 from comparisons.output import summaries
-from comparisons.output.markup import to_step_summary
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
 from comparisons.runs.cases import TIERS
@@ -46,7 +45,6 @@ def call(args: argparse.Namespace) -> int:
         raise ValueError("--cases FILE needs --gates FILE; fscm-bench sweep FILE computes cases without gates")
     if args.cases is not None and args.tier is not None:
         raise ValueError(f"--tier {args.tier} is of the standing cases; give it, or --cases FILE")
-    to_step_summary("")
     finished = run(
         args.cases or args.tier or TIERS[0],
         args.gates,
@@ -68,8 +66,6 @@ def call(args: argparse.Namespace) -> int:
         return FAILED
     if not judgement.verdicts.empty:
         note(f"next: fscm-bench report {quote(str(finished.folder))}")
-    # Last: a disk that is full here loses nothing.
-    to_step_summary(judgement.markdown)
     return status or STATUS[judgement.verdict]
 
 

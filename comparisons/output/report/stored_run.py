@@ -19,16 +19,18 @@ from comparisons.judging.summary import COVERAGE
 from comparisons.output import errors
 from comparisons.output.verdicts import GATE_COLUMNS
 from comparisons.runs.case_columns import keys_in, with_problem
-from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS, read_table
+from comparisons.runs.csv_format import read_table
+from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
 from comparisons.runs.record import check_files, read_record, warn_of_other_code
 from comparisons.runs.rows import CASE, DIMENSIONLESS, Key
 
 __all__ = ["Stored", "read_folder"]
 
-#: Table -> its columns; a folder of a sweep has no verdicts, and only that of a comparison has one.
+#: Table -> its columns; seconds are in no file.  A folder of a sweep has no verdicts, and only that of a comparison has
+#: a comparison.
 _TABLES: dict[str, Sequence[str]] = {
-    file_names.RESULTS: COLUMNS.names,
-    file_names.CURVES: CURVE_COLUMNS.names,
+    file_names.RESULTS: COLUMNS[:-1],
+    file_names.CURVES: CURVE_COLUMNS[:-1],
     **errors.COLUMNS,
     file_names.VERDICTS: Judged.__slots__,
     file_names.SUMMARY: (*Judged.__slots__, "cases", "skipped", *COVERAGE),
@@ -61,7 +63,7 @@ class Stored:
     @property
     def judged(self) -> bool:
         """Whether the folder is that of a run."""
-        return f"{file_names.VERDICTS}.parquet" in self.record["files"]
+        return f"{file_names.VERDICTS}.csv" in self.record["files"]
 
     @property
     def specs(self) -> dict[str, str]:
@@ -102,10 +104,10 @@ def read_folder(folder: Path) -> Stored:
     optional = (
         _TABLES.keys()
         - {file_names.RESULTS, file_names.CURVES, file_names.KAPPA}
-        - {path.removesuffix(".parquet") for path in record["files"]}
+        - {path.removesuffix(".csv") for path in record["files"]}
     )
     tables = {
-        name: pd.DataFrame(columns=list(columns)) if name in optional else _table(folder / f"{name}.parquet", columns)
+        name: pd.DataFrame(columns=list(columns)) if name in optional else _table(folder / f"{name}.csv", columns)
         for name, columns in _TABLES.items()
     }
     texts = {
@@ -122,12 +124,8 @@ def _table(path: Path, columns: Sequence[str]) -> pd.DataFrame:
         raise ValueError(f"{path} has no column {', '.join(lost)}: it is not what this version of fscm-bench writes")
     for name in table.columns.intersection(list(columns)):
         described = column(path.stem, name)
-        # A column without a single number has no type; the numbers of the paper are texts with its digits.
-        if described and described.unit and name != "paper_percent":
-            try:
-                table[name] = table[name].astype(float)
-            except (TypeError, ValueError):
-                raise ValueError(f"{path}: its column {name} is not numeric") from None
+        if described and described.unit and table[name].dtype != float:
+            raise ValueError(f"{path}: its column {name} is not numeric")
     if path.stem in (file_names.VERDICTS, file_names.SUMMARY) and (odd := set(table["verdict"]) - set(Verdict)):
         raise ValueError(f"{path} has the unknown verdict {min(odd)!r}")
     return table

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.data.file_names import VERDICT_FILES
+from comparisons.data.file_names import VERDICT_FILES, is_of_verdicts
 from comparisons.output.report.page import make_page
 from comparisons.output.report.stored_run import read_folder
 from comparisons.runs.environment import fingerprint
@@ -31,6 +31,11 @@ def folder(small_grid, finished, tmp_path, capsys):
     return shutil.copytree(finished, tmp_path / "run")
 
 
+def verdicts_in(folder):
+    """What is written when the folder is judged."""
+    return {path.name: path.read_bytes() for path in folder.iterdir() if is_of_verdicts(path.name)}
+
+
 def gates(text, tmp_path, *changes):
     for old, new in changes:
         assert old in text
@@ -40,14 +45,15 @@ def gates(text, tmp_path, *changes):
 
 
 def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, capsys):
-    before = {name: (folder / name).read_bytes() for name in VERDICT_FILES}
+    before = verdicts_in(folder)
+    assert before.keys() > set(VERDICT_FILES)
     monkeypatch.setattr("comparisons.registry.create", None)
     monkeypatch.setattr("comparisons.runs.tasks.evaluate_task", None)
     captured = []
     for _ in range(2):
         assert main(["judge", str(folder), "--verbose"]) == 0
         captured.append(capsys.readouterr().out)
-        assert {name: (folder / name).read_bytes() for name in VERDICT_FILES} == before
+        assert verdicts_in(folder) == before
     assert captured[0] == captured[1]
     assert "fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0" in captured[0]
     assert "1 of 1 gates pass" in captured[0]
@@ -113,11 +119,13 @@ def test_a_run_is_judged_again_by_the_gates_it_was_made_with(small_grid, tmp_pat
     other_gate = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
     rules = gates(small_grid + other_gate, tmp_path, FAILING)
     assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent", *rules]) == 1
-    before = {name: (tmp_path / "run" / name).read_bytes() for name in (*VERDICT_FILES, "run.json", "gates.toml")}
+    kept = {name: (tmp_path / "run" / name).read_bytes() for name in ("run.json", "gates.toml")}
+    before = verdicts_in(tmp_path / "run")
     (tmp_path / "gates.toml").unlink()
     assert main(["judge", str(tmp_path / "run")]) == 1
     assert "run/gates.toml, which are the gates of the run" in capsys.readouterr().err
-    assert {name: (tmp_path / "run" / name).read_bytes() for name in before} == before
+    assert verdicts_in(tmp_path / "run") == before
+    assert {name: (tmp_path / "run" / name).read_bytes() for name in kept} == kept
 
 
 RIVAL = ('"rel"', '"rel"\nrival = "twelve-percent"'), ("lower = 0.09", "lower = -inf"), ("upper = 0.11", "upper = 0.0")
@@ -160,7 +168,7 @@ def test_no_flipped_bit_of_any_stored_file_is_judged_in_silence(folder, capsys):
     rng = random.Random(SEED)
     intact = {path.name: path.read_bytes() for path in folder.iterdir() if path.stat().st_size}
     assert intact.keys() - {"store.sqlite", "run.json"} == set(read_record(folder / "run.json")["files"])
-    not_read = {name for name in intact if name == "store.sqlite" or name in VERDICT_FILES}
+    not_read = {name for name in intact if name == "store.sqlite" or is_of_verdicts(name)}
     for name in sorted(intact.keys() - not_read):
         for _ in range(FLIPS):
             (folder / name).write_bytes(flipped(intact[name], rng))
@@ -180,12 +188,12 @@ def test_no_flipped_bit_of_any_stored_file_is_judged_in_silence(folder, capsys):
 
 
 def test_after_a_change_the_run_writes_its_tables_again(folder, capsys):
-    intact = (folder / "results.parquet").read_bytes()
-    (folder / "results.parquet").write_bytes(intact[:-1])
+    intact = (folder / "results.csv").read_bytes()
+    (folder / "results.csv").write_bytes(intact[:-1])
     assert main(["judge", str(folder)]) == 2
     assert f"run with --out {folder}" in capsys.readouterr().err
     assert main(["run", "--jobs", "1", "--out", str(folder)]) == 0
-    assert (folder / "results.parquet").read_bytes() == intact
+    assert (folder / "results.csv").read_bytes() == intact
     assert main(["judge", str(folder)]) == 0
 
 
@@ -204,7 +212,7 @@ def test_results_of_other_code_are_named_as_such(folder, capsys, command):
         assert "judged_by_other_code" not in read_record(folder / "run.json")
 
 
-@pytest.mark.parametrize("lost", ["run.json", "results.parquet", "curves.parquet"])
+@pytest.mark.parametrize("lost", ["run.json", "results.csv", "curves.csv"])
 def test_a_folder_that_is_no_finished_run_is_wrong_input(folder, lost, capsys):
     (folder / lost).unlink()
     assert main(["judge", str(folder)]) == 2

@@ -8,7 +8,7 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.problem.variation import parse_variation, parse_variations, problems_of
-from comparisons.runs.frames import read_table
+from comparisons.runs.csv_format import read_table
 from comparisons.runs.record import read_record
 
 PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad.toml"
@@ -32,7 +32,7 @@ def refused(capsys, *options, **settings):
 
 def test_every_combination_by_every_model(tmp_path, capsys):
     assert sweep(tmp_path, "--model", "bradley", "jkr", "--quantity", "pull_off_force") == 0
-    table = read_table(tmp_path / "results.parquet")
+    table = read_table(tmp_path / "results.csv")
     assert len(table) == 2 * 2 * 3
     for row in table.to_dict("records"):
         # k = 0.4 for JKR-n-k; Bradley is 2 pi R dgamma for every k.
@@ -94,7 +94,7 @@ def test_the_folder_has_copies_of_the_problem_file_and_its_tables(tmp_path):
     for path in originals:
         path.unlink()
     assert main(["merge", str(tmp_path / "one"), str(tmp_path / "two"), "--out", str(tmp_path / "all"), "--quiet"]) == 0
-    assert read_table(tmp_path / "all" / "results.parquet")["status"].tolist() == ["not-applicable"] * 2
+    assert read_table(tmp_path / "all" / "results.csv")["status"].tolist() == ["not-applicable"] * 2
     assert (tmp_path / "all" / "inputs" / "a.csv").exists()
     # Another sweep of the folder has other copies.
     assert sweep(tmp_path / "one", "--model", "bradley", "--quiet") == 0

@@ -11,16 +11,17 @@ from comparisons.data.file_names import VERDICT_FILES
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import load_grids
 from comparisons.runs.computation import compute
+from comparisons.runs.csv_format import read_table
 from comparisons.runs.environment import computing_environment
-from comparisons.runs.frames import read_table
 from comparisons.runs.record import read_record
 from tests.comparisons.grid_text import grid_text
 
 TABLES = ("results", "kappa", "largest_kappa", "curves")
 FILES = {
     *("store.sqlite", "run.json", "gates.toml"),
-    *(f"{table}.{suffix}" for table in TABLES for suffix in ("csv", "parquet")),
+    *(f"{table}.csv" for table in TABLES),
     *VERDICT_FILES,
+    *("verdicts.md", "verdicts.tex"),
 }
 
 
@@ -41,7 +42,7 @@ def test_a_run_leaves_its_tables_and_record(small_grid, tmp_path, capsys):
     assert "results are in" in captured.err
     # Of models that the paper does not know there is nothing to show beside its numbers.
     assert "the paper prints" not in captured.out
-    table = pd.read_parquet(tmp_path / "out" / "results.parquet")
+    table = read_table(tmp_path / "out" / "results.csv")
     assert table.groupby("status").size().to_dict() == {"not-applicable": 4, "ok": 8}
     kappa = pd.read_csv(tmp_path / "out" / "kappa.csv")
     assert kappa["kappa"].tolist() == pytest.approx([0.1] * 4)
@@ -138,7 +139,7 @@ def test_stored_failures_are_used_and_computed_again_on_request(small_grid, tmp_
     assert run(tmp_path, *models, "--retry-failed") == 4
     assert computed == ["fails"] * 4
     assert "stored failures" not in capsys.readouterr().err
-    assert not read_table(tmp_path / "results.parquet").duplicated(["model", "quantity", "n", "k", "mu"]).any()
+    assert not read_table(tmp_path / "results.csv").duplicated(["model", "quantity", "n", "k", "mu"]).any()
 
 
 def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):

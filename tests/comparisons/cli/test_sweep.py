@@ -3,7 +3,7 @@
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.runs.frames import read_table
+from comparisons.runs.csv_format import read_table
 from tests.comparisons.grid_text import grid_text
 
 GRID = grid_text(
@@ -18,13 +18,13 @@ def sweep(tmp_path, text=GRID, *options):
 
 def test_the_errors_of_every_model(tmp_path, capsys):
     assert sweep(tmp_path) == 0
-    kappa = read_table(tmp_path / "out" / "kappa.parquet")
+    kappa = read_table(tmp_path / "out" / "kappa.csv")
     assert len(kappa) == 2 * 4
     assert (kappa["reference"] == "md-improved").all()
     # A JKR pull-off force does not know mu: (3 + k) / 2 for a paraboloid.
     jkr = kappa[kappa["model"] == "jkr"]
     assert jkr["value"].tolist() == pytest.approx([1.5, 1.5, 1.7, 1.7])
-    rows = read_table(tmp_path / "out" / "results.parquet")
+    rows = read_table(tmp_path / "out" / "results.csv")
     assert (rows.loc[rows["quantity"] == "jump_in_displacement", "status"] == "not-applicable").all()
     lines = capsys.readouterr().out.splitlines()
     assert any(line.split()[:4] == ["jkr", "4", "4", "0"] for line in lines)

@@ -20,7 +20,7 @@ from comparisons.data.file_names import STORE
 from comparisons.output.style import FORMATS, save
 from comparisons.registry import create
 from comparisons.runs.atomic_files import write_json
-from comparisons.runs.frames import write_table
+from comparisons.runs.csv_format import write_table
 
 ROOT = Path(__file__).resolve().parents[3]
 CASE = ["--n", "2", "--k", "0.4", "--mu", "1"]
@@ -161,31 +161,6 @@ def test_a_full_disk_ends_in_a_sentence_that_names_the_file(full_disk, tmp_path,
     with pytest.raises(OSError, match=rf"^.*{name} cannot be written \(.*{NO_ROOM}\)$"):
         write(tmp_path / name)
     assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize("command", ["run", "judge"])
-def test_a_summary_page_that_cannot_be_written_is_found_before_computing(
-    small_grid, tmp_path, monkeypatch, capsys, command
-):
-    monkeypatch.setattr("comparisons.pipeline.run.complete", raising(AssertionError))
-    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path))
-    folder = str(tmp_path / "out")
-    assert main([command, *(["--jobs", "1", "--out", folder] if command == "run" else [folder])]) == FAILED
-    message = capsys.readouterr().err
-    assert message.count("\n") == 1
-    assert f"the file {tmp_path}, which the environment variable GITHUB_STEP_SUMMARY names" in message
-
-
-@needs_full_device
-def test_a_summary_page_without_room_loses_no_result_and_no_verdict(small_grid, tmp_path, monkeypatch, capsys):
-    monkeypatch.setenv("GITHUB_STEP_SUMMARY", "/dev/full")
-    folder = tmp_path / "out"
-    for arguments in (["run", "--jobs", "1", "--out", str(folder)], ["judge", str(folder)]):
-        assert main(arguments) == FAILED
-        printed = capsys.readouterr()
-        assert "1 of 1 gates pass" in printed.out
-        assert f"cannot be written ({NO_ROOM})" in printed.err
-        assert {"run.json", "junit.xml"} <= set(os.listdir(folder))
 
 
 def test_a_store_that_cannot_be_opened_has_status_4(small_grid, tmp_path, capsys):

@@ -10,7 +10,7 @@ from comparisons.cli.main import main
 from comparisons.external import fingerprint as module
 from comparisons.external.model_source import GROUP, close_models
 from comparisons.registry import create
-from comparisons.runs.frames import read_table
+from comparisons.runs.csv_format import read_table
 from comparisons.runs.record import read_record
 
 from .conftest import GATE, GOOD, opened, row_of
@@ -200,7 +200,7 @@ def once(write_model, few_cases, tmp_path, tmp_path_factory, capsys):
 
 
 def values(folder):
-    table = read_table(folder / "out" / "results.parquet")
+    table = read_table(folder / "out" / "results.csv")
     return table.loc[table["model"] == "stranger", "value"].tolist()
 
 

@@ -12,7 +12,8 @@ from comparisons.cli.main import main
 from comparisons.output.errors import comparison_table, error_summary
 from comparisons.output.summaries import WIDTH, case_tables
 from comparisons.runs.cases import load_grids
-from comparisons.runs.frames import frame, read_table
+from comparisons.runs.csv_format import read_table
+from comparisons.runs.frames import frame
 from comparisons.runs.record import check_files, read_record
 from tests.comparisons.rows import row
 
@@ -55,8 +56,8 @@ def test_the_folder_is_a_run_folder_that_is_resumed(toys, tmp_path, capsys):
     compared = comparisons.compare(["ten-percent"], GRID, folder=tmp_path)
     record = read_record(tmp_path / "run.json")
     check_files(record, tmp_path)
-    assert {"comparison.csv", "comparison.parquet", "comparison.png", "comparison.pdf"} <= record["files"].keys()
-    pd.testing.assert_frame_equal(read_table(tmp_path / "comparison.parquet"), compared.table, check_dtype=False)
+    assert {"comparison.csv", "comparison.png", "comparison.pdf"} <= record["files"].keys()
+    pd.testing.assert_frame_equal(read_table(tmp_path / "comparison.csv"), compared.table, check_dtype=False)
     for kind in ("png", "pdf"):
         assert (tmp_path / f"comparison.{kind}").stat().st_size > 1000
     # A sweep of the folder computes nothing twice, and leaves no comparison of other models in it.

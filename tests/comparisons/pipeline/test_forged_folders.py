@@ -94,7 +94,7 @@ def test_copies_are_not_written_through_a_link(shard, tmp_path, capsys):
 
 @pytest.mark.parametrize(
     ("command", "name"),
-    [("merge", "store.sqlite"), ("merge", "store.sqlite-wal"), ("merge", "run.json"), ("report", "results.parquet")],
+    [("merge", "store.sqlite"), ("merge", "store.sqlite-wal"), ("merge", "run.json"), ("report", "results.csv")],
 )
 @pytest.mark.parametrize("target", ["{folder}/mine/precious.txt", "/dev/null"])
 def test_a_file_of_the_folder_that_is_a_link(command, name, target, shard, tmp_path, capsys):

@@ -9,16 +9,13 @@ import random
 from unittest.mock import Mock
 
 import pandas as pd
-import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from comparisons.runs.atomic_files import atomic, prepare_folder, writable_file, write_json
-from comparisons.runs.csv_format import csv_text, read_csv
-from comparisons.runs.frames import COLUMNS, curve_frame, frame, write_table
-from comparisons.runs.rows import DIMENSIONLESS
+from comparisons.runs.csv_format import csv_text, read_table, write_table
+from comparisons.runs.frames import curve_frame, frame
 from tests.comparisons.rows import row
 
 REFUSED = {"value": None, "u_num": None, "size": None, "iterations": None, "residual": None}
@@ -39,19 +36,15 @@ def test_csv_gives_every_double_back(value, mu):
     assert len(written["mu"]) <= len(repr(mu))
 
 
-def test_a_table_is_read_with_every_digit(tmp_path):
-    table = frame([row(value=0.1 + 0.2, mu=0.1), row("dmt", **REFUSED, reason="NA")])
-    (tmp_path / "a.csv").write_text(csv_text(table))
-    stored = read_csv(tmp_path / "a.csv", {"model", "model_version", "quantity", "unit", "status", "reason"})
-    pd.testing.assert_frame_equal(stored, table.drop(columns="seconds").assign(seconds=0.25), check_dtype=False)
-
-
 @pytest.mark.parametrize(
-    "text", ["=cmd|' /C calc'!A0", "+1+1", "-1+1", "@SUM(A1)", "\t=1", " =1", "\n=1", "'=1", "''-1"]
+    "text", ["=cmd|' /C calc'!A0", "+1+1", "-1+1", "@SUM(A1)", "\t=1", " =1", "\n=1", "'=1", "''-1", "' =1", "'-1"]
 )
 @pytest.mark.parametrize("column", ["model", "reason"])
-def test_no_text_is_a_formula_and_each_can_be_read_back(text, column):
-    assert cells(frame([row(**{column: text})]))[column] == f"'{text}"
+def test_no_text_is_a_formula_and_each_is_read_back(text, column, tmp_path):
+    table = frame([row(**{column: text})])
+    assert cells(table)[column] == f"'{text}"
+    write_table(table, tmp_path / "results")
+    assert read_table(tmp_path / "results.csv")[column].tolist() == [text]
     assert next(csv.reader(io.StringIO(csv_text(pd.DataFrame({text: [1.0]})), newline=""))) == [f"'{text}"]
 
 
@@ -83,13 +76,19 @@ def test_the_tables_do_not_depend_on_the_order_of_completion(seed):
     assert table["x"].tolist()[:-1] == table["point"].tolist()[:-1] == list(range(POINTS)) * len(POISSON_RATIOS)
 
 
-def test_parquet_keeps_types_and_csv_leaves_out_the_clock(tmp_path):
-    write_table(frame([row(), row("dmt", **REFUSED, status="failed", reason="why")]), tmp_path / "results")
-    stored = pq.read_table(tmp_path / "results.parquet")
-    without_files = [field for field in COLUMNS if field.name not in ("problem", *DIMENSIONLESS)]
-    assert stored.schema.equals(pa.schema(without_files))
-    assert stored["value"].to_pylist() == [None, 1.5]
-    assert list(pd.read_csv(tmp_path / "results.csv")) == [field.name for field in without_files[:-1]]
+def test_a_written_table_has_no_clock_and_is_read_with_its_texts_and_marks(tmp_path):
+    results = frame([row(), row("dmt", **REFUSED, status="failed", reason='"why",\n no;\x00 2.0')])
+    write_table(results.assign(at_end=[True, False], paper_percent=["2.0", ""]), tmp_path / "results")
+    stored = read_table(tmp_path / "results.csv")
+    written = results.drop(columns="seconds")
+    assert list(stored) == [*written, "at_end", "paper_percent"]
+    pd.testing.assert_frame_equal(stored[list(written)], written)
+    assert (stored["at_end"].tolist(), stored["paper_percent"].tolist()) == ([True, False], ["2.0", ""])
+    write_table(curve_frame([]), tmp_path / "curves")
+    assert read_table(tmp_path / "curves.csv")["x"].dtype == float
+    (tmp_path / "no.csv").write_bytes(b"\xff")
+    with pytest.raises(ValueError, match=r"no.csv cannot be read as CSV"):
+        read_table(tmp_path / "no.csv")
 
 
 def test_an_error_while_writing_leaves_the_old_file_and_no_other(tmp_path):

@@ -9,7 +9,8 @@ import pandas as pd
 from comparisons.judging.gates import gates_text, load_gates
 from comparisons.output.errors import largest, relative_error
 from comparisons.output.verdicts import write_verdicts
-from comparisons.runs.frames import curve_frame, frame, write_table
+from comparisons.runs.csv_format import write_table
+from comparisons.runs.frames import curve_frame, frame
 from comparisons.runs.record import read_record, write_record
 from tests.comparisons.records import record_of_run
 from tests.comparisons.rows import row as made_row

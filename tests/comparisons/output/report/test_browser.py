@@ -11,7 +11,7 @@ import pytest
 from comparisons.output.latex import latex
 from comparisons.output.report.page import make_page
 from comparisons.output.report.stored_run import read_folder
-from comparisons.runs.csv_format import csv_text
+from comparisons.runs.csv_format import csv_text, read_table
 
 from . import browsing
 from .browsing import DESKTOP, PHONE, cells, click, find, head, messages, ranges, size, unfold, width
@@ -41,7 +41,7 @@ def test_a_hostile_name_does_nothing_even_without_the_policy(browser, page, tmp_
 
 
 def test_tables_sort_and_filter(opened, run_folder):
-    stored = pd.read_parquet(run_folder / "verdicts.parquet")
+    stored = read_table(run_folder / "verdicts.csv")
     unfold(opened, "verdicts")
     for direction, rising in (("ascending", True), ("descending", False)):
         heading = head(opened, "verdicts", "E(U)")
@@ -101,7 +101,7 @@ def choose(browser, index, text):
 
 
 def test_a_choice_shows_its_rows_and_models_are_switched_on_and_off(opened, run_folder):
-    kappa = pd.read_parquet(run_folder / "kappa.parquet")
+    kappa = read_table(run_folder / "kappa.csv")
     unfold(opened, "kappa")
     for n, k in ((2, 0), (1, 0.4)):
         choose(opened, 2, f"{n}")

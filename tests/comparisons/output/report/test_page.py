@@ -14,6 +14,7 @@ from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
 from comparisons.output.style import model_styles
 from comparisons.registry import MODELS
+from comparisons.runs.csv_format import read_table, write_table
 
 from .hostile_run import seal, write_run
 
@@ -86,7 +87,7 @@ def test_models_of_ours_and_external_ones_differ_by_colour_and_shape():
 def test_a_run_without_verdicts_errors_or_curves_has_a_page(run_folder, tmp_path):
     folder = shutil.copytree(run_folder, tmp_path / "run")
     for name in ("verdicts", "summary", "kappa", "largest_kappa", "curves"):
-        pd.read_parquet(folder / f"{name}.parquet").head(0).to_parquet(folder / f"{name}.parquet")
+        write_table(read_table(folder / f"{name}.csv").head(0), folder / name)
     seal(folder)
     page = make_page(read_folder(folder))
     assert (page.verdict, page.headline) == ("ERROR", "No gate was evaluated.")
@@ -121,7 +122,7 @@ def test_a_comparison_has_a_page_with_its_tables(tmp_path):
 NAMES = ("results", "curves", "verdicts", "summary", "kappa", "largest_kappa")
 
 
-@pytest.mark.parametrize("lost", ["run.json", *(f"{name}.parquet" for name in NAMES)])
+@pytest.mark.parametrize("lost", ["run.json", *(f"{name}.csv" for name in NAMES)])
 @pytest.mark.parametrize("content", [None, "nonsense"])
 def test_a_folder_that_is_no_whole_run_is_wrong_input(run_folder, tmp_path, capsys, lost, content):
     folder = shutil.copytree(run_folder, tmp_path / "run")
@@ -145,9 +146,9 @@ def test_a_folder_that_is_no_whole_run_is_wrong_input(run_folder, tmp_path, caps
 )
 def test_a_table_that_was_tampered_with_is_wrong_input(run_folder, tmp_path, capsys, change, message):
     folder = shutil.copytree(run_folder, tmp_path / "run")
-    change(pd.read_parquet(folder / "verdicts.parquet")).to_parquet(folder / "verdicts.parquet")
+    write_table(change(read_table(folder / "verdicts.csv")), folder / "verdicts")
     assert main(["report", str(folder)]) == 2
-    assert "verdicts.parquet was changed after it was written" in capsys.readouterr().err
+    assert "verdicts.csv was changed after it was written" in capsys.readouterr().err
     seal(folder)
     assert main(["report", str(folder)]) == 2
     assert message in capsys.readouterr().err

@@ -7,7 +7,7 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.output.report.page import make_page
 from comparisons.output.report.stored_run import read_folder
-from comparisons.runs.frames import read_table
+from comparisons.runs.csv_format import read_table
 
 from .browsing import DESKTOP, cells, find, messages, show, unfold
 
@@ -35,7 +35,7 @@ def test_every_choice_of_a_plot_shows_the_stored_numbers(swept):
     assert page.headline.startswith("bradley differs most from atlas: by 17.36")
     # The errors are drawn over the cases.
     assert set(page.plots["plot-kappa"].points["x"]) == {1, 2, 3, 4, 5, 6}
-    stored = read_table(swept / "results.parquet").query("status == 'ok'")
+    stored = read_table(swept / "results.csv").query("status == 'ok'")
     over_radius, over_work = page.plots["plot-1"], page.plots["plot-2"]
     assert (over_radius.x_label, over_radius.x_scale) == ("punch.R (µm)", "log")
     assert (over_work.x_label, over_work.x_scale) == ("law.work_of_adhesion (mJ/m^2)", "linear")
@@ -69,7 +69,7 @@ def test_the_page_in_a_browser(browser, swept):
     assert HOSTILE.strip() in find(browser, "pre.file[aria-label='inputs/pad.toml']").text
     # A choice shows its numbers and its unit.
     unfold(browser, "plot-1-numbers")
-    stored = read_table(swept / "results.parquet").query("quantity == 'pull_off_force' and status == 'ok'")
+    stored = read_table(swept / "results.csv").query("quantity == 'pull_off_force' and status == 'ok'")
     of_work = stored[stored[WORK] == 0.02]
     assert [float(text) for text in cells(browser, "plot-1-numbers", "value")] == of_work["value"].tolist()
     label = "return Bokeh.documents.flatMap((one) => one.roots())[0].yaxes[0].axis_label"
