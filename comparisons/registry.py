@@ -1,10 +1,9 @@
 """Registry of models: from a name or a SPEC to a model.
 
 The models of this repository are found in the folder `comparisons.models`.  A module there declares its models
-in two literals, which are read without importing the module:
+in a literal, which is read without importing the module:
 
-    MODELS = {"jkr": "JKR"}              # name -> class
-    DEPENDS_ON_POISSON_RATIO = ("fem",)  # optional: models whose class takes Poisson's ratio
+    MODELS = {"jkr": "JKR"}  # name -> class
 
 So a command that needs JKR does not load the finite elements, and a new model is one new file.
 """
@@ -12,6 +11,7 @@ So a command that needs JKR does not load the finite elements, and a new model i
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib import import_module
@@ -24,17 +24,20 @@ from comparisons.model import Model
 __all__ = ["MODELS", "ExternalIdentity", "create", "declared_models", "depends_on_poisson_ratio", "identify"]
 
 _FOLDER = "comparisons.models"
-_LITERALS = ("MODELS", "DEPENDS_ON_POISSON_RATIO")
+_LITERAL = re.compile(r"^MODELS = (\{.*?\})$", flags=re.MULTILINE | re.DOTALL)
+
+#: Models whose class takes Poisson's ratio.
+_WITH_POISSON_RATIO = ("fem",)
 
 #: Models that come first in lists and tables; the others follow by the name of their module.
 _REFERENCES = ("fscm", "fscm-stieltjes", "fscm-stieltjes-400", "fem")
 _OF_THE_PAPER = ("jkr", "md-original", "md-improved", "dmt", "bradley", "semi-rigid")
 _OF_OTHERS = ("double-hertz-n-k", "md-jin", "dmt-strength", "carpick-ogletree-salmeron", "pietrement-troyon", "schwarz")
-_ORDER = (*_REFERENCES, *_OF_THE_PAPER, *_OF_OTHERS, "jump-asymptotes", "jkr-sphere")
+_ORDER = (*_REFERENCES, *_OF_THE_PAPER, *_OF_OTHERS, "jump-asymptotes", "jkr-sphere", "atlas", "fem-large-strain")
 
 
-def declared_models(source: str) -> dict[str, tuple[str, bool]]:
-    """Return the models that a module declares: name -> (class, whether it takes Poisson's ratio).
+def declared_models(source: str) -> dict[str, str]:
+    """Return the models that a module declares: name -> class.
 
     Parameters
     ----------
@@ -44,43 +47,32 @@ def declared_models(source: str) -> dict[str, tuple[str, bool]]:
     Raises
     ------
     ValueError
-        If the value of `MODELS` or `DEPENDS_ON_POISSON_RATIO` is not a literal.
+        If the value of `MODELS` is not a literal.
 
     Examples
     --------
     >>> declared_models('MODELS = {"jkr": "JKR"}')
-    {'jkr': ('JKR', False)}
+    {'jkr': 'JKR'}
     """
-    # Most modules of the folder declare no model and need no parsing.
-    statements = ast.parse(source).body if "\nMODELS" in f"\n{source}" else []
-    literals = {
-        target.id: ast.literal_eval(statement.value)
-        for statement in statements
-        if isinstance(statement, ast.Assign)
-        for target in statement.targets
-        if isinstance(target, ast.Name) and target.id in _LITERALS
-    }
-    with_ratio = literals.get("DEPENDS_ON_POISSON_RATIO", ())
-    return {name: (cls, name in with_ratio) for name, cls in literals.get("MODELS", {}).items()}
+    declaration = _LITERAL.search(source)
+    return ast.literal_eval(declaration[1]) if declaration else {}
 
 
-def _models_in_folder() -> dict[str, tuple[str, bool]]:
-    """Name -> "module:class" and use of Poisson's ratio of every model in the folder, in the order of lists."""
-    models: dict[str, tuple[str, bool]] = {}
+def _models_in_folder() -> dict[str, str]:
+    """Name -> "module:class" of every model in the folder, in the order of lists."""
+    models: dict[str, str] = {}
     for entry in sorted(files(_FOLDER).iterdir(), key=lambda entry: entry.name):
         if entry.name.endswith(".py"):
             module = f"{_FOLDER}.{entry.name.removesuffix('.py')}"
-            for name, (cls, with_ratio) in declared_models(entry.read_text(encoding="utf-8")).items():
+            for name, cls in declared_models(entry.read_text(encoding="utf-8")).items():
                 if name in models:
                     raise ValueError(f"{module} declares a model {name}, which another module declares as well")
-                models[name] = f"{module}:{cls}", with_ratio
+                models[name] = f"{module}:{cls}"
     return {name: models[name] for name in [*(name for name in _ORDER if name in models), *models]}
 
 
-_MODELS = _models_in_folder()
-
 #: Name -> "module:class"; the class is called without arguments, or with Poisson's ratio alone if it takes it.
-MODELS: dict[str, str] = {name: path for name, (path, _) in _MODELS.items()}
+MODELS: dict[str, str] = _models_in_folder()
 
 
 def depends_on_poisson_ratio(name: str) -> bool:
@@ -93,7 +85,7 @@ def depends_on_poisson_ratio(name: str) -> bool:
     >>> depends_on_poisson_ratio("fem"), depends_on_poisson_ratio("fscm")
     (True, False)
     """
-    return name in _MODELS and _MODELS[name][1]
+    return name in _WITH_POISSON_RATIO
 
 
 def create(name: str, poisson_ratio: float | None = None) -> Model:

@@ -43,10 +43,7 @@ ALLOWED = {
     "comparisons.models.fscm_model": ("fscm",),
     # The references of the error maps are those of the atlas.
     "comparisons.paper.studies.error_maps": ("fscm.interpolation",),
-    "comparisons.models.atlas_model": ("fscm",),
     "comparisons.models.gibson_limit": ("fscm",),
-    "comparisons.models.stieltjes_model": ("fscm",),
-    "comparisons.models.large_strain_model": ("fem_reference",),
     "comparisons.models.fem_model": (
         "fscm.problem",
         "fscm.punch",

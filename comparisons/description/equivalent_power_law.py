@@ -35,7 +35,8 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
         None if the solid is a power law, or if there is no force.  `free_k` is the exponent of the fit without limits;
         the deviations of the compliance are relative root mean squares, of this law and of the modulus of the surface;
         nine tenths of the elastic energy are between both `lengths`; `pull_off_force` has the error of this law, and
-        `closed_forms` those of the closed forms with this law, against the force of the solid itself.
+        `closed_forms` those of the closed forms with this law, against the force of the solid itself;
+        `closed_form_within` has the simplest one for which that of the law and its own, added by size, are within.
 
     Examples
     --------
@@ -57,8 +58,11 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
     similar = power_law_of(problem, k, compliance, spectrum)
     of_law = reference_force(similar)
     error, bound = change_of(of_law, force) or (None, None)
-    errors = model_errors(similar, force)
-    stands = deviation <= LARGEST_DEVIATION
+    summed = []
+    if deviation <= LARGEST_DEVIATION and error is not None and bound is not None:
+        # Errors that cancel in this problem do not in the next one.
+        for row in model_errors(similar, of_law):
+            summed.append(row | {"error": abs(row["error"]) + abs(error), "u_num": row["u_num"] + bound})
     return {
         **similar.solid.values,
         "free_k": free_k,
@@ -67,10 +71,8 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
         "tabor_number": similar.posed.mu,
         "lengths": [spectrum.length(share) for share in _MIDDLE],
         "pull_off_force": force_content(of_law) | {"error": error, "error_u_num": bound},
-        "closed_forms": errors,
-        "closed_form_within": {
-            f"{100 * limit:g} %": simplest_within(errors, limit) if stands else None for limit in LIMITS
-        },
+        "closed_forms": model_errors(similar, force),
+        "closed_form_within": {f"{100 * limit:g} %": simplest_within(summed, limit) for limit in LIMITS},
     }
 
 

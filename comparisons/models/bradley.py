@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.special import beta
 
 from comparisons.model import FARTHEST_GAP, Curve, Result
-from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, JUMPS, POINTS, ClosedForm, Limits, monomial
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, POINTS, ClosedForm, Limits, monomial
 from comparisons.problem import Problem
 
 __all__ = ["Bradley", "rigid_load", "rigid_pull_off"]
@@ -74,12 +74,7 @@ class Bradley(ClosedForm):
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 42 and 56; Zheng & Yu, J. Colloid Interface Sci. 310 (2007) 27-34"
     domain = "n > 2/3, any k; exact as mu -> 0"
     limits: ClassVar[Limits | None] = {"n": [0.667, None]}
-    undefined: ClassVar[dict[str, str]] = dict.fromkeys(
-        JUMPS, "a rigid pair under displacement control has no folds"
-    ) | {
-        "critical_tabor_number": "a rigid pair has no folds at any Tabor number",
-        "hysteresis_energy": "a rigid pair has no folds to lose energy at",
-    }
+    undefined: ClassVar[str] = "a rigid pair under displacement control has no folds, at which energy is lost"
 
     def pull_off_force(self, problem: Problem) -> Result:
         """-min P (Eq. 56)."""

@@ -1,6 +1,6 @@
 """The part of the model contract that every closed form has in common.
 
-A closed form computes the quantities for which it has a method of that name; for any other it has a reason.
+A closed form computes the quantities for which it has a method of that name, and has one reason for all others.
 """
 
 from __future__ import annotations
@@ -30,15 +30,6 @@ Limits = dict[str, list[Any]]
 
 #: Quantities that `pull_off_profile` returns.
 FIELDS = ("pull_off_pressure", "pull_off_gap")
-
-#: Quantities of the folds, and those that need both jumps.
-JUMPS = ("jump_in_displacement", "jump_in_gap", "jump_out_displacement", "jump_out_gap")
-CYCLE = ("hysteresis_energy", "critical_tabor_number")
-
-#: What a model of the contact alone does not define, and why.
-IN_CONTACT = dict.fromkeys((*JUMPS[:2], *CYCLE), "its equations hold in contact only") | {
-    "jump_out_gap": "the gap is zero by assumption wherever there is contact"
-}
 
 
 def monomial(*factors: tuple[float, float]) -> Result:
@@ -74,8 +65,8 @@ class ClosedForm:
         Ranges of n, k and mu in which every quantity has a value; None if the model does not declare its domain.
     narrower : dict
         Further ranges of single quantities.
-    undefined : dict of str to str
-        Reasons why the model does not define a quantity, one sentence each.
+    undefined : str
+        Why the model does not define the other quantities.
 
     Examples
     --------
@@ -90,7 +81,7 @@ class ClosedForm:
     domain: ClassVar[str]
     limits: ClassVar[Limits | None] = {}
     narrower: ClassVar[dict[str, Limits]] = {}
-    undefined: ClassVar[dict[str, str]] = {}
+    undefined: ClassVar[str] = "its equations hold in contact only, where the gap is zero"
 
     @property
     def applies_to(self) -> list[dict[str, Any]] | None:
@@ -134,6 +125,5 @@ class ClosedForm:
         self.check(problem)
         method = getattr(self, quantity, None)
         if method is None:
-            reason = self.undefined.get(quantity, "its equations do not contain it")
-            raise NotApplicable(f"{self.name} does not define {quantity}: {reason}")
+            raise NotApplicable(f"{self.name} does not define {quantity}: {self.undefined}")
         return method(problem)

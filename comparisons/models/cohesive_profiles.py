@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.model import FARTHEST_GAP, NotApplicable
+from comparisons.model import FARTHEST_GAP, NotApplicable, RadialField
 from comparisons.models.cohesive_contact import CohesiveContact, ContactState
 from comparisons.models.graded_punch import Scales
 from comparisons.models.quadrature import FINE
@@ -28,7 +28,6 @@ Array = NDArray[np.float64]
 #: Bound on the error of pressure and gap as a fraction of their ranges: measured worst 1.2e-13 against 25 digits.
 PROFILE_ROUNDING = 1e-12
 
-_POINTS_A_ZONE = 200
 # The profiles end beyond this many cohesive radii and beyond this gap, in z0.
 _FARTHEST = 3.0
 # The radius nearest to the axis, over c: a cone on a homogeneous half-space has infinite pressure at r = 0.
@@ -39,31 +38,23 @@ _BELOW_EDGE = 1e-15
 _NARROWEST = 1e-150
 
 
-@dataclass(frozen=True, slots=True)
-class CohesiveProfiles:
-    """Profiles in barred variables.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CohesiveProfiles(RadialField):
+    """The surface beyond three times c and a gap of 10; its radii are denser towards a and c on both sides.
+
+    The pressure jumps at c, where two radii are 1e-15 apart; the gap is 0 inside a.
 
     Attributes
     ----------
     contact_radius, cohesive_radius : float
         a and c, in (Q z0)^(1/n).
-    displacement, load : float
-        delta in z0, and P in pi Q^(2/n) dgamma z0^(2/n-1).
-    radius : ndarray, shape (m,)
-        Increasing radii, in (Q z0)^(1/n), beyond three times c and a gap of 10; denser towards a and c on both sides.
-    pressure : ndarray, shape (m,)
-        p(r) in dgamma / z0, tension negative; it jumps at c, where two radii are 1e-15 apart.
-    gap : ndarray, shape (m,)
-        H(r) in z0; 0 inside a.
+    displacement : float
+        delta in z0.
     """
 
     contact_radius: float
     cohesive_radius: float
     displacement: float
-    load: float
-    radius: Array
-    pressure: Array
-    gap: Array
 
 
 def pressure(contact: CohesiveContact, state: ContactState, r: Array) -> Array:
@@ -126,9 +117,7 @@ def gap(contact: CohesiveContact, state: ContactState, r: Array) -> Array:
     return H
 
 
-def cohesive_profiles(
-    contact: CohesiveContact, state: ContactState, scale: Scales, points: int = _POINTS_A_ZONE
-) -> CohesiveProfiles:
+def cohesive_profiles(contact: CohesiveContact, state: ContactState, scale: Scales, points: int) -> CohesiveProfiles:
     """Return the profiles of a state of one element, in barred variables.
 
     There are `points` radii each inside the contact, in the cohesive zone and beyond it.
@@ -143,7 +132,7 @@ def cohesive_profiles(
     >>> from comparisons.models.graded_punch import GradedPunch
     >>> contact = CohesiveContact(GradedPunch(2.0, 0.0), 1.0)
     >>> state = contact.at(np.array([0.0]))
-    >>> surface = cohesive_profiles(contact, state, contact.punch.scales(mu=1.0))
+    >>> surface = cohesive_profiles(contact, state, contact.punch.scales(mu=1.0), points=20)
     >>> float(surface.pressure.min()), bool(surface.gap[surface.radius < surface.contact_radius].max() == 0.0)
     (-1.0, True)
     """
@@ -165,10 +154,11 @@ def cohesive_profiles(
         contact_radius=scale.radius * a,
         cohesive_radius=scale.radius * c,
         displacement=scale.displacement * float(state.displacement[0]),
-        load=scale.load * float(state.load[0]),
         radius=scale.radius * r,
         pressure=scale.pressure * pressure(contact, state, r),
         gap=scale.displacement * gap(contact, state, r),
+        u_distance=PROFILE_ROUNDING,
+        u_gap_distance=PROFILE_ROUNDING,
     )
 
 

@@ -18,7 +18,7 @@ from typing import ClassVar
 import numpy as np
 
 from comparisons.model import Curve, Result
-from comparisons.models.closed_form import CYCLE, FACTOR_ROUNDING, JUMPS, POINTS, ClosedForm, Limits, monomial
+from comparisons.models.closed_form import FACTOR_ROUNDING, POINTS, ClosedForm, Limits, monomial
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
@@ -54,9 +54,7 @@ class DMT(ClosedForm):
     )
     domain = "n > 2/3, 0 <= k <= 1; cohesive stress eta(n); exact pull-off as mu -> 0"
     limits: ClassVar[Limits | None] = {"n": [0.667, None]}
-    undefined: ClassVar[dict[str, str]] = dict.fromkeys(
-        (*JUMPS, *CYCLE), "its displacement grows with the contact radius throughout, so it has no folds"
-    )
+    undefined: ClassVar[str] = "its displacement grows with the contact radius throughout, so it has no folds"
 
     def cohesive_stress(self, problem: Problem) -> float:
         """sigma_0 = eta(n), in dgamma / z0."""

@@ -1,4 +1,4 @@
-"""The finite elements as a model.
+"""The finite elements as models, with small and with finite strain.
 
 `fem_reference` solves physical problems and contains no Tabor number.  Here a dimensionless problem becomes a
 physical one by Eqs. 7, 24 and 29, and every result is scaled back by Eqs. 25 and 31; so where the two references
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import fem_reference
 from comparisons.model import Curve, NotApplicable, RadialField, Result
-from comparisons.models.solver import result_of, surface_of, translated
+from comparisons.models.solver import SolverModel, result_of, surface_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
@@ -23,10 +23,9 @@ from fscm.problem import Problem as PosedProblem
 if TYPE_CHECKING:
     from fem_reference import export
 
-__all__ = ["FiniteElements"]
+__all__ = ["FiniteElements", "LargeStrain"]
 
-MODELS = {"fem": "FiniteElements"}
-DEPENDS_ON_POISSON_RATIO = ("fem",)
+MODELS = {"fem": "FiniteElements", "fem-large-strain": "LargeStrain"}
 
 #: Meshes of a curve: the coarser one, which gives its uncertainty, and that of its points.
 _LEVELS = ("quick", "default")
@@ -38,7 +37,7 @@ LARGEST_K = 0.9
 _SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
 
 
-class FiniteElements:
+class FiniteElements(SolverModel):
     """The package `fem_reference`.
 
     Parameters
@@ -54,29 +53,24 @@ class FiniteElements:
     """
 
     name: ClassVar[str] = "fem"
-    version: ClassVar[str] = "1"
     citation: ClassVar[str] = "This package: axisymmetric elements on the graded half-space, solved with pyamg"
     domain: ClassVar[str] = "n >= 1, 0 <= k <= 0.9, 0 <= nu < 0.5; power-law punch and 9-3 law"
+    package = fem_reference
+    quantities = (*fem_reference.QUANTITIES, "critical_tabor_number")
 
     def __init__(self, poisson_ratio: float = 0.3) -> None:
         self._poisson_ratio = poisson_ratio
 
-    def evaluate(self, problem: Problem, quantity: str) -> Result:
-        """Return the quantity, or raise as in `comparisons.model.Model`."""
+    def _result(self, problem: Problem, quantity: str) -> Result:
         if quantity == "critical_tabor_number":
             return self._critical_tabor_number(problem)
-        if quantity not in fem_reference.QUANTITIES:
-            raise NotApplicable(f"the finite elements do not compute {quantity}")
         units, body = self._physical(problem)
-        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            solution = fem_reference.solve(body, quantity)
-        return result_of(solution, unit=units[QUANTITIES[quantity].scale])
+        return result_of(fem_reference.solve(body, quantity), unit=units[QUANTITIES[quantity].scale])
 
     def _critical_tabor_number(self, problem: Problem) -> Result:
         """Return the Tabor number of the modulus at which jumps begin; that of the problem is not used."""
         physical = self._scaled(Problem.dimensionless(problem.n, problem.k, 1.0))
-        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            solution = fem_reference.solve(self._body(physical), fem_reference.CRITICAL_MODULUS)
+        solution = fem_reference.solve(self._body(physical), fem_reference.CRITICAL_MODULUS)
 
         def tabor_number(E0: float) -> float:
             solid: Any = physical.solid
@@ -87,11 +81,9 @@ class FiniteElements:
         highest = tabor_number(solution.value - solution.u_num)
         return result_of(replace(solution, value=value, u_num=highest - value))
 
-    def curve(self, problem: Problem) -> Curve:
-        """Return the equilibrium path from far away into compression, on the condensed surface."""
+    def _curve(self, problem: Problem) -> Curve:
         units, body = self._physical(problem)
-        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            coarse, path = (fem_reference.trace(body, level) for level in _LEVELS)
+        coarse, path = (fem_reference.trace(body, level) for level in _LEVELS)
         return Curve(
             displacement=path.displacement / units["displacement"],
             load=path.load / units["load"],
@@ -115,7 +107,7 @@ class FiniteElements:
         from fem_reference import export  # loads Matplotlib
 
         units, body = self._physical(problem)
-        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
+        with translated(fem_reference):
             spec, point = fem_reference.event_state(body, event)
             raw = export.contact_field(body.solid, spec, point)
         field = raw.in_units_of(units["displacement"], units["traction"])
@@ -138,7 +130,7 @@ class FiniteElements:
 
     def _surface_at_pull_off(self, problem: Problem) -> RadialField:
         units, body = self._physical(problem)
-        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
+        with translated(fem_reference):
             coarse, fine = (fem_reference.profile(body, accuracy=level) for level in _LEVELS)
         return surface_of(coarse, fine, units)
 
@@ -147,10 +139,7 @@ class FiniteElements:
         if not problem.name:
             scaled = self._scaled(problem)
             return scaled.units, self._body(scaled)
-        try:
-            return problem.units, problem.build(fem_reference)
-        except ValueError as error:
-            raise NotApplicable(f"the finite elements do not take this problem: {error}") from None
+        return problem.units, _built(problem)
 
     def _scaled(self, problem: Problem) -> PosedProblem:
         if problem.n < 1.0:
@@ -176,3 +165,50 @@ class FiniteElements:
 def _surface_at_pull_off(poisson_ratio: float, problem: Problem) -> RadialField:
     """Keep the last surface: its pressure and its gap are requested one after the other."""
     return FiniteElements(poisson_ratio)._surface_at_pull_off(problem)
+
+
+class LargeStrain(SolverModel):
+    """`fem_reference.solve_large_strain`: a neo-Hookean solid and the traction on its deformed surface, no friction.
+
+    It has no curve: where the branches of a path with finite strain meet is not verified yet.
+
+    Examples
+    --------
+    >>> from comparisons.problem import Section
+    >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 1e-7})
+    >>> gel = Problem(Section("homogeneous", {"E": 1e6, "nu": 0.5}), Section("ball", {"R": 1e-5}), law)
+    >>> result = LargeStrain().evaluate(gel, "pull_off_force")
+    >>> round(result.value, 4), result.u_num < 1e-5
+    (1.5343, True)
+    """
+
+    name: ClassVar[str] = "fem-large-strain"
+    citation: ClassVar[str] = "This package: axisymmetric elements of a neo-Hookean half-space, without friction"
+    domain: ClassVar[str] = (
+        "problems in physical units, modulus that does not vanish at the surface, tension below 0.4 E*"
+    )
+    package = fem_reference
+    quantities = fem_reference.LARGE_STRAIN_QUANTITIES
+    #: It checks them itself (`comparisons.problem.evaluation`).
+    punches: ClassVar[tuple[str, ...]] = ()
+
+    def _result(self, problem: Problem, quantity: str) -> Result:
+        if not problem.name:
+            raise NotApplicable("n, k and mu do not state how large the strains are; give a problem file")
+        if problem.solid.kind == "homogeneous":
+            # It may be incompressible.
+            solid = fem_reference.NeoHookean(problem.solid["E"], problem.solid["nu"])
+            body = replace(_built(problem.with_value("solid", "nu", 0.0)), solid=solid)
+        else:
+            body = _built(problem)
+        unit = problem.units[QUANTITIES[quantity].scale]
+        return result_of(fem_reference.solve_large_strain(body, quantity), unit=unit)
+
+
+def _built(problem: Problem) -> fem_reference.Problem:
+    """Return the problem of a file for the solver."""
+    try:
+        body: fem_reference.Problem = problem.build(fem_reference)
+    except ValueError as error:
+        raise NotApplicable(f"the finite elements do not take this problem: {error}") from None
+    return body

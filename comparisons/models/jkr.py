@@ -10,12 +10,10 @@ s + k + 1 at pull-off (dP = 0) and n + k + 1 at zero load; then delta = K a^s (t
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 import numpy as np
 
 from comparisons.model import Curve, Result
-from comparisons.models.closed_form import EPS, IN_CONTACT, POINTS, ClosedForm, monomial
+from comparisons.models.closed_form import EPS, POINTS, ClosedForm, monomial
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
@@ -36,12 +34,6 @@ class JKR(ClosedForm):
     name = "jkr"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 50-57; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
     domain = "n > (1-k)/2, 0 <= k <= 1; exact as mu -> infinity"
-    undefined: ClassVar[dict[str, str]] = IN_CONTACT | {
-        "jump_in_displacement": "surfaces do not attract before contact, so nothing jumps in",
-        "jump_in_gap": "surfaces do not attract before contact, so nothing jumps in",
-        "critical_tabor_number": "the curve has a fold at every Tabor number",
-        "hysteresis_energy": "it needs a jump-in, and surfaces do not attract before contact",
-    }
 
     def pull_off_force(self, problem: Problem) -> Result:
         """-min P (Eq. 57)."""

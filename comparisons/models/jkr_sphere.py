@@ -17,12 +17,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from comparisons.model import Curve, NotApplicable, Result
 from comparisons.models.closed_form import EPS, POINTS, ClosedForm, Limits
-from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
 __all__ = ["LARGEST_CONTACT", "JKRSphere"]
@@ -83,12 +82,13 @@ class _Ball:
         largest = (target / start) ** (2.0 / 3.0)
         if rise(LARGEST_CONTACT) < target:
             raise NotApplicable(
-                "the ball is smaller than the contact: its radius is that of the contact over "
-                f"{LARGEST_CONTACT} or less"
+                f"the ball is smaller than the contact, which reaches beyond {LARGEST_CONTACT} of its radius; "
+                "check the modulus and the work of adhesion"
             )
         smallest = min(largest, LARGEST_CONTACT) / 1e3
         largest = min(largest * (1.0 + 8.0 * EPS), LARGEST_CONTACT)
-        return float(brentq(lambda alpha: rise(alpha) - target, smallest, largest, xtol=1e-300, rtol=4.0 * EPS))
+        tolerances = {"xtol": 1e-300, "rtol": 4.0 * EPS}
+        return float(scipy.optimize.brentq(lambda alpha: rise(alpha) - target, smallest, largest, **tolerances))
 
     def displacement_at(self, event: str) -> Result:
         """Return delta / z0 with the rounding of its terms and that of alpha."""
@@ -117,7 +117,6 @@ class JKRSphere(ClosedForm):
     #: Kinds of punches that it takes, none of them of the paper (`comparisons.problem.evaluation`).
     punches: ClassVar[tuple[str, ...]] = ("ball",)
     limits: ClassVar[Limits | None] = None
-    undefined: ClassVar[dict[str, str]] = JKR.undefined
 
     def check(self, problem: Problem) -> None:
         """Raise `NotApplicable` unless the punch is a ball and the solid homogeneous."""

@@ -47,13 +47,7 @@ class JumpAsymptotes(ClosedForm):
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 43-55 and Sec. 3.3; the energy of the cycle: docs/theory.md"
     domain = "n > 2/3, 0 <= k <= 1; where the asymptote of the jump-in lies above that of the jump-out"
     limits: ClassVar[Limits | None] = None
-    undefined: ClassVar[dict[str, str]] = dict.fromkeys(
-        ("pull_off_force", "pull_off_displacement", "zero_load_displacement"), "jkr has that of its branch in contact"
-    ) | {
-        "jump_out_gap": "the gap is zero by assumption on the branch in contact",
-        "critical_tabor_number": "both asymptotes are for large Tabor numbers, far above the critical one",
-        "force_curve": "its branches are those of semi-rigid and jkr",
-    }
+    undefined: ClassVar[str] = "its branches are those of semi-rigid and jkr, which have their own values"
 
     def jump_in_displacement(self, problem: Problem) -> Result:
         """Displacement at the fold of the semi-rigid branch (Eqs. 47-48)."""

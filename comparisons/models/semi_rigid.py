@@ -20,7 +20,6 @@ from comparisons.model import FARTHEST_GAP, Curve, NotApplicable, Result
 from comparisons.models.bradley import rigid_load
 from comparisons.models.closed_form import EPS, POINTS, ClosedForm, Limits, monomial
 from comparisons.problem import Problem
-from comparisons.quantities import QUANTITIES
 
 __all__ = ["SemiRigid", "attraction_coefficient", "jump_in_coefficient"]
 
@@ -77,9 +76,7 @@ class SemiRigid(ClosedForm):
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 40-48; Greenwood, Philos. Mag. 89 (2009) 945-965"
     domain = "n > (1-k)/3, 0 <= k <= 1; asymptotic for a jump-in at a large central gap"
     limits: ClassVar[Limits | None] = None
-    undefined: ClassVar[dict[str, str]] = dict.fromkeys(
-        QUANTITIES, "it describes only the approach up to the jump-in, where deformations are small"
-    )
+    undefined: ClassVar[str] = "it describes only the approach up to the jump-in, where deformations are small"
 
     def jump_in_gap(self, problem: Problem) -> Result:
         """Central gap at the fold (Eq. 46)."""

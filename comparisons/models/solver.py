@@ -1,39 +1,81 @@
-"""Translation of a solver's exceptions and solutions into those of the model contract."""
+"""Base of the adapters: exceptions and solutions of a solver become those of the model contract."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any
+from types import ModuleType
+from typing import Any, ClassVar
 
-from comparisons.model import ComputationFailed, NotApplicable, RadialField, Result
+from comparisons.model import ComputationFailed, Curve, NotApplicable, RadialField, Result
 from comparisons.numerics.curve_distance import mesh_difference
+from comparisons.problem import Problem
 
-__all__ = ["result_of", "surface_of", "translated"]
+__all__ = ["SolverModel", "result_of", "surface_of", "translated"]
 
 
 _ONES = {"radius": 1.0, "traction": 1.0, "gap": 1.0}
 
 
 @contextmanager
-def translated(no_such_event: type[Exception], not_converged: type[Exception]) -> Iterator[None]:
-    """Turn a solver's own exceptions into `NotApplicable` and `ComputationFailed`.
+def translated(package: ModuleType) -> Iterator[None]:
+    """Turn the exceptions of a solver, `fscm` or `fem_reference`, into `NotApplicable` and `ComputationFailed`.
 
     Examples
     --------
-    >>> with translated(KeyError, ArithmeticError):
-    ...     raise ArithmeticError("50 iterations were not enough")
+    >>> import fscm
+    >>> with translated(fscm):
+    ...     raise fscm.NotConverged("50 iterations were not enough")
     Traceback (most recent call last):
     comparisons.model.ComputationFailed: 50 iterations were not enough
     """
     try:
         yield
-    except no_such_event as reason:
+    except package.NoSuchEvent as reason:
         raise NotApplicable(str(reason)) from reason
-    except not_converged as failure:
+    except package.NotConverged as failure:
         raise ComputationFailed(str(failure)) from failure
+
+
+class SolverModel:
+    """A model whose quantities a solver computes; a subclass has `_result`, and `_curve` if it has a curve.
+
+    Attributes
+    ----------
+    name, version, citation, domain : str
+        As in `comparisons.model.Model`.
+    package : module
+        `fscm` or `fem_reference`.
+    quantities : collection of str
+        What it computes.
+    """
+
+    name: ClassVar[str]
+    version: str = "1"
+    citation: ClassVar[str]
+    domain: ClassVar[str]
+    package: ModuleType
+    quantities: Collection[str]
+
+    def evaluate(self, problem: Problem, quantity: str) -> Result:
+        """Return the quantity, or raise as in `comparisons.model.Model`."""
+        if quantity not in self.quantities:
+            raise NotApplicable(f"{self.name} does not compute {quantity}")
+        with translated(self.package):
+            return self._result(problem, quantity)
+
+    def curve(self, problem: Problem) -> Curve:
+        """Return the equilibrium path from far away into contact, or raise as `evaluate`."""
+        with translated(self.package):
+            return self._curve(problem)
+
+    def _result(self, problem: Problem, quantity: str) -> Result:
+        raise NotImplementedError
+
+    def _curve(self, problem: Problem) -> Curve:
+        raise NotApplicable(f"{self.name} has values at events and no force-displacement curve")
 
 
 def result_of(solution: Any, unit: float = 1.0) -> Result:

@@ -17,16 +17,17 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+import fscm
 from comparisons.model import FARTHEST_GAP, ComputationFailed, HasCurve, HasProfile, NotApplicable
+from comparisons.models.cohesive_models import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from comparisons.models.gibson_limit import gibson_profile
-from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from comparisons.models.solver import translated
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.paper_figure import Plan, rows_of
 from comparisons.problem import Problem
 from comparisons.registry import create
 from comparisons.runs.tasks import evaluate
-from fscm import Analysis, NoSuchEvent, NotConverged, solve
+from fscm import Analysis, solve
 from fscm import Problem as FscmProblem
 from fscm.laws import LennardJones
 from fscm.solution import FLOOR, SAFETY, EventPair, State
@@ -194,7 +195,7 @@ def cohesive_surface(model: str, n: float, k: float, mu: float) -> Json:
 @contextmanager
 def analysed(n: float, k: float, mu: float) -> Iterator[Analysis]:
     """Analyse a problem; the solver's exceptions become `NotApplicable` and `ComputationFailed`."""
-    with translated(NoSuchEvent, NotConverged):
+    with translated(fscm):
         yield Analysis(FscmProblem(n, k, mu))
 
 
@@ -277,7 +278,7 @@ def near_critical(n: float, k: float) -> Json:
     comparisons.model.NotApplicable, comparisons.model.ComputationFailed
         As `jumps`.
     """
-    with translated(NoSuchEvent, NotConverged):
+    with translated(fscm):
         critical = solve(FscmProblem(n, k, 1.0), "critical_tabor_number")
     above = [float(critical.value) * (1.0 + excess) for excess in EXCESSES]
     at_jumps = [{"mu": mu} | jumps(n, k, mu) for mu in above]

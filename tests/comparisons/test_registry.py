@@ -57,12 +57,12 @@ def folder(tmp_path, monkeypatch):
 
 def test_a_new_model_is_found_by_its_file_alone(folder):
     (folder / "a_new_one.py").write_text(
-        'MODELS = {"third": "C", "second": "B"}\nDEPENDS_ON_POISSON_RATIO = ("second",)'
+        '"""New."""\n\nMODELS = {\n    "third": "C",\n    "second": "B",\n}\n\nX = {}\n'
     )
     assert list(registry._models_in_folder().items()) == [
-        ("jkr", ("comparisons.models.jkr:JKR", False)),
-        ("third", ("comparisons.models.a_new_one:C", False)),
-        ("second", ("comparisons.models.a_new_one:B", True)),
+        ("jkr", "comparisons.models.jkr:JKR"),
+        ("third", "comparisons.models.a_new_one:C"),
+        ("second", "comparisons.models.a_new_one:B"),
     ]
 
 

@@ -9,12 +9,12 @@ from comparisons.cli.options import file, option, output_format
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
-from comparisons.description import text
 from comparisons.description.assumptions import assumptions
 from comparisons.description.equivalent_power_law import equivalent_power_law
 from comparisons.description.forces import reference_force
 from comparisons.description.overview import overview
 from comparisons.description.profile_sensitivity import profile_sensitivity
+from comparisons.description.text import description_text
 from comparisons.description.uncertainty import uncertainty
 from comparisons.problem import Problem
 
@@ -51,10 +51,6 @@ def call(args: argparse.Namespace) -> int:
         parts = {"equivalent_power_law": equivalent, "profile_sensitivity": changes, "uncertainty": of_values}
         print(json.dumps(described | {name: content for name, content in parts.items() if content}, allow_nan=False))
     else:
-        lines = text.overview_lines(problem, described, equivalent)
-        lines += text.equivalent_lines(equivalent) if equivalent else []
-        lines += text.profile_lines(changes) if changes else []
-        lines += text.uncertainty_lines(problem, of_values) if of_values else []
-        print_lines(lines)
+        print_lines(description_text(problem, described, equivalent, changes, of_values).splitlines())
     failed = force.status == "failed" or (of_values is not None and of_values["status"] == "failed")
     return FAILED if failed else OK

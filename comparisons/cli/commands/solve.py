@@ -81,7 +81,7 @@ def _lines(problem: Problem, row: Row) -> list[str]:
         lines.append(f"  {row.reason}")
     if (problem["n"], problem["k"]) == (2.0, 0.0):
         # Imported here: the other formats and problems do not need it.
-        from comparisons.models.maugis_parameter import maugis_parameter
+        from comparisons.models.transition_formulas import maugis_parameter
 
         parameter = maugis_parameter(problem.mu)
         lines.append(f"  Maugis's lambda = {parameter:.4g} with the strength 16 sqrt(3)/27 dgamma / z0")

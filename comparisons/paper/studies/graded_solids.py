@@ -176,7 +176,7 @@ def of_power_law(k: float, mu: float) -> Json:
 
 def _events(solver: Any, problem: Any, names: Sequence[str], *accuracy: str) -> Json:
     """By quantity value and bound in the units of the solver, or the reason why there is no such event."""
-    with translated(solver.NoSuchEvent, solver.NotConverged):
+    with translated(solver):
         events = solver.solve_together(problem, names, *accuracy)
     return {
         name: str(event) if isinstance(event, solver.NoSuchEvent) else [event.value, event.u_num]

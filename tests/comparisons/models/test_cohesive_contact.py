@@ -14,10 +14,9 @@ import pytest
 from comparisons.model import ComputationFailed
 from comparisons.models.cohesive_contact import CohesiveContact, ContactState
 from comparisons.models.cohesive_events import CohesiveEvents
+from comparisons.models.cohesive_models import DoubleHertz, MaugisDugdaleImproved
 from comparisons.models.cohesive_profiles import PROFILE_ROUNDING, gap, pressure
-from comparisons.models.double_hertz import DoubleHertz
 from comparisons.models.graded_punch import GradedPunch
-from comparisons.models.maugis_dugdale import MaugisDugdaleImproved
 from comparisons.problem import Problem
 from fscm._kernel import ring_response
 

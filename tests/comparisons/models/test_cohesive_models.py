@@ -12,7 +12,7 @@ from scipy.special import beta
 from comparisons import create
 from comparisons.model import NotApplicable
 from comparisons.models.cohesive_contact import CohesiveContact
-from comparisons.models.cohesive_model import CohesiveModel
+from comparisons.models.cohesive_models import CohesiveModel
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
@@ -66,9 +66,9 @@ def test_pull_off_is_the_lowest_of_a_dense_sample(name: str, n: float, k: float,
 def test_surfaces_in_barred_variables(model, n: float, k: float, mu: float) -> None:
     problem = contact(n, k, mu)
     surface, stress = model.profiles(problem), model.cohesive_stress(problem)
+    load = -value(model, problem)
     r, p, H = surface.radius, surface.pressure, surface.gap
     a, c = surface.contact_radius, surface.cohesive_radius
-    assert -surface.load == pytest.approx(value(model, problem), rel=1e-13)
     assert surface.displacement == pytest.approx(value(model, problem, "pull_off_displacement"), rel=1e-13)
     assert np.all(np.diff(r) > 0)
     assert np.all(H[r < a * (1 - 1e-12)] == 0.0)
@@ -79,7 +79,7 @@ def test_surfaces_in_barred_variables(model, n: float, k: float, mu: float) -> N
     # Where the zone has a width to see.
     assert c < a * (1 + 1e-6) or p.min() == pytest.approx(-stress, rel=1e-3)
     # 2 integral of p r dr by the trapezoidal rule on the given points, the jump at c being two points apart.
-    assert np.sum(np.diff(r**2) * 0.5 * (p[1:] + p[:-1])) == pytest.approx(surface.load, rel=2e-3)
+    assert np.sum(np.diff(r**2) * 0.5 * (p[1:] + p[:-1])) == pytest.approx(load, rel=2e-3)
 
 
 @pytest.mark.parametrize("quantity", EVENTS[:3])

@@ -1,15 +1,15 @@
-"""The adapters of the integral equation and of the Stieltjes scheme, and failures of both references."""
+"""The adapters of the integral equation, the Stieltjes scheme and the atlas, and failures of both references."""
 
 import numpy as np
 import pytest
 
 import fem_reference
 import fscm
-from comparisons.model import ComputationFailed, Result
+from comparisons.model import ComputationFailed, NotApplicable, Result
+from comparisons.models.fscm_model import StieltjesModel
 from comparisons.models.solver import result_of
-from comparisons.models.stieltjes_model import StieltjesModel
 from comparisons.problem import Problem
-from comparisons.quantities import CURVES
+from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import create
 from comparisons.runs.tasks import evaluate
 
@@ -66,3 +66,24 @@ def test_the_stieltjes_scheme_ends_in_compression_or_at_its_last_gap_and_refuses
     assert [create(name)._segments for name in ("fscm-stieltjes", "fscm-stieltjes-400")] == [2500, 400]
     for quantity, k in (("hysteresis_energy", 0.4), ("pull_off_force", 1)):
         assert evaluate("fscm-stieltjes-400", quantity, Problem.dimensionless(2, k, 0.5)).status == "not-applicable"
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_a_result_of_the_atlas_is_that_of_the_function(quantity):
+    result = create("atlas").evaluate(Problem.dimensionless(n=2.5, k=0.3, mu=2.0), quantity)
+    assert (result.value, result.u_num) == fscm.atlas(2.5, 0.3, 2.0, quantity)
+
+
+@pytest.mark.parametrize(
+    ("n", "k", "mu", "quantity", "reason"),
+    [
+        (0.9, 0.4, 1, "pull_off_force", r"n = 0.9 is outside \[1, 6\]"),
+        (2, 0.81, 1, "pull_off_force", r"k = 0.81 is outside \[0, 0.8\]"),
+        (2, 0.4, 11, "pull_off_force", r"mu = 11 is outside \[0.01, 10\]"),
+        (2, 0, 0.3, "jump_in_gap", "critical Tabor number 0.69"),
+        (2, 0, 1, "contact_radius", "does not compute contact_radius"),
+    ],
+)
+def test_outside_its_box_and_its_quantities_the_atlas_is_not_applicable(n, k, mu, quantity, reason):
+    with pytest.raises(NotApplicable, match=reason):
+        create("atlas").evaluate(Problem.dimensionless(n=n, k=k, mu=mu), quantity)

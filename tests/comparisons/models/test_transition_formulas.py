@@ -9,13 +9,17 @@ import pytest
 
 import fscm
 from comparisons.model import NotApplicable
-from comparisons.models import pietrement_troyon
-from comparisons.models.carpick_ogletree_salmeron import CarpickOgletreeSalmeron
-from comparisons.models.homogeneous_sphere import transition_parameter
-from comparisons.models.maugis_dugdale import MaugisDugdaleOriginal
-from comparisons.models.maugis_parameter import LAMBDA_OVER_MU, maugis_parameter
-from comparisons.models.pietrement_troyon import PietrementTroyon
-from comparisons.models.schwarz import Schwarz, short_range_share
+from comparisons.models import transition_formulas
+from comparisons.models.cohesive_models import MaugisDugdaleOriginal
+from comparisons.models.transition_formulas import (
+    LAMBDA_OVER_MU,
+    CarpickOgletreeSalmeron,
+    PietrementTroyon,
+    Schwarz,
+    maugis_parameter,
+    short_range_share,
+    transition_parameter,
+)
 from comparisons.problem import Problem
 from fscm.laws import LennardJones
 
@@ -71,8 +75,8 @@ def test_fits_are_near_maugis_dugdale(mu: float) -> None:
 
 def test_pietrement_troyon_is_jkr_at_alpha_1() -> None:
     """F = 1.5, a_0 = 6^(1/3), S = 2/3, beta = 1/2 to the digits of the coefficients."""
-    square, S, beta = pietrement_troyon._coefficients(1.0)
-    assert pietrement_troyon._pull_off(1.0) == pytest.approx(1.5, abs=1e-12)
+    square, S, beta = transition_formulas._coefficients(1.0)
+    assert transition_formulas._pull_off(1.0) == pytest.approx(1.5, abs=1e-12)
     assert math.sqrt(square) == pytest.approx(6 ** (1 / 3), abs=2.5e-3)
     assert pytest.approx(2 / 3, abs=1e-3) == S
     assert beta == pytest.approx(1 / 2, abs=3.5e-3)

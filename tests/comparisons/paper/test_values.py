@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from comparisons.data.paper_values import paper_values
+from comparisons.models.cohesive_models import MaugisDugdaleImproved
 from comparisons.models.cohesive_stress import eta
-from comparisons.models.maugis_dugdale import MaugisDugdaleImproved
 from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.paper_figure import FIGURES
 from comparisons.paper.values.printed_values import COMPUTED, Computed, cohesive_forces, judged

@@ -105,7 +105,7 @@ def test_a_stiff_solid_has_small_errors(tmp_path, capsys):
     assert abs(assumed["total"]["error"]) < 1e-3
     assert all(row["value"] < row["limit"] for row in assumed["measures"])
     assert main(["describe", str(path)]) == 0
-    assert "not small" not in capsys.readouterr().out
+    assert "too large" not in capsys.readouterr().out
 
 
 def test_a_solution_with_finite_strain_on_request(tmp_path, capsys):

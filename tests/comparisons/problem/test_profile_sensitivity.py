@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from comparisons.description import profile_sensitivity as module
-from comparisons.description.text import profile_lines
 from comparisons.problem.reading import load_problem
 from comparisons.runs.tasks import evaluate
 from tests.comparisons.rows import row
@@ -53,4 +52,3 @@ def test_a_failure_is_stated(written, monkeypatch):
     monkeypatch.setattr(module, "evaluate_task", solved)
     content = module.profile_sensitivity(written('smoothing = "0.05 nm"'), row("fscm", value=1.0, u_num=0.0))
     assert [(change["status"], change["change"]) for change in content] == [("ok", 1.0)] * 3 + [("failed", None)]
-    assert profile_lines(content)[-1] == "    growth 3: failed: not admissible"

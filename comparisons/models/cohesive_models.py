@@ -1,7 +1,18 @@
-"""The base of the models with a cohesive zone: events, curve and profile of a contact in barred variables.
+"""Models of a power-law punch on a graded half-space with a cohesive zone at the contact edge.
 
-A model chooses the cohesive stress, unless it is the theoretical strength, and how a traction that is not constant
-decays.
+A model chooses the largest traction of the zone, unless it is the theoretical strength of the 9-3 law (Eq. 73), and how
+a traction that is not constant decays.
+
+*Maugis-Dugdale (M-D-n-k, Eqs. 63-78)*: the traction is constant.  `MaugisDugdaleOriginal` takes the theoretical
+strength, `MaugisDugdaleImproved` the stress eta(n) that gives the rigid pull-off force (Eqs. 76-78), and
+`MaugisDugdaleJin` that of Jin, Tang, Guo and Gao (2021), dgamma / z0.  Their strength is the theoretical one without
+its decimals (1 for 1.026), so that the Maugis number is the Tabor number.  Their Tabor number has no factor b/(1-k)
+(Eq. 30); the Maugis number has none either, and the ratio of the two, which alone enters here, is the same.
+
+*Double Hertz*: the theoretical strength at the contact edge.  For n = 2 this is the model of Jin, Guo and Gao, for
+n = 2 and k = 0 that of Greenwood and Johnson.  For other n the traction stays the difference of the Hertz pressures of
+a paraboloid.  That of the Hertz pressures of r^n would be infinite on the axis for n <= 1 - k, and largest inside the
+zone, away from the contact edge, for a large n.
 """
 
 from __future__ import annotations
@@ -11,16 +22,23 @@ from typing import ClassVar
 import numpy as np
 
 from comparisons.model import Curve, NotApplicable, RadialField, Result
-from comparisons.models.closed_form import EPS, FIELDS, IN_CONTACT, POINTS, ClosedForm, Limits
+from comparisons.models.closed_form import EPS, FIELDS, POINTS, ClosedForm, Limits
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import STATE_ROUNDING, CohesiveEvents, Event
-from comparisons.models.cohesive_profiles import PROFILE_ROUNDING, CohesiveProfiles, cohesive_profiles
-from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
+from comparisons.models.cohesive_profiles import CohesiveProfiles, cohesive_profiles
+from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
-__all__ = ["CohesiveModel"]
+__all__ = ["CohesiveModel", "DoubleHertz", "MaugisDugdaleImproved", "MaugisDugdaleJin", "MaugisDugdaleOriginal"]
+
+MODELS = {
+    "md-original": "MaugisDugdaleOriginal",
+    "md-improved": "MaugisDugdaleImproved",
+    "md-jin": "MaugisDugdaleJin",
+    "double-hertz-n-k": "DoubleHertz",
+}
 
 # Radii of a stored profile in each of its three parts.
 _PROFILE_POINTS = 60
@@ -31,18 +49,9 @@ _NEAR = 3.0
 
 
 class CohesiveModel(ClosedForm):
-    """A model of contact with a cohesive zone at the edge; the largest traction is the cohesive stress.
-
-    Examples
-    --------
-    >>> from comparisons.models.maugis_dugdale import MaugisDugdaleImproved
-    >>> model = MaugisDugdaleImproved()
-    >>> isinstance(model, CohesiveModel), round(model.cohesive_stress(Problem.dimensionless(n=2, k=0, mu=1)), 3)
-    (True, 0.588)
-    """
+    """Events, curve and surface of a contact with a cohesive zone; the largest traction is the cohesive stress."""
 
     narrower: ClassVar[dict[str, Limits]] = {field: {"k": [0, 0.9999]} for field in FIELDS}
-    undefined: ClassVar[dict[str, str]] = IN_CONTACT
 
     def cohesive_stress(self, problem: Problem) -> float:
         """sigma_0 in dgamma / z0; by default 16 sqrt(3) / 27, the largest tension of the 9-3 law (Eq. 73)."""
@@ -123,8 +132,7 @@ class CohesiveModel(ClosedForm):
 
     def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, out to a gap of 10, or raise as `profiles`."""
-        surface = self.profiles(problem, _PROFILE_POINTS)
-        return RadialField(surface.radius, surface.pressure, surface.gap, PROFILE_ROUNDING, PROFILE_ROUNDING)
+        return self.profiles(problem, _PROFILE_POINTS)
 
     def _is_jkr(self, problem: Problem) -> bool:
         """At k = 1 the surface is a bed of springs, and the cohesive zone vanishes for Lambda >= 1."""
@@ -133,6 +141,80 @@ class CohesiveModel(ClosedForm):
     def _events(self, problem: Problem) -> CohesiveEvents:
         stress = self.cohesive_stress(problem)
         return CohesiveEvents.scan(CohesiveContact(GradedPunch.of(problem), stress * problem.mu, self.decay(problem)))
+
+
+class MaugisDugdaleOriginal(CohesiveModel):
+    """M-D-n-k with the theoretical strength 16 sqrt(3) / 27 as cohesive stress (Eq. 73).
+
+    Examples
+    --------
+    >>> round(MaugisDugdaleOriginal().evaluate(Problem.dimensionless(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
+    1.7304517
+    """
+
+    name = "md-original"
+    citation = "Zhu, Zheng, Huang & Yu, Eqs. 63-73; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
+    domain = "n > (1-k)/2, 0 <= k <= 1; cohesive stress 16 sqrt(3)/27"
+
+
+class MaugisDugdaleImproved(CohesiveModel):
+    """M-D-n-k with the cohesive stress eta(n) of the rigid-limit-consistency condition (Eqs. 76-78).
+
+    Examples
+    --------
+    >>> round(MaugisDugdaleImproved().evaluate(Problem.dimensionless(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
+    1.78527591
+    """
+
+    name = "md-improved"
+    citation = "Zhu, Zheng, Huang & Yu, Eqs. 63-78; Zheng & Yu, J. Colloid Interface Sci. 310 (2007) 27-34"
+    domain = "n > 2/3, 0 <= k <= 1; cohesive stress eta(n)"
+    limits: ClassVar[Limits | None] = {"n": [0.667, None]}
+
+    def cohesive_stress(self, problem: Problem) -> float:
+        """sigma_0 = eta(n), in dgamma / z0."""
+        return eta(float(problem.n))
+
+
+class MaugisDugdaleJin(CohesiveModel):
+    """M-D-n-k with the cohesive stress 1.
+
+    Examples
+    --------
+    >>> round(MaugisDugdaleJin().evaluate(Problem.dimensionless(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
+    1.73229032
+    """
+
+    name = "md-jin"
+    citation = (
+        "Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509; Zhu, Zheng, Huang & Yu, Eqs. 63-72 and Sec. 4.2"
+    )
+    domain = "n > (1-k)/2, 0 <= k <= 1; cohesive stress 1"
+
+    def cohesive_stress(self, problem: Problem) -> float:
+        """sigma_0 = 1, in dgamma / z0."""
+        return 1.0
+
+
+class DoubleHertz(CohesiveModel):
+    """Double-Hertz-n-k with the theoretical strength 16 sqrt(3) / 27 as largest traction.
+
+    Examples
+    --------
+    >>> round(DoubleHertz().evaluate(Problem.dimensionless(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
+    1.75097087
+    """
+
+    name = "double-hertz-n-k"
+    citation = (
+        "Greenwood & Johnson, J. Phys. D 31 (1998) 3279-3290; Jin, Guo & Gao, J. Mech. Phys. Solids 61 (2013) "
+        "2473-2492; other n: equations of this repository (docs/theory.md)"
+    )
+    domain = "n > (1-k)/2, 0 <= k <= 1; largest traction 16 sqrt(3)/27"
+
+    def decay(self, problem: Problem) -> float:
+        """Of the difference of two Hertz pressures: (1+k)/2."""
+        return 0.5 * (1.0 + float(problem.k))
 
 
 def _conditioning(problem: Problem) -> float:
