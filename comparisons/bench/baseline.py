@@ -37,7 +37,5 @@ def renew(folder: Path, target: Path = BENCH_BASELINE) -> list[Path]:
             "--only"
         )
     if content["failures"]:
-        raise ValueError(
-            f"{folder} has {content['failures']} failed measurements: repeat `fscm-bench bench --retry-failed`"
-        )
+        raise ValueError(f"{folder} has {content['failures']} failed measurements: repeat `fscm-bench bench`")
     return replace_files(sources, target)

@@ -64,9 +64,8 @@ def run_bench(
     *,
     full: bool = False,
     again: bool = False,
-    retry_failed: bool = False,
 ) -> FinishedBench:
-    """Measure what the folder does not have, and write tables, figures and record.
+    """Measure what the folder does not have, or has as failures, and write tables, figures and record.
 
     Parameters
     ----------
@@ -78,8 +77,6 @@ def run_bench(
         Whether the sizes that take long are measured, too.
     again : bool
         Whether stored measurements are dropped first, also those of another version of the code.
-    retry_failed : bool
-        Whether stored failures are measured again.
 
     Raises
     ------
@@ -89,8 +86,7 @@ def run_bench(
     parts = parts_of(only)
     prepare_folder(folder)
     with Store(folder, FORM, anew=again) as store:
-        if retry_failed:
-            store.drop(lambda measurement: measurement["status"] != "ok")
+        store.drop(lambda measurement: measurement["status"] != "ok")
         _measure(parts, full, store)
         return _written(folder, parts, store, {"only": only and list(only), "full": full})
 

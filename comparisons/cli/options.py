@@ -63,9 +63,6 @@ OUT = file("--out", metavar="DIR", help="folder for the results (default: result
 QUIET = option("--quiet", action="store_true", help="print nothing but warnings and failures")
 #: Prints all rows.
 VERBOSE = option("--verbose", action="store_true", help="print every row, not a summary")
-_AGAIN = "compute stored failures again (those of external models always are)"
-#: Computes stored failures again.
-RETRY_FAILED = option("--retry-failed", action="store_true", help=_AGAIN)
 
 
 def problem_of(args: argparse.Namespace) -> Problem:

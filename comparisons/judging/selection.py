@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
 from comparisons.console.progress import log
@@ -72,51 +72,30 @@ def promised(domain: Domain | None, quantity: str, case: Problem) -> bool | None
     return domain.contains(quantity, case.numbers)
 
 
-def needed_keys(
-    gates: Iterable[Gate],
-    grids: Sequence[Grid],
-    models: Sequence[str] | None,
-    statuses: Mapping[Key, str],
-    domains: Mapping[str, Domain] | None = None,
-) -> set[Key]:
-    """Return the keys of the results that gates need.
+def needed_keys(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> set[Key]:
+    """Return the keys of the results that gates need: of candidates, references and rivals in the cases of the gates.
 
-    These are the results of the candidates, and in the cases in which a candidate has a value also those with which it
-    is compared.  A given model that no gate compares in any case is in the tables of errors alone: it needs all its
-    results, with the reference of each grid.
+    A given model that no gate compares in any case is in the tables of errors alone: it needs all its results, with the
+    reference of each grid.
 
     Parameters
     ----------
     gates, grids, models
         As of `relevant`.
-    statuses : mapping of key to str
-        The status of each result that is known.
-    domains : mapping of str to Domain, optional
-        The domains that models declare: whether "not applicable" is right there is for the reference to show.
 
     Examples
     --------
     >>> from comparisons.judging.gates import gates_text
     >>> from comparisons.runs.cases import grids
-    >>> of_candidate = needed_keys(load_gates(gates_text()), grids("quick"), ["dmt"], {})
-    >>> {key[0] for key in of_candidate}, len(of_candidate)
-    ({'dmt'}, 192)
-    >>> statuses = {sorted(of_candidate)[0]: "ok"}
-    >>> needed_keys(load_gates(gates_text()), grids("quick"), ["dmt"], statuses) - of_candidate
-    {('fscm', 'pull_off_force', 1.0, 0.0, 0.01, None, '')}
+    >>> sorted(key[0] for key in needed_keys(load_gates(gates_text()), grids("quick"), ["dmt"]))[191:193]
+    ['dmt', 'fscm']
     """
     needed: set[Key] = set()
     compared: set[str] = set()
     for gate in relevant(gates, grids, models):
-        domain = (domains or {}).get(gate.candidate)
         for case in cases_of(gate, grids, models):
             compared |= set(gate.models.values())
-            keys = {role: key_of(gate, role, case) for role in gate.models}
-            status = statuses.get(keys["candidate"])
-            is_failure = status == "not-applicable" and promised(domain, gate.quantity, case)
-            # The range of the reference is over all cases.
-            has_error = status == "ok" or is_failure or gate.metric == "range-relative"
-            needed |= set(keys.values()) if has_error else {keys["candidate"]}
+            needed |= {key_of(gate, role, case) for role in gate.models}
     if unjudged := [model for model in models or () if model not in compared]:
         needed |= {task.key for task in plan(grids, unjudged)}
     return needed

@@ -6,7 +6,6 @@ same folder continues.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib import import_module
@@ -14,7 +13,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from comparisons.model import ComputationFailed, NotApplicable
-from comparisons.runs.computation import log_failures_used
 from comparisons.runs.store import Form, Store
 from comparisons.runs.workers import LOST, each
 
@@ -103,8 +101,8 @@ class MadeCalls(NamedTuple):
     parts: list[dict[str, Any]]
 
 
-def make_calls(calls: Iterable[CachedCall], folder: Path, jobs: int = 1, *, retry_failed: bool = False) -> MadeCalls:
-    """Make the calls that the store of a folder does not have, each once.
+def make_calls(calls: Iterable[CachedCall], folder: Path, jobs: int = 1) -> MadeCalls:
+    """Make the calls that the store of a folder does not have, or has as failures, each once.
 
     Parameters
     ----------
@@ -112,8 +110,6 @@ def make_calls(calls: Iterable[CachedCall], folder: Path, jobs: int = 1, *, retr
     folder : Path
     jobs : int
         Number of processes.
-    retry_failed : bool
-        Whether stored failures are made again.
 
     Raises
     ------
@@ -124,12 +120,9 @@ def make_calls(calls: Iterable[CachedCall], folder: Path, jobs: int = 1, *, retr
     """
     planned = dict.fromkeys(calls)
     with Store(folder, _FORM) as store:
-        stored = {outcome.call: outcome for outcome in store.items}
-        failed = {call for call in planned if call in stored and stored[call].failed}
-        again = {call for call in failed if retry_failed or stored[call].failure == LOST}
-        store.drop(lambda outcome: outcome.call in again)
-        log_failures_used(Counter(call.name for call in failed - again))
-        missing = [call for call in planned if call not in stored or call in again]
+        store.drop(lambda outcome: outcome.call in planned and outcome.failed)
+        stored = {outcome.call for outcome in store.items}
+        missing = [call for call in planned if call not in stored]
         outcomes = each(_make, missing, jobs, lost=lambda call: Outcome(call, failure=LOST))
         store.complete("paper", len(missing), outcomes)
         parts = store.parts(lambda outcome: outcome.call in planned)

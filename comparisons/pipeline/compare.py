@@ -73,7 +73,6 @@ def compare(
     reference: str | None = None,
     folder: Path | None = None,
     jobs: int = 1,
-    retry_failed: bool = False,
 ) -> Comparison:
     """Compute models and the reference in cases of one's own, and compare them.
 
@@ -96,8 +95,6 @@ def compare(
         computed again.
     jobs : int
         Number of processes.  With more than one, a script needs the guard ``if __name__ == "__main__":``.
-    retry_failed : bool
-        Whether stored failures are computed again.
 
     Raises
     ------
@@ -126,7 +123,7 @@ def compare(
     elif reference is not None or any(values is not None for values in numbers.values()):
         raise ValueError("--grid states the cases and the references; leave out --n, --k, --mu, --nu and --reference")
     _check(load_cases(grid, None), specs)
-    finished = run(grid, models=specs, folder=folder, jobs=jobs, retry_failed=retry_failed)
+    finished = run(grid, models=specs, folder=folder, jobs=jobs)
     table = comparison_table(finished.tables.results, finished.inputs.cases.grids, finished.inputs.models)
     comparison = Comparison(table, error_summary(table), finished.folder, finished.failures)
     write_table(table, finished.folder / COMPARISON)

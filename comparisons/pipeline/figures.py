@@ -44,9 +44,7 @@ class FinishedPaper:
         return {finished.figure.stem: finished.failure for finished in self.figures if finished.failure}
 
 
-def make_figures(
-    names: Iterable[str] | None, folder: Path, *, jobs: int = 1, retry_failed: bool = False
-) -> FinishedPaper:
+def make_figures(names: Iterable[str] | None, folder: Path, *, jobs: int = 1) -> FinishedPaper:
     """Compute figures of the paper and write their tables, pictures and texts, and the record, into a folder.
 
     Parameters
@@ -54,11 +52,9 @@ def make_figures(
     names : iterable of str or None
         Names of figures, as in `comparisons.paper.registry.NAMES`; None for all.
     folder : Path
-        For the files; what it holds already is not computed again.
+        For the files; what it holds already is not computed again, but for failures.
     jobs : int
         Number of processes.
-    retry_failed : bool
-        Whether stored failures are computed again.
 
     Raises
     ------
@@ -83,7 +79,7 @@ def make_figures(
     prepare_folder(folder)
     started = now()
     calls = dict.fromkeys(call for figure in figures for call in calls_of(figure.plan()))
-    computed = make_calls(calls, folder, jobs, retry_failed=retry_failed)
+    computed = make_calls(calls, folder, jobs)
     finished = tuple(_finished(figure, computed.outcomes, folder) for figure in figures)
     failed = sum(computed.outcomes[call].failed for call in calls)
     record = record_content(

@@ -23,7 +23,6 @@ from comparisons.problem.variation import parse_variations, problems_of
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import MODELS, ExternalIdentity, create
 from comparisons.runs.cases import TIERS, VERIFICATION, Grid, cases_text, grids, grids_for, load_grids
-from comparisons.runs.rows import Key
 from comparisons.runs.tasks import Task, plan
 
 __all__ = [
@@ -135,14 +134,14 @@ class RunInputs:
         fresh = [] if self.fresh is None else self.fresh.plan(self.external)
         return list(dict.fromkeys([*standing, *fresh]))
 
-    def needed(self, statuses: Mapping[Key, str]) -> set[Key]:
-        """Return the keys of the results that the gates need, as `comparisons.judging.selection.needed_keys`."""
+    def needed(self) -> list[Task]:
+        """Return the tasks that the gates need, as `comparisons.judging.selection.needed_keys`; without gates all."""
         if self.gates is None:
-            return {task.key for task in self.plan()}
-        needed = needed_keys(self.gates.gates, self.cases.grids, self.models, statuses, self.domains)
+            return self.plan()
+        needed = needed_keys(self.gates.gates, self.cases.grids, self.models)
         for part in self.fresh.parts if self.fresh else ():
-            needed |= needed_keys([part.gate], [part.grid], None, statuses, self.domains)
-        return needed
+            needed |= needed_keys([part.gate], [part.grid], None)
+        return [task for task in self.plan() if task.key in needed]
 
 
 def domains_of(models: Iterable[str], external: Mapping[str, ExternalIdentity]) -> dict[str, Domain]:

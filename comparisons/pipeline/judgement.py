@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from shlex import quote
 from typing import Any
 
 import pandas as pd
@@ -22,13 +21,10 @@ from comparisons.judging.selection import relevant
 from comparisons.judging.summary import COVERAGE, summarise
 from comparisons.output.verdicts import write_verdicts
 from comparisons.pipeline.inputs import RunInputs, read_gates, stored_inputs
-from comparisons.problem import PARAMETERS
 from comparisons.runs.atomic_files import atomic
-from comparisons.runs.case_columns import keys_in
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
-from comparisons.runs.rows import Key
 from comparisons.runs.tasks import plan
 
 __all__ = ["Judgement", "judge_and_write", "judge_folder"]
@@ -134,7 +130,6 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
         record |= {"command_name": "run", "gates_sha256": checksum}
     same_gates = checksum == record.get("gates_sha256")
     note(f"judged by {label}, which are {'' if same_gates else 'not '}the gates of the run {folder}")
-    _warn_of_missing(inputs, results, curves, folder)
     judgement = judge_and_write(folder, inputs, results, curves, record.get("cards", {}))
     # The record has the verdicts that are beside it, and the gates that they are by.
     record = {name: value for name, value in record.items() if not name.startswith("judged_")} | judgement.as_json()
@@ -160,18 +155,3 @@ def _inputs_with_gates(folder: Path, record: Mapping[str, Any], gates: Path | No
         fresh = FreshCases.of_json(record["fresh"], judged, folder / INPUTS)
     loaded = replace(loaded, source=None if source is None else str(source))
     return replace(inputs, gates=loaded, fresh=fresh)
-
-
-def _warn_of_missing(inputs: RunInputs, results: pd.DataFrame, curves: pd.DataFrame, folder: Path) -> None:
-    """Write in one sentence how many results the gates need that the run, which had other gates, did not compute."""
-    if not all({"model", "quantity", *PARAMETERS, "status"} <= set(table.columns) for table in (results, curves)):
-        return  # The judge refuses them.
-    statuses: dict[Key, str] = {
-        key: status for table in (results, curves) for key, status in zip(keys_in(table), table["status"], strict=True)
-    }
-    missing = inputs.needed(statuses) - statuses.keys()
-    if missing:
-        log(
-            f"{len(missing)} results that these gates need are not in {folder}, which has those of its own gates: "
-            f"fscm-bench run with --out {quote(str(folder))} and these gates computes them"
-        )

@@ -29,15 +29,14 @@ def run(
     folder: Path | None = None,
     *,
     jobs: int = 1,
-    retry_failed: bool = False,
     shard: str | None = None,
     random: int = 0,
     seed: int | None = None,
 ) -> FinishedRun:
     """Compute cases, judge the results, and write tables, verdicts and the record into a folder.
 
-    What the folder holds already is not computed again.  In the standing cases with chosen models or gates, only the
-    results that the gates need are computed, and otherwise all: they are then the purpose.
+    What the folder holds already is not computed again, but for failures.  In the standing cases with chosen models or
+    gates, only the results that the gates need are computed, and otherwise all: they are then the purpose.
 
     Parameters
     ----------
@@ -52,8 +51,6 @@ def run(
         For the results; by default one in results/runs that is named by the time.
     jobs : int
         Number of processes.  With more than one, a script needs the guard ``if __name__ == "__main__":``.
-    retry_failed : bool
-        Whether stored failures are computed again.
     shard : str, optional
         The part i/N of cases without gates, as "2/3"; `comparisons.pipeline.merge.merge` puts the N folders together.
     random : int
@@ -101,10 +98,9 @@ def run(
     started = now()
     target = folder_for(folder)
     kept_texts(target, inputs.cases, inputs.gates)
-    tasks = inputs.plan() if shard is None else tasks_of_shard(shard, inputs.plan())
     by_gates = inputs.cases.tier is not None and (models is not None or gates is not None)
-    needed = (lambda rows: inputs.needed({row.key: row.status for row in rows})) if by_gates else None
-    completed = complete(tasks, target, jobs, retry_failed, needed)
+    tasks = inputs.needed() if by_gates else inputs.plan()
+    completed = complete(tasks if shard is None else tasks_of_shard(shard, tasks), target, jobs)
     arguments = {
         "jobs": jobs,
         "shard": shard,

@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Collection, Generator, Mapping
+from collections.abc import Generator
 from contextlib import closing
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from comparisons.console.progress import log, note
+from comparisons.console.progress import note
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.reevaluation import drop_changed
-from comparisons.runs.rows import Key, Row
+from comparisons.runs.rows import Row
 from comparisons.runs.store import rows_in
 from comparisons.runs.tasks import Task, batches, evaluate_task, lost_row
-from comparisons.runs.workers import LOST, each
+from comparisons.runs.workers import each
 
-__all__ = ["Completed", "checked_jobs", "complete", "compute", "folder_for", "is_row_of", "log_failures_used"]
+__all__ = ["Completed", "checked_jobs", "complete", "compute", "folder_for", "is_row_of"]
 
 
 def checked_jobs(jobs: int) -> int:
@@ -63,32 +62,19 @@ def is_row_of(task: Task | None, row: Row) -> bool:
     )
 
 
-def complete(
-    tasks: list[Task],
-    folder: Path,
-    jobs: int,
-    retry_failed: bool = False,
-    needed: Callable[[list[Row]], Collection[Key]] | None = None,
-) -> Completed:
+def complete(tasks: list[Task], folder: Path, jobs: int) -> Completed:
     """Compute the tasks that the store of a folder does not have.
 
-    A stored row that failed because its process ended does not count.  A stored row of another version of an external
-    model does not, nor does one that failed.  A few of the others are evaluated again; if one differs, all rows of its
-    model are computed again.
+    A stored row that failed does not count, nor one of another version of an external model.  A few of the others of
+    external models are evaluated again; if one differs, all rows of its model are computed again.
 
     Parameters
     ----------
     tasks : list of Task
-        All that may be needed.
     folder : Path
         Of the results.
     jobs : int
         Number of processes.
-    retry_failed : bool
-        Whether stored failures of our own models do not count either.
-    needed : callable, optional
-        Returns the keys of the results that are needed, from the rows that are there: it is called again with the new
-        ones, until nothing is missing.  By default all are needed.
 
     Raises
     ------
@@ -100,47 +86,18 @@ def complete(
     planned = {task.key: task for task in tasks}
 
     def counts(row: Row) -> bool:
-        again = row.status == "failed" and (retry_failed or row.reason == LOST or bool(planned[row.key].external))
-        return is_row_of(planned.get(row.key), row) and not again
+        return is_row_of(planned.get(row.key), row) and row.status != "failed"
 
     with rows_in(folder) as store:
-
-        def rows_of_plan() -> dict[Key, Row]:
-            return {row.key: row for row in store.items if row.key in planned}
-
-        def needed_keys(rows: Mapping[Key, Row]) -> list[Key]:
-            keys = planned if needed is None else needed(list(rows.values()))
-            return [key for key in planned if key in keys]
-
         store.drop(lambda row: row.key in planned and not counts(row))
         with store.interruptible():
             evaluated_again = drop_changed(planned, store)
-        stored = rows = rows_of_plan()
-        log_failures_used(Counter(row.model for row in stored.values() if row.status == "failed"))
-        missing = [planned[key] for key in needed_keys(rows) if key not in rows]
+        stored = {row.key for row in store.items if row.key in planned}
+        missing = [task for task in tasks if task.key not in stored]
         note(f"{len(missing)} computations on {jobs} processes" + (f", {len(stored)} are stored" if stored else ""))
-        while missing:
-            store.complete("computing", len(missing), compute(missing, jobs))
-            rows = rows_of_plan()
-            missing = [planned[key] for key in needed_keys(rows) if key not in rows]
-            if missing:
-                note(f"{len(missing)} computations more, with which these are compared")
-        keys = set(needed_keys(rows))
-        return Completed(
-            [row for key, row in rows.items() if key in keys],
-            len(stored.keys() & keys),
-            store.parts(lambda row: row.key in keys),
-            evaluated_again,
-        )
-
-
-def log_failures_used(failures: Mapping[str, int]) -> None:
-    """Write in one sentence how many stored failures are used, by the names of the models or functions."""
-    if failures:
-        log(
-            f"{sum(failures.values())} stored failures of {', '.join(sorted(failures))} are used; "
-            "--retry-failed computes them again"
-        )
+        store.complete("computing", len(missing), compute(missing, jobs))
+        rows = [row for row in store.items if row.key in planned]
+        return Completed(rows, len(stored), store.parts(lambda row: row.key in planned), evaluated_again)
 
 
 def _evaluate_batch(batch: list[Task]) -> list[Row]:

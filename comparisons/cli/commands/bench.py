@@ -26,14 +26,13 @@ OPTIONS = (
         help="folder for the files (default: %(default)s); resumed if it has some measurements",
     ),
     option("--again", action="store_true", help="drop stored measurements and measure everything again"),
-    option("--retry-failed", action="store_true", help="measure stored failures again"),
     QUIET,
 )
 
 
 def call(args: argparse.Namespace) -> int:
     """Measure what is missing, write and print; return the exit status."""
-    finished = run_bench(args.out, args.only, full=args.full, again=args.again, retry_failed=args.retry_failed)
+    finished = run_bench(args.out, args.only, full=args.full, again=args.again)
     if not args.quiet:
         print_lines(finished.summary)
     for failure in finished.failures:

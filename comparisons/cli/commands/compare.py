@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from comparisons.cli.options import JOBS, MODEL_SPEC, OUT, QUIET, RETRY_FAILED, file, numbers, option
+from comparisons.cli.options import JOBS, MODEL_SPEC, OUT, QUIET, file, numbers, option
 from comparisons.cli.run_screen import print_end
 from comparisons.cli.screen import output
 from comparisons.output.summaries import terminal_tables
@@ -24,7 +24,6 @@ OPTIONS = (
     option("--every", action="store_true", help="print every case, not the first 40"),
     JOBS,
     OUT,
-    RETRY_FAILED,
     QUIET,
 )
 
@@ -44,7 +43,6 @@ def call(args: argparse.Namespace) -> int:
         reference=args.reference,
         folder=args.out,
         jobs=args.jobs,
-        retry_failed=args.retry_failed,
     )
     if not args.quiet:
         console = output()

@@ -6,7 +6,7 @@ import argparse
 from collections import Counter
 from pathlib import Path
 
-from comparisons.cli.options import JOBS, RETRY_FAILED, file, several
+from comparisons.cli.options import JOBS, file, several
 from comparisons.cli.screen import output
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log
@@ -24,13 +24,12 @@ OPTIONS = (
         default=Path("results", "runs", "paper"),
         help="folder for the files (default: %(default)s); resumed if it has some results",
     ),
-    RETRY_FAILED,
 )
 
 
 def call(args: argparse.Namespace) -> int:
     """Compute what is missing, write the figures, print their files; return the exit status."""
-    finished = make_figures(args.figure, args.out, jobs=args.jobs, retry_failed=args.retry_failed)
+    finished = make_figures(args.figure, args.out, jobs=args.jobs)
     console = output()
     for written in finished.figures:
         figure = written.figure

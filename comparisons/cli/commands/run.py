@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from shlex import quote
 
-from comparisons.cli.options import JOBS, OUT, QUIET, RETRY_FAILED, VERBOSE, file, option, several
+from comparisons.cli.options import JOBS, OUT, QUIET, VERBOSE, file, option, several
 from comparisons.cli.run_screen import print_end
 from comparisons.cli.screen import output, print_lines
 from comparisons.cli.verdict_screen import STATUS, print_verdicts
@@ -33,7 +33,6 @@ OPTIONS = (
     option("--seed", metavar="S", type=int, help="seed of the fresh cases (default: a new one)"),
     JOBS,
     OUT,
-    RETRY_FAILED,
     VERBOSE,
     QUIET,
 )
@@ -51,7 +50,6 @@ def call(args: argparse.Namespace) -> int:
         args.model,
         args.out,
         jobs=args.jobs,
-        retry_failed=args.retry_failed,
         random=args.random,
         seed=args.seed,
     )

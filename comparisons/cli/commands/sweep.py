@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from comparisons.cli.options import JOBS, OUT, QUIET, RETRY_FAILED, file, option, several
+from comparisons.cli.options import JOBS, OUT, QUIET, file, option, several
 from comparisons.cli.run_screen import print_end
 from comparisons.cli.screen import output
 from comparisons.output.summaries import sweep_tables
@@ -36,7 +36,6 @@ OPTIONS = (
     JOBS,
     option("--shard", metavar="i/N", help="compute the i-th of N parts, to be put together by fscm-bench merge"),
     OUT,
-    RETRY_FAILED,
     QUIET,
 )
 
@@ -58,7 +57,6 @@ def call(args: argparse.Namespace) -> int:
         models=models,
         folder=args.out,
         jobs=args.jobs,
-        retry_failed=args.retry_failed,
         shard=args.shard,
     )
     return show(finished, with_summary=not args.quiet)

@@ -19,21 +19,21 @@ REFUSED = (
 def test_a_run_of_models_has_the_rows_that_its_gates_need(small_grid, tmp_path):
     finished = run("quick", HALF + REFUSED, ["ten-percent", "refuses"], tmp_path)
     rows = finished.tables.results
-    assert {model: len(group) for model, group in rows.groupby("model")} == {"exact": 2, "refuses": 2, "ten-percent": 2}
-    assert set(rows.loc[rows["model"] != "refuses", "mu"]) == {1.0}
+    assert {model: len(group) for model, group in rows.groupby("model")} == {"exact": 3, "refuses": 2, "ten-percent": 2}
+    assert set(rows.loc[rows["model"] == "ten-percent", "mu"]) == {1.0}
     assert set(rows.loc[rows["model"] == "refuses", "k"]) == {0.0}
     verdicts = finished.judgement.verdicts.astype({"verdict": str}).set_index("gate")["verdict"]
     assert verdicts["TEN-PERCENT"].tolist() == ["PASS", "PASS"]
     assert set(verdicts["REFUSES"]) == {"NOT-APPLICABLE", "ERROR"}
     with rows_in(tmp_path) as store:
-        assert len(store.items) == 6
+        assert len(store.items) == 7
 
 
 def test_other_gates_compute_what_they_need_into_the_same_folder(small_grid, tmp_path, capsys):
     run("quick", HALF, ["ten-percent"], tmp_path / "new")
     (tmp_path / "all.toml").write_text(GATES)
     assert main(["judge", str(tmp_path / "new"), "--gates", str(tmp_path / "all.toml")]) == 4
-    assert "2 results that these gates need are not in" in capsys.readouterr().err
+    assert "a gate is in error: TEN-PERCENT of ten-percent: ten-percent has no row" in capsys.readouterr().err
     finished = run("quick", GATES, ["ten-percent"], tmp_path / "new")
     assert finished.counts == {"all": 8, "resumed": 4, "ok": 8}
     assert str(finished.verdict) == "PASS"
