@@ -10,7 +10,6 @@ if __name__ == "__main__" and not sys.flags.safe_path:
     sys.path[0] = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 from comparisons.console.exit_status import guarded
-from comparisons.console.installation import check_packages
 
 __all__ = ["main"]
 
@@ -28,7 +27,6 @@ def _program() -> str:
 
 
 def _command() -> int:
-    check_packages()
     # Imported here: an interruption during the import, which takes seconds, is one sentence as well.
     from comparisons.cli.main import main as command
 

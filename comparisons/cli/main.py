@@ -39,7 +39,7 @@ _COMMANDS = {
     "solve": "compute one quantity of one problem by one model",
     "curve": "compute curves or surfaces at pull-off, as CSV and as a plot",
     "describe": "Tabor number, pull-off force and admissible models of a problem file",
-    "fem": "write fields of the finite elements (vtu, picture), print their verification and solver tables",
+    "fem": "write fields of the finite elements (vtu, picture), print their verification",
     "list": "list the models, quantities, cases, gates, or the kinds of a problem file",
     "check-model": "check that an external model keeps the contract",
     "new-model": "write a template for a model of your own: a package with a test and a CI workflow",

@@ -16,10 +16,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import TextIO
 
-from comparisons.console.installation import sentence_on_missing_module
 from comparisons.console.printable import printable
 
 __all__ = [
+    "EXTRAS",
     "FAILED",
     "FAILS",
     "INCONCLUSIVE",
@@ -38,6 +38,9 @@ OK, FAILS, WRONG_INPUT, INCONCLUSIVE, FAILED = 0, 1, 2, 3, 4
 
 #: 128 and the number of the signal, as shells have it.
 _INTERRUPTED, _BROKEN_PIPE, _TERMINATED = 130, 141, 143
+
+#: Module -> the extra of fscm-bench that installs it.
+EXTRAS = {"bokeh": "report"}
 
 #: The environment variable that shows the traceback of an error.
 TRACEBACK = "FSCM_BENCH_TRACEBACK"
@@ -145,8 +148,9 @@ def _explained(error: Exception) -> tuple[int, str]:
     """Return the exit status of an exception and its sentence."""
     if isinstance(error, ValueError):
         return WRONG_INPUT, str(error)
-    if isinstance(error, ModuleNotFoundError) and (sentence := sentence_on_missing_module(error)):
-        return WRONG_INPUT, sentence
+    if isinstance(error, ModuleNotFoundError) and (extra := EXTRAS.get((error.name or "").partition(".")[0])):
+        package = f"the package {error.name} is not installed, which this command needs"
+        return WRONG_INPUT, f"{package}: pip install 'fscm-bench[{extra}]'"
     if isinstance(error, OSError):
         if error.strerror is None:  # a sentence of ours
             return FAILED, str(error)

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import tomllib
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
 from typing import Any
 
-from comparisons.data.toml_text import parse
-from comparisons.data.validation import validated
-
-__all__ = ["PaperStatement", "paper_statements", "read_statements"]
-
-_FILE = "paper_statements.toml"
+__all__ = ["PaperStatement", "paper_statements"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +45,7 @@ class PaperStatement:
     range: str
     command: str
     arguments: Mapping[str, Any] = field(default_factory=dict)
-    own: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    own: Mapping[str, Sequence[float]] = field(default_factory=dict)
     general: bool = False
 
     def is_own(self, case: Mapping[str, float]) -> bool:
@@ -61,29 +57,6 @@ class PaperStatement:
         return bool(self.own) and not self.general and not self.is_own(case)
 
 
-def read_statements(text: str, source: str = _FILE) -> list[PaperStatement]:
-    r"""Return the statements of a TOML text.
-
-    Raises
-    ------
-    ValueError
-        If a key or value is not admissible; the sentence names it.
-
-    Examples
-    --------
-    >>> read_statements('[[statement]]\nid = "a"', "mine.toml")
-    Traceback (most recent call last):
-    ValueError: mine.toml: statement a: section, statement, tests, how, range, command missing; ...
-    """
-    document = parse(text, source)
-    validated(document, "paper_statements", source)
-    return [PaperStatement(**{**table, "own": _own(table)}) for table in document["statement"]]
-
-
-def _own(table: Mapping[str, Any]) -> dict[str, tuple[float, ...]]:
-    return {name: tuple(map(float, values)) for name, values in table.get("own", {}).items()}
-
-
 def paper_statements() -> list[PaperStatement]:
     """Return the statements of the paper, in its order.
 
@@ -92,4 +65,5 @@ def paper_statements() -> list[PaperStatement]:
     >>> len(paper_statements()) >= 25
     True
     """
-    return read_statements(files("comparisons.data").joinpath(_FILE).read_text(encoding="utf-8"))
+    text = files("comparisons.data").joinpath("paper_statements.toml").read_text(encoding="utf-8")
+    return [PaperStatement(**table) for table in tomllib.loads(text)["statement"]]

@@ -119,7 +119,7 @@ def methods(record: Mapping[str, Any], references: Mapping[str, float]) -> str:
     used = ["numpy", "scipy", *(["scikit-fem", "pyamg"] if "fem" in models else [])]
     libraries = ", ".join(f"{name} {record['dependencies'][name]}" for name in used)
     digest = f", code with the SHA-256 {package['code_sha256'][:_SHORT]}" if "code_sha256" in package else ""
-    verdict = record["verdicts"].get("overall")
+    verdict = record["verdicts"].get("all")
     sentences = [
         f"The errors of {judged} were computed with fscm-bench {_version(package)}{digest}." if judged else "",
         f"The reference is {reference}." if reference else "",
@@ -127,7 +127,7 @@ def methods(record: Mapping[str, Any], references: Mapping[str, float]) -> str:
         "reference add to the bound on kappa.",
         f"There are {record['rows']['all']} results.",
         f"The verdict over all gates is {verdict}." if verdict else "",
-        f"The run began on {record['started'][:10]} and used Python {record['python']}, {libraries}.",
+        f"The run began on {record['started'][:10]} and used Python {record['machine']['python']}, {libraries}.",
     ]
     return " ".join(filter(None, sentences))
 

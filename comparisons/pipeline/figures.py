@@ -84,7 +84,7 @@ def make_figures(names: Iterable[str] | None, folder: Path, *, jobs: int = 1) ->
     failed = sum(computed.outcomes[call].failed for call in calls)
     record = record_content(
         "paper",
-        {"figure": wanted, "jobs": jobs, "out": str(folder)},
+        {"figure": wanted},
         started=started,
         parts=computed.parts,
         rows={

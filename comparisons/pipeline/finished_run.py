@@ -56,9 +56,7 @@ class FinishedRun:
         return self.judgement.verdict if self.judgement else None
 
 
-def write_run(
-    folder: Path, inputs: RunInputs, completed: Completed, arguments: Mapping[str, Any], started: str
-) -> FinishedRun:
+def write_run(folder: Path, inputs: RunInputs, completed: Completed, started: str, **arguments: Any) -> FinishedRun:
     """Write what follows from the rows of a run into its folder: tables, pictures, verdicts and the record.
 
     Parameters
@@ -67,10 +65,10 @@ def write_run(
     inputs : RunInputs
     completed : Completed
         The rows.
-    arguments : mapping
-        How they were computed, as the record holds it beside the inputs.
     started : str
         When the command began.
+    **arguments
+        How they were computed, as the record holds it beside the inputs; None for what was not given.
     """
     cases, gates, rows = inputs.cases, inputs.gates, completed.rows
     texts = kept_texts(folder, cases, gates)
@@ -98,8 +96,7 @@ def write_run(
             "model": inputs.models,
             "external": inputs.specs,
             "gates": None if gates is None else gates.source,
-            **arguments,
-            "out": str(folder),
+            **{name: value for name, value in arguments.items() if value is not None},
         },
         started=started,
         parts=completed.parts,

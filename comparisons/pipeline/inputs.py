@@ -19,8 +19,7 @@ from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judging.selection import cases_of, load_user_gates, needed_keys
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import REFERENCES
-from comparisons.problem.variation import parse_variations, problems_of
-from comparisons.quantities import QUANTITIES
+from comparisons.problem.variation import parse_variations
 from comparisons.registry import MODELS, ExternalIdentity, create
 from comparisons.runs.cases import TIERS, VERIFICATION, Grid, cases_text, grids, grids_for, load_grids
 from comparisons.runs.tasks import Task, plan
@@ -219,27 +218,20 @@ def cases_of_problem(problem: Path, vary: Sequence[str], models: Sequence[str], 
     ValueError
         One sentence, if a quantity is unknown, or a text or one of the problems is not admissible.
     """
-    for quantity in quantities:
-        known_name("quantity", quantity, tuple(QUANTITIES), "--quantity")
-    variations = parse_variations(vary)
     Problem.load(problem)
-    try:
-        problems = set(problems_of(problem, variations))
-    except ValueError as error:
-        raise ValueError(f"--vary {error}") from None
     texts: dict[str, Any] = {
         "id": problem.stem,
         "title": problem.name,
         "reference": next((name for name in REFERENCES if name in models), ""),
         # Models from outside are given beside the grid, as for every other.
-        "models": tuple(name for name in models if name in MODELS) or (REFERENCES[0],),
-        "quantities": tuple(quantities),
+        "models": [name for name in models if name in MODELS] or [REFERENCES[0]],
+        "quantities": list(quantities),
         "problem": problem.name,
     }
-    grid = Grid(tier=TIERS[0], cases=tuple(sorted(problems)), **texts)
+    variations = parse_variations(vary)
     values = ", ".join(f"{json.dumps(key.name)} = {json.dumps(key.values)}" for key in variations)
-    text = grid_text(texts, vary=f"{{ {values} }}")
-    return Cases([grid], None, text, str(problem), _files([grid], problem.parent))
+    cases = load_cases(grid_text(texts, vary=f"{{ {values} }}"), None, problem.parent)
+    return replace(cases, source=str(problem))
 
 
 def grid_text(texts: Mapping[str, Any], **entries: str) -> str:

@@ -8,11 +8,10 @@ from shlex import quote
 from typing import Any
 
 from comparisons.data.file_names import GRID_TEXT, RECORD, STORE
-from comparisons.data.input_files import read_text
 from comparisons.model import ComputationFailed
-from comparisons.pipeline.finished_run import FinishedRun, write_run
+from comparisons.pipeline.finished_run import FinishedRun, kept_texts, write_run
 from comparisons.pipeline.inputs import stored_inputs
-from comparisons.runs.atomic_files import atomic, prepare_folder
+from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import Completed, is_row_of
 from comparisons.runs.record import now, read_record
 from comparisons.runs.reevaluation import same
@@ -42,8 +41,8 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
     Raises
     ------
     ValueError
-        If a folder is not that of a finished sweep, two are not of the same sweep, or two have different results of one
-        task.
+        If a folder is not that of a finished sweep, two are not of the same sweep, two have different results of one
+        task, or the copy of the grids would replace a file of a user.
     comparisons.model.ComputationFailed
         If tasks of the sweep are in none of the folders; the others are then merged.
     """
@@ -58,24 +57,19 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
     if inputs.cases.sha256 != expected["cases_sha256"]:
         raise ValueError(f"{sweep / GRID_TEXT} was changed after it was written: run the sweep again")
     planned = {task.key: task for task in inputs.plan()}
-    copy = prepare_folder(out) / GRID_TEXT
-    if copy.exists() and read_text(copy, "the sweep file") != inputs.cases.text:
-        raise ValueError(f"{out} has other cases than {sweep}; choose another folder with --out")
+    kept_texts(prepare_folder(out), inputs.cases, None)
     with rows_in(out) as store:
         for folder in records:
             _take_rows(folder, store, planned)
         rows = _of_sweep(store, planned)
         parts = store.parts(lambda row: row.key in rows)
-    with atomic(copy) as file:
-        file.write(inputs.cases.text.encode())
     if missing := len(planned) - len(rows):
         raise ComputationFailed(
             f"{missing} of {len(planned)} computations are in none of the folders: merge more of them, or repeat the "
             f"command of the sweep without --shard and with --out {quote(str(out))}"
         )
     completed = Completed(list(rows.values()), len(rows), parts, None)
-    arguments = {"jobs": 1, "merged": [str(folder) for folder in records]}
-    return write_run(out, inputs, completed, arguments, started)
+    return write_run(out, inputs, completed, started, merged=[str(folder) for folder in records])
 
 
 def _record(folder: Path, out: Path) -> dict[str, Any]:

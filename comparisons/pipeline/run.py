@@ -101,14 +101,7 @@ def run(
     by_gates = inputs.cases.tier is not None and (models is not None or gates is not None)
     tasks = inputs.needed() if by_gates else inputs.plan()
     completed = complete(tasks if shard is None else tasks_of_shard(shard, tasks), target, jobs)
-    arguments = {
-        "jobs": jobs,
-        "shard": shard,
-        "random": inputs.fresh and inputs.fresh.count,
-        "seed": inputs.fresh and inputs.fresh.seed,
-    }
-    stated = {name: value for name, value in arguments.items() if value is not None}
-    return write_run(target, inputs, completed, stated, started)
+    return write_run(target, inputs, completed, started, shard=shard)
 
 
 def _inputs(

@@ -1,7 +1,6 @@
 """Origin of the numbers: versions, commit, machine.
 
-The commit is that of the clone that runs, of the clone from which pip installed the same code, or the one that pip
-recorded of an install from a git address.
+The commit is that of the clone that runs, or the one that pip recorded of an install from a git address.
 """
 
 from __future__ import annotations
@@ -16,10 +15,6 @@ from importlib.metadata import PackageNotFoundError, distribution, requires, ver
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlsplit
-from urllib.request import url2pathname
-
-from threadpoolctl import threadpool_info
 
 __all__ = [
     "NOT_INSTALLED",
@@ -120,22 +115,11 @@ def computing_environment() -> dict[str, str]:
 def environment() -> dict[str, Any]:
     """Return what a reader needs to know of code and machine, ready for JSON."""
     digest = code_digest()
+    code = {"version": package_version(), "code_sha256": digest, "fingerprint": fingerprint(digest)}
     return {
-        "package": {
-            "name": DISTRIBUTION,
-            "version": package_version(),
-            "code_sha256": digest,
-            "fingerprint": fingerprint(digest),
-            **_commit(),
-        },
-        "python": platform.python_version(),
+        "package": {"name": DISTRIBUTION, **code, **_commit()},
         "dependencies": _dependencies(),
-        "machine": {"system": platform.platform(), "cpu": _cpu(), "cores": os.cpu_count()},
-        "blas": [
-            {"library": blas["internal_api"], "version": blas["version"], "threads": blas["num_threads"]}
-            for blas in threadpool_info()
-            if blas["user_api"] == "blas"
-        ],
+        "machine": {**computing_environment(), "cores": os.cpu_count()},
     }
 
 
@@ -145,22 +129,15 @@ def _running_root() -> Path:
 
 def _commit() -> dict[str, Any]:
     """Return the commit of the code that runs, and whether a file was changed after it (None: not known)."""
-    running = _running_root()
-    recorded = _direct_url()
-    source = Path(url2pathname(urlsplit(recorded.get("url", "")).path))
-    for root in (running, source):
-        if (root / ".git").exists() and (root == running or code_digest(root) == code_digest()):
-            commit, status = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain", *_PACKAGES)
-            return {"commit": commit, "dirty": None if status is None else bool(status)}
-    return {"commit": recorded.get("vcs_info", {}).get("commit_id"), "dirty": None}
-
-
-def _direct_url() -> dict[str, Any]:
-    """Return what pip recorded of where it installed the packages from; empty for a package index."""
+    root = _running_root()
+    if (root / ".git").exists():
+        commit, status = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain", *_PACKAGES)
+        return {"commit": commit, "dirty": None if status is None else bool(status)}
     try:
-        return dict(json.loads(distribution(DISTRIBUTION).read_text("direct_url.json") or "{}"))
+        recorded = json.loads(distribution(DISTRIBUTION).read_text("direct_url.json") or "{}")
     except PackageNotFoundError:
-        return {}
+        recorded = {}
+    return {"commit": recorded.get("vcs_info", {}).get("commit_id"), "dirty": None}
 
 
 def _git(root: Path, *arguments: str) -> str | None:

@@ -30,7 +30,7 @@ from comparisons.runs.environment import differences, environment, fingerprint
 __all__ = ["FORMAT", "check_files", "now", "read_record", "record_content", "warn_of_other_code", "write_record"]
 
 #: Version of the schema.
-FORMAT = 5
+FORMAT = 6
 
 
 @lru_cache(maxsize=1)

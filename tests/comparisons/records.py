@@ -7,9 +7,9 @@ _TIME = "2026-01-01T00:00:00+00:00"
 
 def record_of_run(**arguments):
     """The record of a run of the quick tier, without checksums; some of its arguments may be others."""
-    standing = {"tier": "quick", "grid": None, "model": None, "external": {}, "gates": None, "jobs": 2, "out": "x"}
+    standing = {"tier": "quick", "grid": None, "model": None, "external": {}, "gates": None}
     return environment() | {
-        "format": 5,
+        "format": 6,
         "command_name": "run",
         "arguments": standing | arguments,
         "command": ["fscm-bench", "run"],

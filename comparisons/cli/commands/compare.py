@@ -7,6 +7,8 @@ import argparse
 from comparisons.cli.options import JOBS, MODEL_SPEC, OUT, QUIET, file, numbers, option
 from comparisons.cli.run_screen import print_end
 from comparisons.cli.screen import output
+from comparisons.console.exit_status import FAILED
+from comparisons.console.progress import log
 from comparisons.output.summaries import terminal_tables
 from comparisons.pipeline.compare import REFERENCES, compare
 
@@ -48,4 +50,8 @@ def call(args: argparse.Namespace) -> int:
         console = output()
         for table in terminal_tables(finished.table, finished.summary, args.every, console.width):
             console.print(table)
-    return print_end(finished.failures, finished.folder, "comparison.csv, comparison.png and the results are")
+    status = print_end(finished.failures, finished.folder, "comparison.csv, comparison.png and the results are")
+    if finished.table["kappa"].isna().all():
+        log("nothing was evaluated: in no case do both the reference and another model have a value")
+        return FAILED
+    return status

@@ -29,7 +29,7 @@ def test_a_run_writes_table_figure_and_record(tiny, tmp_path):
     assert (tmp_path / "tiny.csv").read_text() == "size,cpu_seconds,status,reason,ratio\n1,0.5,ok,,0.5\n2,1,ok,,1\n"
     assert (tmp_path / "tiny.png").read_bytes().startswith(b"\x89PNG")
     record = json.loads((tmp_path / "bench.json").read_text())
-    assert record["machine"].keys() == {"system", "cpu", "cores"}
+    assert record["machine"].keys() >= {"system", "cpu", "cores"}
     assert [part["computations"] for part in record["parts"]] == [2]
     assert {"host", "cpu", "numpy", "started"} <= record["parts"][0].keys()
     assert (tmp_path / "bench.txt").read_text().splitlines() == finished.summary

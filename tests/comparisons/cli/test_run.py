@@ -53,11 +53,9 @@ def test_the_record_says_where_the_numbers_come_from(small_grid, tmp_path):
     run(tmp_path, "--tier", "full")
     record = json.loads(read(tmp_path, "run.json"))
     assert record["arguments"]["tier"] == "full"
-    assert record["arguments"]["out"] == str(tmp_path)
     assert record["rows"] == {"all": 12, "resumed": 0, "ok": 8, "not-applicable": 4}
     assert {"commit", "dirty", "version", "code_sha256"} <= record["package"].keys()
     assert {"cpu", "cores", "system"} <= record["machine"].keys()
-    assert all(library["threads"] == 1 for library in record["blas"])
     assert record["started"] <= record["finished"]
     assert set(record["seconds"]["by_model"]) == {"exact", "ten-percent", "refuses"}
 

@@ -41,7 +41,7 @@ def raising(error):
     ("error", "status", "sentence"),
     [
         (ValueError("a gate \x1b[31mred"), WRONG_INPUT, "a gate \\x1b[31mred"),
-        (ModuleNotFoundError("No module", name="bokeh.core"), WRONG_INPUT, "the package bokeh is not installed"),
+        (ModuleNotFoundError("No module", name="bokeh.core"), WRONG_INPUT, "the package bokeh.core is not installed"),
         (ModuleNotFoundError("No module", name="numpy"), FAILED, "internal error: ModuleNotFoundError"),
         (RuntimeError("two\nlines"), FAILED, "internal error: RuntimeError: two lines; please report it"),
         (OSError(errno.ENOSPC, NO_ROOM, "/a/b"), FAILED, f"/a/b cannot be read or written ({NO_ROOM})"),

@@ -178,7 +178,7 @@ def test_each_kind_of_model_has_its_verdict(finished, name):
 
 def test_the_record_has_coverage_and_fresh_cases_and_a_new_judgement_is_the_same(finished):
     record = read_record(finished.folder / "run.json")
-    assert (record["arguments"]["random"], record["arguments"]["seed"]) == (5, 1)
+    assert (record["fresh"]["count"], record["fresh"]["seed"]) == (5, 1)
     counts = {"asked": 12, "answered": 12, "not_applicable": 0, "failed": 0, "outside": 0}
     assert {"gate": "GIVEN", "candidate": "honest", "verdict": "PASS"} | counts in record["coverage"]
     assert {"CARD-SAME-AGAIN", "CARD-DIFFERS", "GIVEN-RANDOM"} <= {row["gate"] for row in record["coverage"]}

@@ -19,9 +19,9 @@ RECORD = {
         "my_model": {"version": "2 (ab)", "citation": "Someone, 50 % wrong"},
     },
     "rows": {"all": 12},
-    "verdicts": {"overall": "PASS"},
+    "verdicts": {"all": "PASS"},
     "started": "2026-11-22T16:56:48+00:00",
-    "python": "3.11.7",
+    "machine": {"python": "3.11.7"},
     "dependencies": {"numpy": "2.4.6", "scipy": "1.17.1", "scikit-fem": "12.0.2", "pyamg": "5.4.1"},
 }
 

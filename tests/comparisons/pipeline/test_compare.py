@@ -131,6 +131,14 @@ def test_what_cannot_be_compared_is_one_sentence(tmp_path, capsys, arguments, na
     assert not (tmp_path / "out" / "store.sqlite").exists()
 
 
+def test_a_comparison_without_a_value_of_the_reference_is_no_success(tmp_path, capsys):
+    """The atlas ends at mu = 10."""
+    assert (
+        main(["compare", "jkr", *CASE[:-1], "20", "--reference", "atlas", "--out", str(tmp_path), "--jobs", "1"]) == 4
+    )
+    assert "nothing was evaluated" in capsys.readouterr().err
+
+
 def test_a_failed_computation_is_the_exit_status(toys, tmp_path, capsys):
     (tmp_path / "grid.toml").write_text(GRID)
     options = ["--grid", str(tmp_path / "grid.toml"), "--out", str(tmp_path / "out"), "--jobs", "1", "--quiet"]

@@ -75,7 +75,7 @@ def test_the_figures_of_the_paper_have_a_record(tmp_path):
     assert finished.failures == {}
     record = read_record(tmp_path / "run.json")
     assert record["command_name"] == "paper"
-    assert record["arguments"] == {"figure": ["2"], "jobs": 1, "out": str(tmp_path)}
+    assert record["arguments"] == {"figure": ["2"]}
     assert set(record["files"]) == {path.name for path in finished.figures[0].files}
     assert sum(part["computations"] for part in record["parts"]) == record["rows"]["all"]
     make_figures(["2"], tmp_path)

@@ -74,7 +74,7 @@ VERDICTS = [
 
 def record(count):
     described = {"version": LINE, "citation": f"{IMAGE} {LINE}", "domain": SCRIPT}
-    return record_of_run(model=[IMAGE, SCRIPT], external=SPECS, out=LINE) | {
+    return record_of_run(model=[IMAGE, SCRIPT], external=SPECS, grid=LINE) | {
         "command": ["fscm-bench", "run", SCRIPT],
         "models": {SCRIPT: described, IMAGE: described},
         "rows": {"all": count, "resumed": 0, "ok": count},
