@@ -1,14 +1,11 @@
 """Random problems of the finite elements, and the table of their values, bounds and errors against a finer mesh.
 
-``python -m tests.fem_reference.random_problems [NUMBER ...]`` adds the problems that `random_problems.csv` lacks.  A
-row is a problem and a quantity; its status is "value", or the name of the exception that stands for it.
+``python -m tests.fem_reference.random_problems`` adds the problems that `random_problems.csv` lacks.  A row is a
+problem and a quantity; its status is "value", or the name of the exception that stands for it.
 """
 
 from __future__ import annotations
 
-import csv
-import sys
-from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,10 +17,16 @@ from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference.quantities import TABLE as QUANTITIES
 from tests.fem_reference.solved_together import problem_with
+from tests.random_tables import RandomTable
 
 SEED, COUNT = 20261122, 60
-TABLE = Path(__file__).with_suffix(".csv")
-COLUMNS = ("seed", "number", "n", "k", "mu", "nu", "quantity", "status", "value", "u_num", "error")
+TABLE = RandomTable(
+    Path(__file__).with_suffix(".csv"),
+    ("number", "n", "k", "mu", "nu", "quantity", "status", "value", "u_num", "error"),
+)
+
+#: n = 1.06, k = 0.88, mu = 1.19: no result within 12 minutes of one processor, on meshes of 4 GB.
+UNFINISHED = {9}
 
 #: Relative error below which the ratio of bound to error is that of rounding.
 ROUNDING = 1e-11
@@ -58,7 +61,7 @@ def rows(number: int, accuracy: str = "quick") -> list[dict[str, object]]:
     parameters = problems(number + 1)[number]
     n, k, mu, nu = parameters
     problem = problem_with(k, mu, n, nu)
-    head = {"seed": SEED, "number": number, **dict(zip(("n", "k", "mu", "nu"), parameters, strict=True))}
+    head = {"number": number, **dict(zip(("n", "k", "mu", "nu"), parameters, strict=True))}
     try:
         solutions = solve_together(problem, NAMES, accuracy)
     except NotConverged:
@@ -89,26 +92,5 @@ def ratio(row: dict[str, object]) -> float:
     return u_num / max(error, ROUNDING * (1.0 + abs(value)))
 
 
-def stored() -> list[dict]:
-    """Rows of the table."""
-    if not TABLE.exists():
-        return []
-    with TABLE.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def main(numbers: Iterable[int]) -> None:
-    """Compute the problems that the table lacks."""
-    table = stored()
-    for number in numbers:
-        if str(number) not in {row["number"] for row in table}:
-            table += rows(number)
-            with TABLE.open("w", encoding="utf-8", newline="") as file:
-                writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-                writer.writeheader()
-                # The sort is stable: quantities keep their order.
-                writer.writerows(sorted(table, key=lambda row: int(str(row["number"]))))
-
-
 if __name__ == "__main__":
-    main([int(argument) for argument in sys.argv[1:]] or range(COUNT))
+    TABLE.complete((number for number in range(COUNT) if number not in UNFINISHED), rows)

@@ -1,18 +1,16 @@
 """Reference values of 500 random problems, from paths with 8 times smaller steps and from finer meshes.
 
 ``python -m tests.fscm.random_problems`` adds the problems that `random_problems.csv` lacks.  A row is a problem and a
-quantity; its status is "value", the name of the exception that the finer path raised, or "timeout".  The bound of the
-finer value is stored where it was computed: without it, rounding is what is left of its error.
+quantity; its status is "value", or the name of the exception that the finer path raised.  The bound of the finer value
+is stored where it was computed: without it, rounding is what is left of its error.
 """
 
 from __future__ import annotations
 
-import csv
 import math
-import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from types import FrameType
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,14 +22,16 @@ from fscm._equilibrium import State
 from fscm._threads import one_thread
 from fscm._whole_path import path_end
 from tests.fscm.equilibria_on_finer_meshes import FINER
+from tests.random_tables import RandomTable
 
 SEED, COUNT = 20261122, 500
-TABLE = Path(__file__).with_suffix(".csv")
-COLUMNS = ("n", "k", "mu", "quantity", "status", "value", "points", "u_num")
+TABLE = RandomTable(
+    Path(__file__).with_suffix(".csv"), ("number", "n", "k", "mu", "quantity", "status", "value", "u_num")
+)
 # Steps of an eighth in arc length.
 STEPS = 8
-# Seconds of CPU after which the finer path of a problem is given up; its rows then say so.
-PATIENCE = 60
+# Numbers of problems whose finer path takes more than a minute.
+UNFINISHED = {30, 39, 489}
 # The critical Tabor number does not belong to a path.
 NAMES = tuple(name for name in QUANTITIES if name != "critical_tabor_number")
 
@@ -80,60 +80,40 @@ def _signs(point: Point) -> tuple[object, ...]:
     return point.segment, point.rates.load < 0.0, point.rates.displacement < 0.0, point.state.load < 0.0
 
 
-def rows_of(problem: Problem) -> Iterator[tuple[object, ...]]:
+def rows(number: int) -> Iterator[dict[str, object]]:
     """The rows of one problem."""
-    case = problem.n, problem.k, problem.mu
+    problem = problems()[number]
+    head = {"number": number, "n": problem.n, "k": problem.k, "mu": problem.mu}
     try:
         model = finer(problem)
     except NotConverged:
-        yield from ((*case, name, "NotConverged", "", "", "") for name in NAMES)
+        yield from ({**head, "quantity": name, "status": "NotConverged"} for name in NAMES)
         return
     for name in NAMES:
+        row = {**head, "quantity": name}
         try:
             solution = model.solution(name)
-            yield *case, name, "value", repr(float(solution.value)), len(model.points), f"{solution.u_num:.2g}"
+            yield row | {"status": "value", "value": repr(float(solution.value)), "u_num": f"{solution.u_num:.2g}"}
         except (NoSuchEvent, NotConverged) as error:
-            yield *case, name, type(error).__name__, "", len(model.points), ""
+            yield row | {"status": type(error).__name__}
 
 
-def stored_values() -> dict[Problem, dict[str, tuple[str, float, float]]]:
-    """Status, value and its bound (0 where it is not stored) of each quantity of each problem in the table."""
-    values: dict[Problem, dict[str, tuple[str, float, float]]] = {}
-    with TABLE.open(newline="") as file:
-        for row in csv.DictReader(file):
-            problem = Problem(float(row["n"]), float(row["k"]), float(row["mu"]))
-            value = row["status"], float(row["value"] or math.nan), float(row["u_num"] or 0.0)
-            values.setdefault(problem, {})[row["quantity"]] = value
+class Stored(NamedTuple):
+    """Row of a quantity: NaN for no value, and 0 for a bound that is not stored."""
+
+    status: str
+    value: float
+    u_num: float
+
+
+def stored_values() -> dict[int, dict[str, Stored]]:
+    """Rows of the table, by number and quantity."""
+    values: dict[int, dict[str, Stored]] = {}
+    for row in TABLE.rows():
+        stored = Stored(row["status"], float(row["value"] or math.nan), float(row["u_num"] or 0.0))
+        values.setdefault(int(row["number"]), {})[row["quantity"]] = stored
     return values
 
 
-def _computed(problem: Problem) -> list[tuple[object, ...]]:
-    signal.setitimer(signal.ITIMER_VIRTUAL, PATIENCE)
-    try:
-        return list(rows_of(problem))
-    except TimeoutError:
-        return [(problem.n, problem.k, problem.mu, name, "timeout", "", "", "") for name in NAMES]
-    finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
-
-
-def _late(number: int, frame: FrameType | None) -> None:
-    raise TimeoutError
-
-
-def main() -> None:
-    """Compute the problems that the table lacks, and append them."""
-    signal.signal(signal.SIGVTALRM, _late)
-    done = stored_values() if TABLE.exists() else {}
-    with TABLE.open("a", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        if not done:
-            table.writerow(COLUMNS)
-        for problem in problems():
-            if problem not in done:
-                table.writerows(_computed(problem))
-                file.flush()
-
-
 if __name__ == "__main__":
-    main()
+    TABLE.complete((number for number in range(COUNT) if number not in UNFINISHED), rows)

@@ -1,11 +1,10 @@
 """Random punches with asperities, waves, flats and measured profiles, and the outcome of their paths.
 
-`python -m tests.fscm.random_punches` writes the table again.
+`python -m tests.fscm.random_punches` adds the punches that `random_punches.csv` lacks.
 """
 
 from __future__ import annotations
 
-import csv
 import math
 from pathlib import Path
 from typing import NamedTuple
@@ -15,8 +14,11 @@ import numpy as np
 from fscm import CustomPunch, MeasuredPunch, Problem, solve
 from fscm.punch import PunchShape
 from tests.fscm.brute_force import stable_states
+from tests.random_tables import RandomTable
 
-TABLE = Path(__file__).with_name("random_punches.csv")
+TABLE = RandomTable(
+    Path(__file__).with_suffix(".csv"), ("number", "pull_off_force", "brute_force", "retreat", "approach")
+)
 SEED = 20261122
 COUNT = 100
 
@@ -114,27 +116,19 @@ def _measured(rng: np.random.Generator) -> tuple[PunchShape, float]:
 _SHAPES = (_asperity, _ring, _waves, _flat, _measured)
 
 
-def table() -> list[dict[str, str]]:
-    """Rows of the table, by the number of the punch."""
-    with TABLE.open() as file:
-        return list(csv.DictReader(file))
-
-
-def table_row(number: int) -> dict[str, object]:
+def rows(number: int) -> list[dict[str, object]]:
     """Row of a punch: the force of its path, and the stable states on a fixed mesh."""
     problem, height = random_punch(number)
     states = stable_states(problem, height)
-    return {
+    row = {
         "number": number,
         "pull_off_force": f"{solve(problem, 'pull_off_force').value:.12g}",
         "brute_force": f"{states.pull_off_force:.6g}",
         "retreat": " ".join(f"{jump:.4f}" for jump in states.retreat),
         "approach": " ".join(f"{jump:.4f}" for jump in states.approach),
     }
+    return [row]
 
 
 if __name__ == "__main__":
-    with TABLE.open("w", newline="") as file:
-        writer = csv.DictWriter(file, list(table_row(0)), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(map(table_row, range(COUNT)))
+    TABLE.complete(range(COUNT), rows)

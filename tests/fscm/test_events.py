@@ -5,8 +5,8 @@ import math
 import pytest
 
 from fscm import NoSuchEvent, Problem, solve
-from tests.fscm.marks import heavy
 from tests.fscm.solved_once import analysis_of
+from tests.marks import heavy
 from tests.reference_values import REFERENCE_VALUES, ReferenceValue
 
 

@@ -11,8 +11,8 @@ from fscm._arc_length import parameter_of, rates_of
 from fscm._continuation import equilibrium_path, moved
 from fscm.experiment import displacement_cycle
 from tests.fscm.equilibria_on_finer_meshes import finer_analysis
-from tests.fscm.marks import heavy
 from tests.fscm.solved_once import analysis_of, path_of
+from tests.marks import heavy
 
 
 @pytest.mark.parametrize(

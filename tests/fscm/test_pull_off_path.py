@@ -6,9 +6,9 @@ from fscm import Analysis, Problem, solve, solve_together
 from fscm import _pull_off_path as short
 from fscm._meshes import Meshes
 from fscm._threads import one_thread
-from tests.fscm.marks import heavy
 from tests.fscm.random_problems import problems
 from tests.fscm.solved_once import analysis_of
+from tests.marks import heavy
 
 # Rigid to soft; (2, 0.6, 3), (5, 0.6, 3) and (1.5, 0.4, 5) have several shallow folds before contact.
 CASES = [(1, 0.2, 1), (2, 0.4, 0.5), (2, 0, 0.01), (0.9, 0.1, 2), (2, 0.6, 3), (5, 0.6, 3), (1.5, 0.4, 5)]

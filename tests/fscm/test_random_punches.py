@@ -8,8 +8,8 @@ from scipy.optimize import minimize_scalar
 
 from fscm import Analysis, CustomPunch, NoSuchEvent, Problem, trace
 from tests.fscm.brute_force import BruteForce, stable_states
-from tests.fscm.marks import heavy
-from tests.fscm.random_punches import COUNT, random_punch, table
+from tests.fscm.random_punches import COUNT, TABLE, random_punch
+from tests.marks import heavy
 
 # The fixed mesh of the brute force does not resolve the contact edge: measured worst 4e-4 over the hundred punches.
 BRUTE_FORCE = 1e-3
@@ -19,7 +19,7 @@ JUMP = 3e-3
 LIGHT = (0, 2, 3, 4, 6, 9)
 
 
-ROWS = table()
+ROWS = TABLE.rows()
 
 
 def test_no_punch_of_the_table_is_silently_wrong() -> None:

@@ -7,7 +7,7 @@ from scipy.special import gamma, hyp1f1
 from fscm import Problem
 from fscm import solve as fscm_solve
 from tests.fscm import ring_code
-from tests.fscm.marks import heavy
+from tests.marks import heavy
 from tests.reference_values import REFERENCE_VALUES, RING_CODE
 
 # Measured worst: 2e-12 of the pull-off force (n = 1, k = 0.6, mu = 0.5: 4.6e-13 of 4.3; n = 2, k = 0, mu = 0.1: 6e-13).

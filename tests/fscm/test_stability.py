@@ -15,8 +15,8 @@ from fscm import Problem, displacement_cycle, equilibria, trace
 from fscm._azimuthal_kernel import azimuthal_kernel
 from fscm._equilibrium import State
 from fscm.stability import margins, stability_of
-from tests.fscm.marks import heavy
 from tests.fscm.solved_once import analysis_of, path_of
+from tests.marks import heavy
 
 MODES = range(5)
 

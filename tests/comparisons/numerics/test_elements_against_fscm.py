@@ -6,7 +6,7 @@ from functools import lru_cache
 import pytest
 
 import fscm
-from tests.fem_reference.random_problems import problems, rows, stored
+from tests.fem_reference.random_problems import TABLE, problems, rows
 
 SAMPLE = 40
 """Every so many problems of the table are compared in the light test."""
@@ -18,7 +18,7 @@ UNIT = {"pull_off_force": math.pi, "hysteresis_energy": math.pi}
 @lru_cache(maxsize=1)
 def _table():
     table = {}
-    for row in stored():
+    for row in TABLE.rows():
         table.setdefault(int(row["number"]), []).append(row)
     return table
 
