@@ -1,17 +1,11 @@
-"""Solutions that several test files need: one problem with both jumps, and a pull-off on one mesh alone."""
+"""Problems that several test files need, and the solutions of one with both jumps."""
 
 from functools import cache
 
 from fem_reference import LennardJones, PowerLaw, PowerPunch, Problem, Solution, solve_together
-from fem_reference._contact.mesh_choice import chosen
-from fem_reference._contact.newton import State
 from fem_reference.quantities import TABLE
 from fem_reference.solids import Solid
 from fem_reference.verification.reference_solutions import surface_constant
-
-#: Error of a pull-off on the coarsest mesh alone, relative: measured worst 9.1e-6 (the displacement of a homogeneous
-#: solid with Poisson's ratio of layers), and 3e-6 of a force.
-COARSEST = 2e-5
 
 
 def sphere_on(solid: Solid) -> Problem:
@@ -32,9 +26,3 @@ PROBLEM = problem_with(0.3, 1.2)
 def solved() -> dict[str, Solution]:
     """Return every quantity of `PROBLEM`."""
     return solve_together(PROBLEM, ("hysteresis_energy", *TABLE), "quick")
-
-
-def pull_off_on_the_coarsest_mesh(problem: Problem) -> State:
-    """Return the state at pull-off on the coarsest mesh of the quick choice: no bound, in a fifth of the time."""
-    choice, spec, size = chosen(problem, ("pull_off",), "quick")
-    return choice.traced(spec, size).at("pull_off").state

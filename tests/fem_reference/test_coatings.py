@@ -21,7 +21,7 @@ from fem_reference.modulus import CustomModulus, OffsetPowerLawModulus, PowerLaw
 from fem_reference.poisson import CoatingPoisson, CustomPoisson
 from tests.fem_reference.hankel_reference import pull_off, transform
 from tests.fem_reference.profile_solid import ProfileSolid
-from tests.fem_reference.solved_together import COARSEST, pull_off_on_the_coarsest_mesh
+from tests.marks import heavy
 from tests.reference_values import REFERENCE_VALUES
 
 NU = 0.3
@@ -42,6 +42,7 @@ STIFF, SOFT = CoatingModulus(10.0, 1.0, thickness=1.0), CoatingModulus(1.0, 10.0
 SMOOTH = CoatingModulus(10.0, 1.0, thickness=1.0, transition=0.02)
 PLAIN = PowerLawModulus(1.0, 1.0, 0.0)
 LAYERS_OF_NU = CoatingPoisson(0.2, 0.45, 1.0)
+TABLE, TABLE_OF_NU = TableModulus((0.0, 1.0, 2.0), (1.0, 1.5, 4.0)), TablePoisson((0.0, 2.0), (0.4, 0.1))
 
 
 #: Above the depth 3 a cubic that falls with the slope -3.75: 1/E doubles within 0.13.
@@ -77,38 +78,19 @@ def test_hankel_transform_of_a_layer():
     assert transform(lambda z: 1.0 + 0.0 * z, NU, xi, sharp=(0.1, 1.0)) == pytest.approx(layer, rel=1e-10)
 
 
-def test_pull_off_of_a_coating_on_the_coarsest_mesh():
-    """Force and displacement; the next test has the bounds, and other coatings."""
-    reference = pull_off(STIFF, NU, _power(2.0), sharp=(1.0,), radius=22.0)
-    state = pull_off_on_the_coarsest_mesh(_problem(STIFF))
-    assert -state.load == pytest.approx(reference.force, rel=COARSEST)
-    assert state.displacement == pytest.approx(reference.displacement, rel=COARSEST)
-
-
-@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("modulus", "nu", "n", "options"),
     [
-        pytest.param(STIFF, NU, 2.0, {"sharp": (1.0,), "radius": 22.0}, id="sharp 10:1"),
-        pytest.param(SOFT, NU, 2.0, {"sharp": (1.0,)}, id="sharp 1:10"),
-        pytest.param(SMOOTH, NU, 2.0, {"radius": 22.0}, id="transition of 0.02"),
-        pytest.param(PLAIN, LAYERS_OF_NU, 2.0, {"sharp": (1.0,)}, id="nu of layers"),
-        pytest.param(STIFF, LAYERS_OF_NU, 2.0, {"sharp": (1.0,), "radius": 22.0}, id="sharp 10:1 and nu of layers"),
-        # Both have a slope at the surface: waves up to 20 alone move the displacement by 8.7e-7.
-        pytest.param(
-            TableModulus((0.0, 1.0, 2.0), (1.0, 1.5, 4.0)),
-            TablePoisson((0.0, 2.0), (0.4, 0.1)),
-            2.0,
-            {"wave": 40.0},
-            id="tables",
-        ),
-        # Beside it: the displacement of this solid on a mesh eight times as large.
-        pytest.param(
-            EXPONENTIAL,
-            NU,
-            5.0,
-            {"nearest": 2.0, "width": 0.125, "radius": 7.0, "wave": 40.0},
-            id="exponential, n = 5",
+        (STIFF, NU, 2.0, {"sharp": (1.0,), "radius": 22.0}),
+        *heavy(
+            (SOFT, NU, 2.0, {"sharp": (1.0,)}),
+            (SMOOTH, NU, 2.0, {"radius": 22.0}),
+            (PLAIN, LAYERS_OF_NU, 2.0, {"sharp": (1.0,)}),
+            (STIFF, LAYERS_OF_NU, 2.0, {"sharp": (1.0,), "radius": 22.0}),
+            # Both have a slope at the surface: waves up to 20 alone move the displacement by 8.7e-7.
+            (TABLE, TABLE_OF_NU, 2.0, {"wave": 40.0}),
+            # Beside it: the displacement of this solid on a mesh eight times as large.
+            (EXPONENTIAL, NU, 5.0, {"nearest": 2.0, "width": 0.125, "radius": 7.0, "wave": 40.0}),
         ),
     ],
 )
@@ -184,22 +166,6 @@ def test_error_of_the_exterior():
         assert short > least
     _, spec, size = chosen(_problem(EXPONENTIAL, 5.0), ("pull_off",), "quick")
     assert exterior_error(CustomModulus(lambda z: _exponential(size * z), 0.0, 0.0, 1.0), spec.extent) <= EXTERIOR_ERROR
-
-
-def test_impossible_moduli_are_refused():
-    for make, message in (
-        (lambda: CustomModulus(np.sqrt, 0.0, 0.5, 1.0), r"surface exponent 0 is declared, but E\(z\) rises as z\^0.5"),
-        (lambda: CustomModulus(np.sqrt, 0.5, 0.0, 1.0), r"depth exponent 0 is declared, but E\(z\) rises as z\^0.5"),
-        (lambda: CustomModulus(lambda z: 1 - z, 0.0, 0.0, 1.0), "outside .0, infinity.: it must be positive"),
-        (lambda: CustomModulus(lambda z: 2.0, 0.0, 0.0, 1.0), "must have the shape of z"),
-        (lambda: CustomModulus(np.sqrt, 0.5, 0.5, 1.0, (1.0,)), "not a tuple of Interface"),
-        (lambda: Interface(-1.0), "depth of an interface = -1.0"),
-        (lambda: Interface(1.0, math.nan), "transition = nan"),
-        (lambda: CoatingModulus(1.0, 0.0, 1.0), "E_substrate = 0.0 is outside"),
-        (lambda: CoatingModulus(1.0, 2.0, 1.0, -0.5), "transition = -0.5 is outside"),
-    ):
-        with pytest.raises(ValueError, match=message):
-            ProfileSolid(make(), NU)
 
 
 def test_noise_is_refused():

@@ -13,7 +13,7 @@ from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import uniform_grid
 from fem_reference.coating import CoatingModulus
 from fem_reference.depth_profiles import ExponentialModulus, TableModulus, TablePoisson
-from fem_reference.modulus import PowerLawModulus
+from fem_reference.modulus import CustomModulus, PowerLawModulus
 from fem_reference.poisson import CoatingPoisson, CustomPoisson
 from tests.fem_reference.profile_solid import ProfileSolid
 
@@ -60,6 +60,10 @@ def test_a_mesh_follows_poissons_ratio():
     assert depth_scales(CoatingModulus(2.0, 1.0, 1.0), 1e-2, 1e2, CoatingPoisson(0.1, 0.4, 3.0)).lines == (1.0, 3.0)
     undeclared = CustomPoisson(lambda z: np.where(z < 3.0, 0.1, 0.4))
     assert depth_scales(E, 1e-2, 1e2, undeclared).lines == pytest.approx([3.0], rel=1e-14)
+    # As the modulus of a layer that cannot widen, (lambda + 2 G)/E.
+    ratio = CustomPoisson(lambda z: 0.225 * (1.0 + np.tanh((z - 3.0) / 0.2)))
+    layer = CustomModulus(lambda z: (1.0 - ratio(z)) / ((1.0 + ratio(z)) * (1.0 - 2.0 * ratio(z))), 0.0, 0.0, 1.0)
+    assert depth_scales(E, 1e-2, 1e2, ratio) == depth_scales(layer, 1e-2, 1e2) != DepthScales()
     assert is_scaling(E, 0.3, ())
     assert not is_scaling(E, CoatingPoisson(0.1, 0.4, 3.0), ())
     assert not is_scaling(E, 0.3, (1.0,))
@@ -81,8 +85,21 @@ def test_stiffness_of_two_layers_is_that_of_both():
         assert abs(layered[rows] - matrix[rows]).max() <= 1e-14
 
 
+def _custom(*arguments):
+    return ProfileSolid(CustomModulus(*arguments), 0.3)
+
+
 def test_impossible_solids_are_refused():
     for make, message in (
+        (lambda: _custom(np.sqrt, 0.0, 0.5, 1.0), r"surface exponent 0 is declared, but E\(z\) rises as z\^0.5"),
+        (lambda: _custom(np.sqrt, 0.5, 0.0, 1.0), r"depth exponent 0 is declared, but E\(z\) rises as z\^0.5"),
+        (lambda: _custom(lambda z: 1 - z, 0.0, 0.0, 1.0), "outside .0, infinity.: it must be positive"),
+        (lambda: _custom(lambda z: 2.0, 0.0, 0.0, 1.0), "must have the shape of z"),
+        (lambda: _custom(np.sqrt, 0.5, 0.5, 1.0, (1.0,)), "not a tuple of Interface"),
+        (lambda: Interface(-1.0), "depth of an interface = -1.0"),
+        (lambda: Interface(1.0, math.nan), "transition = nan"),
+        (lambda: CoatingModulus(1.0, 0.0, 1.0), "E_substrate = 0.0 is outside"),
+        (lambda: CoatingModulus(1.0, 2.0, 1.0, -0.5), "transition = -0.5 is outside"),
         (lambda: ExponentialModulus(1.0, -1.0, 1.0), "E_depth = -1.0"),
         (lambda: ExponentialModulus(1.0, 1.0, math.nan), "length = nan"),
         (lambda: TableModulus((0.0,), (1.0,)), "2 depths or more"),

@@ -5,20 +5,14 @@ import math
 import numpy as np
 import pytest
 
-from fscm import Layers, solve
 from fscm import _events as events
 from fscm._path_end import beyond_layers
-from tests.fscm.marks import heavy
-from tests.fscm.solved_once import SUBSTRATE, WORK, R, contact, stiff_on_soft
-from tests.solvers.layered_jkr import Stack, jkr, minima_with_error
+from tests.fscm.solved_once import SUBSTRATE, WORK, R, stiff_on_soft
+from tests.marks import heavy
+from tests.solvers.layered_jkr import Stack, jkr
+from tests.solvers.test_layered_jkr import COATINGS
 
 UNIT = math.pi * R * WORK
-
-
-def layered(layers, substrate):
-    """Sharp layers (E, nu, thickness) on a substrate."""
-    E, nu = zip(*(layer[:2] for layer in layers), substrate, strict=True)
-    return Layers(E, nu, [thickness for _, _, thickness in layers])
 
 
 def minima(analysis, unit):
@@ -31,34 +25,12 @@ def minima(analysis, unit):
 def test_the_load_has_the_minima_of_jkr_and_the_deepest_is_the_pull_off():
     """1 GPa, 100 nm on 1.5 MPa: the first minimum, at 75 nm, has half of the load of the second one."""
     analysis, unit = stiff_on_soft()
-    expected = minima_with_error(Stack(((1e9, 0.4, 100e-9),), SUBSTRATE), WORK, R)
-    assert len(expected) == 2
-    for (radius, load), minimum in zip(minima(analysis, unit), expected, strict=True):
-        assert radius == pytest.approx(minimum.contact_radius, rel=0.1)
-        assert load * UNIT == pytest.approx(minimum.load, rel=0.03)
+    for minimum, expected in zip(minima(analysis, unit), COATINGS[1e9, 0.4, 100e-9], strict=True):
+        radius, force, _ = expected
+        assert minimum == (pytest.approx(radius, rel=0.1), pytest.approx(-force / UNIT, rel=0.03))
     force = analysis.solution("pull_off_force")
     assert force.value * UNIT == pytest.approx(663.18121e-9, rel=2e-7)
     assert force.u_num < 2e-7 * force.value
-
-
-@pytest.mark.parametrize(
-    ("layers", "substrate"),
-    [
-        *heavy(
-            # Soft, stiff, soft: the modulus of the surface tells nothing of the one in the middle.
-            ([(50e6, 0.45, 40e-9), (5e9, 0.3, 30e-9), (20e6, 0.4, 400e-9)], (1e6, 0.49)),
-            ([(5e9, 0.3, 20e-9), (20e6, 0.4, 3e-7), (2e9, 0.3, 200e-9)], (2e6, 0.4)),
-            ([(0.15e6, 0.4, 300e-9)], (1.5e9, 0.3)),
-            ([(150e6, 0.4, 5e-6)], (1.5e6, 0.49)),
-        ),
-    ],
-)
-def test_layers_against_jkr(layers, substrate):
-    problem, _ = contact(layered(layers, substrate))
-    force = solve(problem, "pull_off_force", 1e-4)
-    expected = min(minima_with_error(Stack(tuple(layers), substrate), WORK, R), key=lambda m: m.load)
-    # The short range that is left: JKR at a Tabor number of 4, with the modulus of the surface, is 3 % away.
-    assert force.value * UNIT == pytest.approx(-expected.load, rel=3e-2)
 
 
 def test_a_compressive_load_does_not_end_the_path_above_a_stiff_layer():

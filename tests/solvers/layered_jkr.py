@@ -296,8 +296,3 @@ def minima_with_error(stack: Stack, work: float, Q: float, n: float = 2.0) -> li
         Minimum(state.contact_radius, state.load, abs(coarse.state(state.contact_radius).load - state.load))
         for state in fine.minima()
     ]
-
-
-def pull_off_force(stack: Stack, work: float, Q: float, n: float = 2.0) -> Minimum:
-    """The global minimum of the load; its load is negative."""
-    return min(minima_with_error(stack, work, Q, n), key=lambda minimum: minimum.load)

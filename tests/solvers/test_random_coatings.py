@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-import fem_reference
 import fscm
+from tests.marks import heavy
+from tests.solvers.agreement import agreeing
 from tests.solvers.layered_jkr import Stack, minima_with_error
 
 # The finite elements need more than a minute beyond this Tabor number.
@@ -70,14 +71,11 @@ def random_sphere(number: int) -> Sphere:
     return Sphere(R, work, z0, "TabulatedModulus", (depths, moduli * np.exp(shares), nu), None)
 
 
-@pytest.mark.parametrize(
-    "number", [8, *(pytest.param(i, marks=pytest.mark.heavy) for i in range(60) if i not in (8, NOT_FOLLOWED))]
-)
+@pytest.mark.parametrize("number", [8, *heavy(*(i for i in range(60) if i not in (8, NOT_FOLLOWED)))])
 def test_both_references_agree_and_are_near_jkr_where_the_range_is_short(number):
     """Measured: the difference is at most 0.22 of the sum of the bounds."""
     sphere = random_sphere(number)
-    integral, elements = (solver.solve(sphere.problem(solver), "pull_off_force") for solver in (fscm, fem_reference))
-    assert abs(integral.value - elements.value) <= integral.u_num + elements.u_num
+    integral, elements = agreeing(sphere.problem)["pull_off_force"]
     assert max(integral.u_num, elements.u_num) < LARGEST_BOUND * integral.value
     if sphere.stack is not None and sphere.problem(fscm).mu > LARGE_TABOR:
         limit = -min(minimum.load for minimum in minima_with_error(sphere.stack, sphere.work, sphere.R))

@@ -28,51 +28,38 @@ def two_threads():
 
 
 class EndsTheComputation(Exception):
-    """Raised by the punch, with the number of threads that it sees inside the computation."""
+    """Raised by the surface law inside the computation."""
 
 
-def height(r):
-    if blas_threads() == {1}:
-        raise EndsTheComputation
-    return np.asarray(r) ** 2 / 2
-
-
+PROBLEM = fscm.Problem(2, 0.4, 1.0)
+SOLID = fem_reference.PowerLaw(50.0, 1.0, 0.0, 0.3)
+OF_ELEMENTS = fem_reference.Problem(SOLID, fem_reference.PowerPunch(2.0, 1.0), fem_reference.LennardJones(1.0, 1.0))
 COMPUTATIONS = {
-    "force": lambda package, problem: package.solve(problem, "pull_off_force", "quick"),
-    "path": lambda package, problem: package.trace(problem, "quick"),
-    "profile": lambda package, problem: package.profile(problem, accuracy="quick"),
+    "force": lambda: fscm.solve(PROBLEM, "pull_off_force"),
+    "path": lambda: fscm.trace(PROBLEM, "quick"),
+    "profile": lambda: fscm.profile(PROBLEM),
+    "critical": lambda: fscm.solve(PROBLEM, "critical_tabor_number"),
+    "analysis": lambda: fscm.Analysis(PROBLEM).points,
+    "states": lambda: fscm.equilibria(PROBLEM, "displacement", 0.0),
+    "scheme": lambda: StieltjesScheme(PROBLEM, 20).solve(10.0),
+    "scheme's force": lambda: stieltjes_solution(PROBLEM, "pull_off_force", 20, last_gap=5.0),
+    "Gibson": lambda: fscm.solve(fscm.Problem(2, 1, 1), "pull_off_force"),
+    "force of elements": lambda: fem_reference.solve(OF_ELEMENTS, "pull_off_force", "quick"),
+    "path of elements": lambda: fem_reference.trace(OF_ELEMENTS, "quick"),
+    "profile of elements": lambda: fem_reference.profile(OF_ELEMENTS, accuracy="quick"),
 }
 
 
-@pytest.mark.parametrize("package", [fscm, fem_reference], ids=lambda package: package.__name__)
 @pytest.mark.parametrize("compute", COMPUTATIONS.values(), ids=COMPUTATIONS)
-def test_an_exception_inside_the_computation_restores_the_threads(package, compute):
-    punch = package.CustomPunch(height, 2.0, lambda r: r)
-    problem = package.Problem(package.PowerLaw(50.0, 1.0, 0.0, 0.3), punch, package.LennardJones(1.0, 1.0))
-    with pytest.raises(EndsTheComputation):
-        compute(package, problem)
-    assert blas_threads() == {2}
-
-
-@pytest.mark.parametrize(
-    "compute",
-    [
-        lambda problem: fscm.solve(problem, "critical_tabor_number"),
-        lambda problem: fscm.Analysis(problem).points,
-        lambda problem: fscm.equilibria(problem, "displacement", 0.0),
-        lambda problem: StieltjesScheme(problem, 20).solve(10.0),
-        lambda problem: stieltjes_solution(problem, "pull_off_force", 20, last_gap=5.0),
-        lambda problem: fscm.solve(fscm.Problem(2, 1, 1, law=problem.law), "pull_off_force"),
-    ],
-)
-def test_other_computations_of_the_integral_equation_have_one_thread(compute, monkeypatch):
+def test_a_computation_has_one_thread_and_an_exception_inside_restores_two(compute, monkeypatch):
     def traction(law, H):
         assert blas_threads() == {1}
         raise EndsTheComputation
 
-    monkeypatch.setattr(fscm.LennardJones, "traction", traction)
+    for package in (fscm, fem_reference):
+        monkeypatch.setattr(package.LennardJones, "traction", traction)
     with pytest.raises(EndsTheComputation):
-        compute(fscm.Problem(2, 0.4, 1.0))
+        compute()
     assert blas_threads() == {2}
 
 

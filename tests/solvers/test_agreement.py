@@ -1,0 +1,53 @@
+"""Both references on other solids, punches and laws than power laws: inside the bounds of each other."""
+
+import numpy as np
+import pytest
+
+from tests.marks import heavy
+from tests.solvers.agreement import agreeing
+
+RADII = np.array([0.0, 0.8, 1.6, 2.5, 4.0])
+GAPS = np.geomspace(0.75, 20.0, 80)
+QUANTITIES = ("pull_off_force", "pull_off_displacement", "jump_out_displacement", "zero_load_displacement")
+LARGEST_BOUND = 1e-5
+
+SOLIDS = {
+    "coating": lambda package: package.Coating(1.0, 10.0, 1.0, 0.0, 0.3),
+    "smooth coating": lambda package: package.Coating(10.0, 1.0, 0.5, 0.1, 0.3),
+    "offset power law": lambda package: package.OffsetPowerLaw(0.91, 1.0, 0.4, 1.0, 0.3),
+    "exponential": lambda package: package.Exponential(1.0, 3.0, 2.0, 0.3),
+}
+PUNCHES = {
+    "measured": lambda package: package.MeasuredPunch(RADII, RADII**2 / 2.0),
+    "rounded cone": lambda package: package.RoundedCone(0.5, 1.0),
+    "sum of powers": lambda package: package.PowerSum((0.5, 0.1), (2.0, 4.0)),
+}
+LAWS = {
+    "Mie": lambda package: package.Mie(1.0, 1.0, 12.0, 6.0),
+    "table": lambda package: package.TabulatedLaw(GAPS, GAPS**-9 - GAPS**-3, z0=1.0, tail_exponent=3.0),
+}
+
+
+def posed(name):
+    """The problem in which one of the three is that of the name."""
+
+    def problem(package):
+        solid = SOLIDS.get(name, lambda package: package.PowerLaw(1.0, 1.0, 0.0, 0.3))(package)
+        punch = PUNCHES.get(name, lambda package: package.PowerPunch(2.0, 1.0))(package)
+        law = LAWS.get(name, lambda package: package.LennardJones(1.0, 1.0))(package)
+        return package.Problem(solid, punch, law)
+
+    return problem
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", SOLIDS)
+def test_quantities_of_graded_solids(name):
+    agreeing(posed(name), QUANTITIES, "quick")
+
+
+@pytest.mark.parametrize("name", ["measured", *heavy("rounded cone", "sum of powers", *LAWS)])
+def test_forces_of_other_punches_and_laws(name):
+    """The kinks of a measured punch are nodes of the mesh."""
+    integral, elements = agreeing(posed(name), accuracy="quick")["pull_off_force"]
+    assert max(integral.u_num, elements.u_num) < LARGEST_BOUND * integral.value
