@@ -17,8 +17,6 @@ from tests.certified.collocation import Collocation
 from tests.certified.panel_functions import BITS
 from tests.certified.sphere_form import SphereForm, cubic_coefficients
 
-__all__ = ["ApproximateStates", "approximate_states"]
-
 # Each correction of the states adds the digits of a double.
 _CORRECTIONS = 3
 # The second weight would elsewhere be smaller than the error of its interpolation.

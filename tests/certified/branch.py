@@ -20,8 +20,6 @@ from tests.certified.panel_functions import BITS
 from tests.certified.sphere_form import SphereForm, cubic_coefficients
 from tests.certified.state_bounds import StateEnclosure, enclose
 
-__all__ = ["Piece", "Shape", "branch", "linked", "one_minimum", "piece"]
-
 # A piece may be this wide, and has to be at least so wide; a rejected one is halved, the next one is tried wider.
 _WIDEST, _NARROWEST, _GROWTH = 2e-2, 1e-5, 1.3
 # Neighbours overlap by this part of a half-width, so that the rounding of a centre leaves no space between them.

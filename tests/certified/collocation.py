@@ -7,8 +7,6 @@ from flint import arb, arb_mat
 
 from tests.certified.sphere_form import SphereForm
 
-__all__ = ["Collocation"]
-
 _NEWTON_STEPS, _NEWTON_TOLERANCE = 60, 1e-12
 # A displacement at which the gap is large, and a step that Newton's method can follow.
 _START, _STEP = -1.5, 0.1

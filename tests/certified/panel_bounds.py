@@ -20,8 +20,6 @@ from tests.certified.panel_functions import (
 )
 from tests.certified.sphere_form import cubic_coefficients
 
-__all__ = ["NotProved", "PanelBounds", "panel_bounds"]
-
 
 class NotProved(Exception):
     """A condition of the proof does not hold with these approximations, panels and radii."""

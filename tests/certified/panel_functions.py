@@ -15,8 +15,6 @@ from itertools import pairwise
 import numpy as np
 from flint import arb, arb_poly, ctx, fmpz_poly
 
-__all__ = ["BITS", "Panel", "absolute", "cut", "least", "monomials", "panels", "powers", "product", "shift_bits"]
-
 DEGREE = 40
 BITS = 200
 

@@ -26,8 +26,6 @@ from tests.certified.panel_functions import BITS
 from tests.certified.sphere_form import SphereForm
 from tests.certified.state_bounds import enclose
 
-__all__ = ["CERTIFIED", "Certified", "PullOff", "minimum", "pull_off_enclosure"]
-
 # Tubes of the proof at delta* and on the interval, in units of W; wide enough for the states, narrow enough for N.
 _NARROW_TUBE, _TUBE = arb(1e-8), arb(1e-5)
 

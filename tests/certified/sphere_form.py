@@ -25,8 +25,6 @@ from dataclasses import dataclass
 
 from flint import arb, fmpq
 
-__all__ = ["SphereForm", "at_infinity", "cubic_coefficients"]
-
 
 def cubic_coefficients(degree: int) -> list[arb]:
     """Legendre coefficients (2 l + 1) I_l of sigma^3: I_0 = 2 / 5, I_(l+1) / I_l = (3 - 2 l) / (7 + 2 l)."""

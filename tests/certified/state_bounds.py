@@ -37,8 +37,6 @@ from tests.certified.panel_bounds import NotProved, PanelBounds
 from tests.certified.panel_functions import BITS
 from tests.certified.sphere_form import at_infinity
 
-__all__ = ["StateEnclosure", "enclose"]
-
 
 @dataclass(frozen=True)
 class StateEnclosure:

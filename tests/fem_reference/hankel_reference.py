@@ -137,7 +137,7 @@ def pull_off(
                 break
         else:
             raise RuntimeError(f"Newton's method of the reference does not converge at the central gap {gap}")
-        rate = lu_rate(factors, r.size)
+        rate = linalg.lu_solve(factors, np.append(np.zeros(r.size), 1.0))
         p, slope = _law(H)
         ring = 2 * np.pi * weight * r
         far_load, _, load_slope, _ = tail(delta, ring @ p)
@@ -162,13 +162,6 @@ def pull_off(
     root = brentq(load_rate, gap, above, xtol=1e-11)
     _, delta, load, _, _ = states[root]
     return PullOff(-load, delta)
-
-
-def lu_rate(factors, size: int) -> np.ndarray:
-    """Change of the state with the central gap."""
-    unit = np.zeros(size + 1)
-    unit[-1] = 1.0
-    return linalg.lu_solve(factors, unit)
 
 
 def _law(H: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,13 +1,12 @@
 """Completeness of the path: no pair of turning points between two samples, and both ends of each jump."""
 
-import math
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from fem_reference import NotConverged, solve_together, trace
+from fem_reference import NotConverged
 from fem_reference._contact import completeness
 from fem_reference._contact.completeness import complete_path, displacement_range
 from fem_reference._contact.events import PathEvents
@@ -61,29 +60,6 @@ def test_a_level_reached_only_at_a_turning_point_between_samples_counts():
     branch = AnalyticBranch(Polynomial([0.0, 1.0]), Polynomial.fromroots([-3.0, 0.2, 0.3]).coef)
     events = PathEvents(branch.points([-4.0, -2.0, -1.0, 0.0, 0.5, 1.0, 2.0]))
     assert events.zero_load.parameter == pytest.approx(0.3)
-
-
-@pytest.fixture(scope="module")
-def folded():
-    """Three folds before the contact edge is formed; two are within one step of the central gap."""
-    return problem_with(0.7, 1.5, 3.3)
-
-
-#: Values of the integral equation, solved with 85 points of an arc length.
-FOLDED = {"jump_in_displacement": -2.2016538716, "jump_in_gap": 1.1841111197, "hysteresis_energy": 0.2888663007}
-
-
-@pytest.mark.heavy
-def test_the_jump_into_contact_is_the_first_fold(folded):
-    """The next test has the gap of the jump alone."""
-    solutions = solve_together(folded, tuple(FOLDED), "quick")
-    for name, value in FOLDED.items():
-        unit = math.pi if name == "hysteresis_energy" else 1.0
-        assert abs(solutions[name].value / unit - value) <= solutions[name].u_num / unit, name
-        assert solutions[name].u_num <= 1e-4 * unit
-    samples = trace(folded, "quick").displacement
-    first_fall = int(np.flatnonzero(np.diff(samples) < 0)[0])
-    assert samples[: first_fall + 1].max() <= solutions["jump_in_displacement"].value + 1e-6
 
 
 def test_the_path_begins_beyond_the_jump_out_of_contact():

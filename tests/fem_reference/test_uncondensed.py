@@ -4,7 +4,6 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
-import pyamg
 import pytest
 
 from fem_reference import NotConverged, solve
@@ -85,17 +84,6 @@ def test_the_value_is_that_of_the_whole_system_and_not_of_the_condensed_path(sof
         assert solution.algebra >= 0.99 * abs(wrong - right), name
 
 
-def test_the_whole_system_agrees_with_a_right_condensation(soft_path, soft_system):
-    events = UncondensedEvents(soft_path, lambda: soft_system)
-    events.prepare(row.functional for row in TABLE.values())
-    for name, row in TABLE.items():
-        solution = events.value(row.functional)
-        assert solution.value != row.functional(soft_path), name
-        assert solution.value == pytest.approx(row.functional(soft_path), abs=ALGEBRA), name
-        assert solution.algebra <= ALGEBRA, name
-        assert solution.iterations <= 20, name
-
-
 def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeypatch):
     """With a coarse tolerance the estimate alone, without the distance from the condensed value, covers the error."""
     monkeypatch.setattr(uncondensed, "LINEAR_TOLERANCE", 1e-5)
@@ -151,17 +139,6 @@ def test_the_end_of_a_further_jump_is_kept_on_any_mesh(soft_path):
     shifted["landing_2"].shift(np.zeros(end.state.y.size - 2), None, shifted, {"landing_2": equation})
     assert not equation.is_fold
     assert np.array_equal(shifted["landing_2"].y, equation.y)
-
-
-def _nothing_solved(self, b, **options):
-    return np.full_like(b, np.nan)
-
-
-def test_without_pyamg_there_is_no_value(monkeypatch, soft_path, soft_system):
-    monkeypatch.setattr(pyamg.multilevel.MultilevelSolver, "solve", _nothing_solved)
-    events = UncondensedEvents(soft_path, lambda: soft_system)
-    with pytest.raises(NotConverged, match="conjugate gradients reached a residual"):
-        events.value(TABLE["pull_off_force"].functional)
 
 
 def test_a_solution_holds_the_value_of_the_whole_system(solved):

@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import fscm
-from fscm import ATLAS_QUANTITIES, NoSuchEvent, OutsideAtlas, Problem, atlas
+from fscm import ATLAS_QUANTITIES, NoSuchEvent, OutsideAtlas, atlas
 from fscm.interpolation import fitting
 from fscm.interpolation.__main__ import main, nodes_in
 from fscm.interpolation.building import FACTOR, build, layouts, tail_bound
@@ -16,7 +15,6 @@ from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, RELA
 from fscm.interpolation.coordinates import BOX, LEAST_MU, MOST_MU
 from fscm.interpolation.design import rounded, sobol
 from fscm.interpolation.storage import stored
-from tests.fscm.marks import heavy
 
 TABLES = Path(__file__).resolve().parents[2] / "results" / "baseline" / "atlas"
 JUMPS = [name for name, composition in QUANTITIES.items() if composition.jumps]
@@ -102,8 +100,6 @@ def test_the_random_problems_are_those_of_the_recorded_seed():
     random = rows(*parameters(table("verification")))
     assert random == rows(*random_problems(2000))
     assert not random & rows(*parameters(table("nodes")))
-    beside = table("verification_near")
-    assert rows(*parameters(beside)[:2]) == rows(*random_problems(len(beside))[:2])
 
 
 def test_jumps_exist_where_the_solver_finds_them():
@@ -114,21 +110,6 @@ def test_jumps_exist_where_the_solver_finds_them():
     for quantity in JUMPS:
         exists = np.isfinite(atlas(n, k, mu, quantity, missing="nan").value)
         assert np.array_equal(exists[sure], rows[quantity].notna().to_numpy()[sure])
-
-
-@pytest.mark.parametrize(
-    ("problem", "quantities"),
-    [
-        # 1.3e-3 above the critical Tabor number, where the two folds are close to each other.
-        ((3.31474, 0.248807, 0.703503), ("jump_in_gap", "jump_out_gap", "pull_off_force")),
-        # A path with many turning points at a wide range of scales.
-        *heavy(((1.58094, 0.791532, 2.17635), tuple(QUANTITIES)), ((5.2, 0.31, 4.4), tuple(QUANTITIES))),
-    ],
-)
-def test_problems_that_are_solved_anew_are_within_the_bounds(problem, quantities):
-    for quantity, solution in fscm.solve_together(Problem(*problem), quantities).items():
-        value, bound = atlas(*problem, quantity)
-        assert abs(value - solution.value) <= bound + solution.u_num, quantity
 
 
 def test_the_corners_of_the_box_belong_to_it():

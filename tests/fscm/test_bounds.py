@@ -2,7 +2,6 @@
 
 import pickle
 from dataclasses import FrozenInstanceError, replace
-from functools import cache
 
 import numpy as np
 import pytest
@@ -16,7 +15,7 @@ from fscm.laws import Mie
 from fscm.measured_punch import MeasuredPunch
 from fscm.punch import PowerSum
 from tests.fscm.equilibria_on_finer_meshes import FINER, finer_analysis
-from tests.fscm.marks import heavy
+from tests.marks import heavy
 
 # The error of one dominant cause may not exceed its part, nor be below this share of it: so that a part which is only
 # 0.3 times as large is noticed.  Measured least share 0.45.
@@ -123,17 +122,12 @@ def test_every_number_of_an_equilibrium_has_its_own_bound(control: str, value: f
         assert abs(getattr(state, control) - value) <= state.parts[control].total < 1e-13
 
 
-@cache
-def gauss_nodes() -> tuple[np.ndarray, np.ndarray]:
-    return np.polynomial.legendre.leggauss(2000)
-
-
 @pytest.mark.parametrize("law", [Mie(m=9, n=3), Mie(m=3, n=1.5), Mie(m=3, n=2)])
 def test_the_errors_of_the_tail_against_quadrature(law: Mie) -> None:
     """Load and energy behind a near end against Gauss quadrature over ten decades."""
     problem, T, displacement = Problem(2, 0.3, 1.0, law=law), 30.0, -1.5
     errors, remainder = tail_errors(problem, T, displacement)
-    x, w = gauss_nodes()
+    x, w = np.polynomial.legendre.leggauss(1000)
     log_t = np.log(T) + 0.5 * np.log(1e10) * (1.0 + x)
     t = np.exp(log_t)
     gap = t**2 / 2.0 - displacement

@@ -9,14 +9,13 @@ import pytest
 from fscm import Analysis, Problem, displacement_cycle, equilibria, trace
 from fscm._completeness import completed, may_hide
 from fscm._path_end import LeastLoad, displacement_of_compression
-from fscm._whole_path import path_until
 from fscm.custom_punch import CustomPunch
 from fscm.errors import NotConverged
 from fscm.experiment import load_controlled_retreat
 from fscm.path import EquilibriumPath
 from fscm.punch import PowerSum, RoundedCone
-from tests.fscm.marks import heavy
 from tests.fscm.solved_once import analysis_of, path_of
+from tests.marks import heavy
 
 ASPERITY = Problem(2, 0, 0.3, punch=CustomPunch(lambda r: -8 * np.expm1(-(r**2)) + r**2 / 50, growth=2))
 
@@ -92,10 +91,6 @@ def test_what_may_hide(change: float, start: float, end: float, hides: bool) -> 
 
 def test_steps_over_a_pair_of_folds_are_found() -> None:
     """A path with all points near its two folds left out is completed again."""
-    points = analysis_of(Problem(2, 0.4, 1.0)).points
-    turn = [i for i, (a, b) in enumerate(pairwise(points)) if a.rates.displacement * b.rates.displacement < 0.0]
-    # The folds of this problem lie on two segments; those of k = 0.6, mu = 3 on one.
-    assert len(turn) == 2
     full = analysis_of(Problem(2, 0.6, 3.0)).points
     signs = [point.rates.displacement > 0.0 for point in full]
     down = signs.index(False)
@@ -103,22 +98,6 @@ def test_steps_over_a_pair_of_folds_are_found() -> None:
     assert full[down - 1].segment == full[up].segment
     points = completed([*full[:down], *full[up:]], 1e-4)
     assert sum(p.rates.displacement < 0.0 for p in points) > sum(p.rates.displacement < 0.0 for p in full[up:])
-
-
-@pytest.mark.heavy
-def test_the_folds_of_a_path_are_those_of_one_with_short_steps() -> None:
-    problem = Problem(2, 0.6, 3.0)
-    points = path_until(
-        problem, 10, 1e-4, lambda state: state.follows_edge and state.load > 0.0, "the end", longest_step=0.02
-    )
-    turns = [
-        name
-        for a, b in pairwise(points)
-        for name in ("load", "displacement")
-        if a.segment == b.segment and getattr(a.rates, name) * getattr(b.rates, name) < 0.0
-    ]
-    assert len(turns) == 13
-    assert sorted(turns) == sorted(fold.quantity for fold in analysis_of(problem).folds)
 
 
 @pytest.mark.parametrize(

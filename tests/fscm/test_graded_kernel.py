@@ -7,12 +7,11 @@ import pytest
 
 from fscm import Coating, CustomSolid, Exponential, Layers, OffsetPowerLaw, TabulatedModulus, ring_response
 from fscm._bounds import _KERNEL_RATE
-from fscm._response_factor import response_factor
 from fscm.graded import GradedKernel
 from fscm.graded.compliance import compliance
 from fscm.graded.patches import ImageTable
 from fscm.solids import contact_modulus
-from tests.fscm.marks import heavy
+from tests.marks import heavy
 
 SOLIDS = {
     "offset": OffsetPowerLaw(1.0, 1.0, 0.4, 1.0, 0.3),
@@ -101,26 +100,6 @@ def test_homogeneous_limits():
     thick, thin = Coating(1.0, 4.0, 1e12, 0.0, 0.3), Coating(1.0, 4.0, 1e-13, 0.0, 0.3)
     assert np.allclose(GradedKernel(thick).response(r, t), plain, rtol=1e-9, atol=0.0)
     assert np.allclose(GradedKernel(thin, 1e3).response(r, t), 0.25 * plain, rtol=1e-9, atol=0.0)
-
-
-def _offset_and_exact(k, z_s):
-    """(2 / E*(0)) G of a small offset against (2 b / E*) G_k, at radii up to a tenth of the longest distance."""
-    r, t = np.random.default_rng(3).uniform(0.1, 10.0, (2, 50))
-    apart = np.abs(r - t) > 0.05  # the offset changes the kernel by its ratio to the distance
-    r, t = r[apart], t[apart]
-    response = GradedKernel(OffsetPowerLaw(1.0, 1.0, k, z_s, 0.3), 1e2).response(r, t) * z_s**-k
-    return response, response_factor(k, 0.3) * ring_response(k, r, t)
-
-
-@pytest.mark.parametrize(("k", "z_s"), [(0.4, 1e-6), (0.8, 1e-5), *heavy((0.2, 1e-6), (0.6, 1e-6))])
-def test_the_limit_of_small_offsets_is_the_exact_kernel_of_the_power_law(k, z_s):
-    """The difference falls like z_s, and the limit from two offsets is exact to 1e-8."""
-    computed, exact = _offset_and_exact(k, z_s)
-    half, _ = _offset_and_exact(k, 0.5 * z_s)
-    whole, halved = (float(np.max(np.abs(x / exact - 1.0))) for x in (computed, half))
-    assert halved > 5e-8 * k
-    assert whole / halved == pytest.approx(2.0, abs=5e-2)
-    assert np.allclose(2.0 * half - computed, exact, rtol=1e-8, atol=0.0)
 
 
 def test_nothing_is_left_of_the_images_beyond_their_last_wave_number():

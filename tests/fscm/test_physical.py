@@ -94,17 +94,6 @@ def test_tabor_numbers_are_eqs_29_and_30(n, k, nu):
     assert p.tabor_number_jin == pytest.approx(mu * ratio ** (-n / s), rel=1e-13)
 
 
-def test_compliance_is_the_factor_of_eq_20_in_dimensionless_form():
-    p = physical()
-    solid, units = p.solid, p.units
-    # 2 b c0^k r^(1-k) / (E* (1-k)) times traction / z0, r: unit of the radii
-    response = 2 * solid.response_factor * solid.c0**p.k * units["radius"] ** (1 - p.k) / (1 - p.k)
-    factor = response / solid.contact_modulus * units["traction"] / units["gap"]
-    assert p.dimensionless.compliance == pytest.approx(factor, rel=1e-12)
-    with pytest.raises(ValueError, match="physical units"):
-        p.compliance  # noqa: B018  (the property refuses)
-
-
 def test_units_are_eqs_25_27_and_31():
     R, w, z0 = 1e-6, 0.05, 3e-10
     expected = {
@@ -196,7 +185,6 @@ SAME = {
     "sum": ((SPHERE_PUNCH, LAW), (PowerSum([0.5 / RADIUS], [2.0]), LAW)),
     "function": ((SPHERE_PUNCH, LAW), (CustomPunch(lambda r: r**2 / (2.0 * RADIUS), growth=2.0), LAW)),
     "rounded cone": ((ROUNDED, Mie(0.05, Z0, m=12, n=6)), (Bare(ROUNDED), Mie(0.05, Z0, m=12, n=6))),
-    "measured": ((SEGMENTS, LAW), (Bare(SEGMENTS), LAW)),
     "law of one's own": ((SPHERE_PUNCH, LAW), (SPHERE_PUNCH, OwnLaw(LAW))),
     "range": tuple((SPHERE_PUNCH, TabulatedLaw(CUT_GAPS, TRACTIONS, z0, tail_exponent=3)) for z0 in (Z0, 2.0 * Z0)),
 }
@@ -234,6 +222,8 @@ def test_bad_input_is_refused_by_name(name):
 
 
 def test_other_refusals():
+    with pytest.raises(ValueError, match="physical units"):
+        _ = physical().compliance
     with pytest.raises(ValueError, match="Gibson"):
         physical(k=1.0, nu=0.3)
     with pytest.raises(ValueError, match=r"Eq\. 29"):

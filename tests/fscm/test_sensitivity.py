@@ -9,12 +9,9 @@ import pytest
 from fscm import (
     SENSITIVE,
     Coating,
-    LennardJones,
     MeasuredPunch,
     Mie,
     NoSuchEvent,
-    PowerLaw,
-    PowerPunch,
     Problem,
     RoundedCone,
     ValueSensitivity,
@@ -22,7 +19,7 @@ from fscm import (
     solve,
     solve_together,
 )
-from tests.fscm.marks import heavy
+from tests.marks import heavy
 
 #: Step of the differences of solved problems: their error is the third derivative times its square over 6, measured at
 #: most 6e-7 of the derivative for these problems; the error of the sensitivities is far below.
@@ -121,27 +118,6 @@ def test_quantities_of_a_coated_solid(name, quantities):
             lambda x, quantity=quantity: quantities_of_a_coated_solid(name, x, quantities)[quantity].value, AT[name]
         )
         assert close(slope, expected, FITTED, scale=0.1), quantity
-
-
-def test_dimensions_of_the_force():
-    """Units of force and of length change nothing: d ln P / d ln p of all parameters adds up as their dimensions."""
-    values = {"E0": 2e9, "c0": 1e-6, "Q": 2.5e-6, "work_of_adhesion": 0.05, "z0": 4e-10}
-
-    def posed(**changed):
-        p = {**values, **changed}
-        law = LennardJones(p["work_of_adhesion"], p["z0"])
-        return Problem(PowerLaw(p["E0"], p["c0"], k=0.4, nu=0.3), PowerPunch(2.0, p["Q"]), law)
-
-    rates = sensitivity(posed(), "pull_off_force")
-    force = rates.solution.value
-    log = {
-        name: rates.derivative(lambda x, name=name: posed(**{name: x}), at, at) * at / force
-        for name, at in values.items()
-    }
-    assert abs(log["E0"] + log["work_of_adhesion"] - 1.0) < IDENTITY
-    assert abs(log["c0"] + log["Q"] + log["z0"] - 2.0 * log["E0"] - log["work_of_adhesion"]) < IDENTITY
-    # E ~ E0 c0^-k
-    assert abs(log["c0"] + 0.4 * log["E0"]) < IDENTITY
 
 
 def test_the_incompressible_linear_solid_has_no_neighbours():

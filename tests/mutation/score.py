@@ -52,18 +52,11 @@ def mutants() -> list[Mutant]:
 
 @contextmanager
 def copy_of_the_repository() -> Iterator[Path]:
-    """A copy of the files that are under version control, or would be."""
-    listed = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        cwd=ROOT, capture_output=True, check=True,
-    )  # fmt: skip
+    """A copy of its files, but those that are built or belong to git."""
     with TemporaryDirectory() as folder:
-        for name in listed.stdout.decode().split("\0"):
-            if name and (ROOT / name).is_file():
-                target = Path(folder, name)
-                target.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(ROOT / name, target)
-        yield Path(folder)
+        copy = Path(folder, "copy")
+        shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".*", "build", "__pycache__", "*.egg-info"))
+        yield copy
 
 
 def noticed_by(tests: tuple[str, ...], copy: Path) -> str:
