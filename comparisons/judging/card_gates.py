@@ -7,7 +7,6 @@ alone are judged is an ERROR.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields
 from typing import Any
@@ -15,7 +14,6 @@ from typing import Any
 import pandas as pd
 
 from comparisons.judging.decision import Verdict, roll_up
-from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.judge import Judged, verdict_table
 from comparisons.problem import PARAMETERS
 
@@ -23,7 +21,6 @@ __all__ = [
     "CARD",
     "DIFFERS",
     "SAME_AGAIN",
-    "card_gates",
     "every_verdict",
     "judge_cards",
     "judge_digits",
@@ -43,35 +40,6 @@ _NUMERICAL = ("fscm", "fem", "atlas")
 
 #: Columns of numbers of a table of verdicts.
 _NUMBERS = [field.name for field in fields(Judged) if "float" in str(field.type)]
-
-#: Id of a gate -> its requirement, and its grounds.
-_REQUIREMENTS = {
-    SAME_AGAIN: (
-        "The model gives the same number again in a new process with the evaluations in another order.",
-        "evaluate is a function of its arguments.  On another machine the bounds of both numbers are tolerated.",
-    ),
-    DIFFERS: (
-        "In most cases of each gate the value of the model is not that of a numerical reference, if only in a digit.",
-        "A number that is computed by the reference or copied from it agrees with it whatever the model is.",
-    ),
-}
-
-
-def card_gates(judged: pd.DataFrame) -> list[Gate]:
-    """Return the gates of report cards that are in a table of verdicts.
-
-    Examples
-    --------
-    >>> [gate.id for gate in card_gates(pd.DataFrame({"gate": ["MINE", "CARD-DIFFERS"]}))]
-    ['CARD-DIFFERS']
-    """
-    entries: dict[str, Any] = {"quantity": "pull_off_force", "candidate": GIVEN, "reference": GIVEN, "cases": {}}
-    entries |= {"metric": "abs", "lower": 0.0, "upper": 0.0, "max_reference_uncertainty": math.inf, "min_cases": 1}
-    return [
-        Gate(id=id, requirement=requirement, grounds=grounds, basis="derived", tier="quick", **entries)
-        for id, (requirement, grounds) in _REQUIREMENTS.items()
-        if id in set(judged["gate"])
-    ]
 
 
 def without_card_gates(table: pd.DataFrame) -> pd.DataFrame:

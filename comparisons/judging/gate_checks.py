@@ -14,12 +14,6 @@ if TYPE_CHECKING:
 
 __all__ = ["LARGEST_MARGIN", "defects", "plain_text"]
 
-#: The largest finite limit in size. A model that is a thousand times the reference is wrong by any measure, so that a
-#: limit beyond can only let such a model pass; values themselves, which "abs" limits, are below 100 in every standing
-#: case, and a million leaves room for extreme ones.
-_LARGEST_LIMIT = {"abs": 1e6}
-_LARGEST_OTHER_LIMIT = 1e3
-
 #: Size of the ends of a measured range over the worst error measured. The difference of two accurate references is
 #: numerical noise, of which another machine has several times as much; beyond ten times the code has changed.
 LARGEST_MARGIN = 10.0
@@ -73,13 +67,6 @@ def _of_limits(gate: Gate) -> Iterator[str]:
         yield f"{_limits(gate)} admit nothing or everything; one must be finite"
     if gate.metric == "curve" and not (gate.lower == -math.inf and gate.upper > 0.0):
         yield f"{_limits(gate)} must be -inf and a positive number: a distance has no lower limit"
-    largest = _LARGEST_LIMIT.get(gate.metric, _LARGEST_OTHER_LIMIT)
-    for name, limit in (("lower", gate.lower), ("upper", gate.upper)):
-        if largest < abs(limit) < math.inf:
-            yield (
-                f"{name} = {exact(limit)} is beyond {largest:g} in size, the largest limit of the metric "
-                f"{gate.metric}: no model would fail; state a smaller one, or {math.copysign(math.inf, limit)} for none"
-            )
 
 
 def _of_uncertainties(gate: Gate) -> Iterator[str]:

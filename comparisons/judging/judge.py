@@ -1,13 +1,13 @@
 """Verdicts of gates on stored results; no model is computed.
 
-The declared cases decide what a gate expects, not the rows that exist.  So a row that is missing, is there twice or
-belongs to no declared case is an ERROR and not a smaller sample.
+The declared cases decide what a gate expects, not the rows that exist.  So a row that is missing or is there twice is
+an ERROR and not a smaller sample.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 
 import pandas as pd
@@ -17,13 +17,12 @@ from comparisons.judging.decision import Verdict, crossing, decide, expecting_fa
 from comparisons.judging.gates import Gate
 from comparisons.judging.metrics import CaseError, case_error, reference_range
 from comparisons.judging.selection import cases_of, promised, relevant
-from comparisons.judging.stored_results import CURVE, NUMBER, GateResults, StoredResults, UnusableResult
+from comparisons.judging.stored_results import CURVE, NUMBER, GateResults, UnusableResult, rows_by_key
 from comparisons.numerics.number_text import exact
 from comparisons.problem import Problem
 from comparisons.runs.case_columns import without_empty_problem
 from comparisons.runs.cases import Grid
-from comparisons.runs.rows import Key
-from comparisons.runs.tasks import plan, problem_for
+from comparisons.runs.tasks import problem_for
 
 __all__ = ["NO_EVENT", "OUTSIDE", "Judged", "judge", "verdict_table"]
 
@@ -75,7 +74,6 @@ def judge(
     curves: pd.DataFrame | None = None,
     models: Sequence[str] | None = None,
     domains: Mapping[str, Domain] | None = None,
-    others: Collection[Key] = (),
 ) -> pd.DataFrame:
     """Judge stored results.
 
@@ -92,8 +90,6 @@ def judge(
         Models that were given in place of those each grid names.
     domains : mapping of str to Domain, optional
         The domains that models declare: there "not applicable" is a failure, and outside it counts for nothing.
-    others : collection of key, optional
-        Rows of other cases that are declared elsewhere.
 
     Returns
     -------
@@ -101,14 +97,13 @@ def judge(
         The fields of `Judged`, one row a gate and case, in the order of the gates, then of the cases.
     """
     judged_gates = relevant(gates, grids, models)
-    declared = {task.key for task in plan(grids, None if models is None else list(models))} | {*others}
     of_curves = [gate for gate in judged_gates if gate.metric == "curve"]
-    numbers = StoredResults(rows, NUMBER, [gate for gate in judged_gates if gate not in of_curves])
-    points = StoredResults(curves, CURVE, of_curves)
+    numbers = rows_by_key(rows, NUMBER, [gate for gate in judged_gates if gate not in of_curves])
+    points = rows_by_key(curves, CURVE, of_curves)
     judged: list[Judged] = []
     for gate in judged_gates:
-        results, cases = points if gate in of_curves else numbers, cases_of(gate, grids, models)
-        judged += _judge_gate(gate, cases, results, declared, (domains or {}).get(gate.candidate))
+        results = GateResults(gate, points if gate in of_curves else numbers)
+        judged += _judge_gate(results, cases_of(gate, grids, models), (domains or {}).get(gate.candidate))
     return verdict_table(judged)
 
 
@@ -117,14 +112,8 @@ def verdict_table(judged: Iterable[Judged]) -> pd.DataFrame:
     return without_empty_problem(pd.DataFrame([asdict(row) for row in judged], columns=list(Judged.__slots__)))
 
 
-def _judge_gate(
-    gate: Gate, cases: Sequence[Problem], stored: StoredResults, declared: set[Key], domain: Domain | None
-) -> Iterator[Judged]:
-    if stored.missing_columns:
-        yield _whole(gate, f"the results have no column {', '.join(stored.missing_columns)}")
-        return
-    results = GateResults(gate, stored.rows)
-    scale = reference_range(results, cases)
+def _judge_gate(results: GateResults, cases: Sequence[Problem], domain: Domain | None) -> Iterator[Judged]:
+    gate, scale = results.gate, reference_range(results, cases)
     judged = [_judge_case(results, case, scale, domain) for case in cases]
     yield from judged
     if refusal := _refusal(gate, judged):
@@ -132,9 +121,6 @@ def _judge_gate(
     evaluated = sum(case.verdict is not Verdict.NOT_APPLICABLE for case in judged)
     if evaluated < gate.min_cases:
         yield _whole(gate, f"{evaluated} cases were evaluated, {gate.min_cases} are declared")
-    stray = [key for key in stored.rows if key[:2] == (gate.candidate, gate.quantity) and key not in declared]
-    if stray:
-        yield _whole(gate, f"{len(stray)} rows belong to cases that are not declared, e.g. {stray[0][2:]}")
 
 
 def _refusal(gate: Gate, judged: Sequence[Judged]) -> str:

@@ -8,10 +8,10 @@ from typing import Any
 import pandas as pd
 
 from comparisons.domain import Domain
-from comparisons.judging.card_gates import DIFFERS, SAME_AGAIN, overall, without_card_gates
+from comparisons.judging.card_gates import DIFFERS, overall, without_card_gates
 from comparisons.judging.decision import Verdict, roll_up
-from comparisons.judging.fresh_cases import RANDOM
-from comparisons.judging.summary import coverage, coverage_text
+from comparisons.judging.summary import coverage, coverage_text, worst_first
+from comparisons.numerics.number_text import error_text
 from comparisons.runs.case_columns import with_problem
 
 __all__ = ["card_lines", "given_models", "verdict_sentence"]
@@ -74,38 +74,19 @@ def verdict_sentence(name: str, verdicts: pd.DataFrame) -> str:
         return "no gate was evaluated"
     verdict = overall(rows_of_model)
     is_copied = (rows_of_model["gate"] == DIFFERS) & (rows_of_model["verdict"] != Verdict.PASS)
-    copied = list(rows_of_model.loc[is_copied, "reason"])
-    if copied and verdict is Verdict.INCONCLUSIVE:
-        return f"INCONCLUSIVE: {copied[0]}"
-    return "; and ".join([f"{verdict}: {_reason(rows_of_model, verdict)}", *copied])
+    reasons = [_reason(rows_of_model, verdict), *rows_of_model.loc[is_copied, "reason"]]
+    return f"{verdict}: {'; and '.join(dict.fromkeys(reasons))}"
 
 
 def _reason(rows_of_model: pd.DataFrame, verdict: Verdict) -> str:
-    judged = without_card_gates(rows_of_model[rows_of_model["error"].notna()])
+    """Return why a model has a verdict: the reason for a gate as a whole, if there is one, before that for a case."""
     if verdict is Verdict.PASS:
-        return f"it is within the limits in all {len(judged)} judged cases"
-    worst = rows_of_model[rows_of_model["verdict"] == verdict]
-    if verdict is not Verdict.FAIL:
-        return str(worst["reason"].iloc[0]) or f"{len(worst)} of {len(rows_of_model)} cases"
-    changed = worst.loc[worst["gate"] == SAME_AGAIN, "reason"]
-    if len(changed):
-        return f"it gives another number when it is evaluated again: {changed.iloc[0]}"
-    of_gates = worst[worst["n"].isna() & (with_problem(worst)["problem"] == "")]
-    if len(of_gates):
-        # On the standing cases before that on the fresh ones.
-        return str(
-            of_gates.sort_values("gate", key=lambda ids: ids.str.endswith(RANDOM), kind="stable")["reason"].iloc[0]
-        )
-    refused = worst.loc[worst["status"] == "not-applicable", "gate"]
-    if len(refused):
-        count = coverage(rows_of_model.loc[rows_of_model["gate"].isin(refused), "status"])["asked"]
-        return f"it is not applicable in {len(refused)} of the {count} cases of the domain that it declares"
-    worst = without_card_gates(worst)
-    largest = worst.loc[worst["error"].astype(float).abs().idxmax()]
-    return (
-        f"its error is beyond the limits in {len(worst)} of {len(judged)} cases, "
-        f"at worst {largest['error']:.3g} in {largest['gate']}"
-    )
+        judged = without_card_gates(rows_of_model)["error"].notna().sum()
+        return f"it is within the limits in all {judged} judged cases"
+    rows = worst_first(rows_of_model[rows_of_model["verdict"] == verdict])
+    worst = rows.loc[(rows["n"].notna() | (with_problem(rows)["problem"] != "")).idxmin()]
+    error = f"E = {error_text(worst['error'], worst['uncertainty'])}"
+    return f"{worst['reason'] or error} ({worst['gate']}{f', {len(rows)} cases' if len(rows) > 1 else ''})"
 
 
 def given_models(models: Sequence[str] | None, verdicts: pd.DataFrame) -> list[str]:

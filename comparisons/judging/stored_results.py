@@ -15,15 +15,15 @@ from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import Gate
 from comparisons.judging.selection import key_of
 from comparisons.problem import Problem
-from comparisons.runs.case_columns import keys_in, with_problem
-from comparisons.runs.rows import CASE, Key
+from comparisons.runs.case_columns import keys_in
+from comparisons.runs.rows import Key
 
-__all__ = ["CURVE", "NUMBER", "GateResults", "StoredResults", "UnusableResult"]
+__all__ = ["CURVE", "NUMBER", "GateResults", "UnusableResult", "rows_by_key"]
 
-#: Columns of a table of scalars without which nothing can be judged.
-NUMBER = {"model", "quantity", *CASE, "status", "reason", "value", "u_num"}
+#: Columns of a table of scalars that are judged.
+NUMBER = ("status", "reason", "value", "u_num")
 #: The same of a table of curves.
-CURVE = {"model", "quantity", *CASE, "status", "reason", "x", "y", "u_distance"}
+CURVE = ("status", "reason", "x", "y", "u_distance")
 
 
 class UnusableResult(Exception):
@@ -34,35 +34,28 @@ class UnusableResult(Exception):
         self.verdict, self.reason = verdict, reason
 
 
-class StoredResults:
-    """The rows of a table that some gates compare.
+def rows_by_key(
+    table: pd.DataFrame | None, columns: Iterable[str], gates: Iterable[Gate]
+) -> dict[Key, list[dict[str, Any]]]:
+    """Return the rows of a table that some gates compare, by their keys: more than one only for the points of a curve.
 
     Parameters
     ----------
     table : DataFrame or None
         None is a table without rows.
-    columns : set of str
+    columns : iterable of str
         `NUMBER` or `CURVE`.
     gates : iterable of Gate
-
-    Attributes
-    ----------
-    missing_columns : list of str
-    rows : dict
-        Key -> rows, more than one only for the points of a curve.
     """
-
-    def __init__(self, table: pd.DataFrame | None, columns: set[str], gates: Iterable[Gate]) -> None:
-        table = with_problem(pd.DataFrame(columns=sorted(columns)) if table is None else table)
-        self.missing_columns = sorted(columns - set(table.columns))
-        self.rows: dict[Key, list[dict[str, Any]]] = defaultdict(list)
-        names = {(model, gate.quantity) for gate in gates for model in gate.models.values()}
-        if self.missing_columns or not names:
-            return
-        needed = table[pd.MultiIndex.from_frame(table[["model", "quantity"]]).isin(list(names))]
-        records = needed[sorted(columns)].to_dict("records")
-        for key, record in zip(keys_in(needed), records, strict=True):
-            self.rows[key].append(record)
+    names = {(model, gate.quantity) for gate in gates for model in gate.models.values()}
+    rows: dict[Key, list[dict[str, Any]]] = defaultdict(list)
+    if table is None or not names:
+        return rows
+    needed = table[pd.MultiIndex.from_frame(table[["model", "quantity"]]).isin(list(names))]
+    records = needed[list(columns)].to_dict("records")
+    for key, record in zip(keys_in(needed), records, strict=True):
+        rows[key].append(record)
+    return rows
 
 
 @dataclass(frozen=True, slots=True)

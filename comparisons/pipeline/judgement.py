@@ -11,8 +11,8 @@ from typing import Any
 import pandas as pd
 
 from comparisons.console.progress import log, note
-from comparisons.data.file_names import CURVES, GATES_TEXT, INPUTS, RECORD, RESULTS
-from comparisons.judging.card_gates import card_gates, every_verdict, judge_cards, judge_digits, overall
+from comparisons.data.file_names import CURVES, GATES_TEXT, RECORD, RESULTS
+from comparisons.judging.card_gates import every_verdict, judge_cards, judge_digits, overall
 from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.fresh_verdicts import compare_with_standing, judge_undrawn
@@ -25,7 +25,6 @@ from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
-from comparisons.runs.tasks import plan
 
 __all__ = ["Judgement", "judge_and_write", "judge_folder"]
 
@@ -74,22 +73,16 @@ def judge_and_write(
     if inputs.gates is None:
         raise ValueError(f"{folder} has no gates to be judged by")
     gates, grids, fresh = inputs.gates.gates, inputs.cases.grids, inputs.fresh.parts if inputs.fresh else ()
-    standing_keys = {task.key for task in plan(grids, inputs.models)}
-    fresh_keys = {task.key for task in plan([part.grid for part in fresh])}
-    standing = judge(gates, grids, results, curves, inputs.models, inputs.domains, fresh_keys)
+    standing = judge(gates, grids, results, curves, inputs.models, inputs.domains)
     tables = [standing]
     if fresh:
-        every = standing_keys | fresh_keys
-        drawn = every_verdict(
-            judge([part.gate], [part.grid], results, curves, None, inputs.domains, every) for part in fresh
-        )
+        drawn = every_verdict(judge([part.gate], [part.grid], results, None, None, inputs.domains) for part in fresh)
         tables += [drawn, compare_with_standing(standing, drawn)]
     if inputs.fresh:
         tables.append(judge_undrawn(inputs.fresh.undrawn))
     of_gates = every_verdict(tables)
-    of_cards = every_verdict([judge_cards(cards), judge_digits(of_gates, cards)])
-    verdicts = every_verdict([of_gates, of_cards])
-    written = [*gates, *{part.gate.id: part.gate for part in fresh}.values(), *card_gates(of_cards)]
+    verdicts = every_verdict([of_gates, judge_cards(cards), judge_digits(of_gates, cards)])
+    written = [*gates, *{part.gate.id: part.gate for part in fresh}.values()]
     write_verdicts(folder, verdicts, written, inputs.specs)
     return Judgement(folder, inputs, verdicts, cards)
 
@@ -152,6 +145,6 @@ def _inputs_with_gates(folder: Path, record: Mapping[str, Any], gates: Path | No
     fresh = None
     if "fresh" in record:
         judged = relevant(loaded.gates, inputs.cases.grids, inputs.models)
-        fresh = FreshCases.of_json(record["fresh"], judged, folder / INPUTS)
+        fresh = FreshCases.of_json(record["fresh"], judged)
     loaded = replace(loaded, source=None if source is None else str(source))
     return replace(inputs, gates=loaded, fresh=fresh)

@@ -8,6 +8,7 @@ from comparisons.domain import Domain
 from comparisons.external.model_source import close_models
 from comparisons.judging.fresh_cases import draw
 from comparisons.judging.gates import load_gates
+from comparisons.judging.judge import Judged, verdict_table
 from comparisons.judging.report_card import card_lines, verdict_sentence
 from comparisons.pipeline import inputs
 from comparisons.pipeline.run import run
@@ -137,8 +138,13 @@ MODELS = {
     "honest": (HONEST, f'{DOMAIN}\nlimits = ("jkr",)', "PASS: it is within the limits in all", "a value in 12 of 12"),
     "nearest": (NEAREST, DOMAIN, "FAIL: right at the standing cases and wrong between them", "a value in 12 of 12"),
     "points": (NEAREST, POINTS, "INCONCLUSIVE: 12 of 12 standing cases", "a value in 12 of 12"),
-    "noise": (NOISE, DOMAIN, "FAIL: it gives another number when it is evaluated again: a random number", "a clock"),
-    "state": (STATE, DOMAIN, "FAIL: it gives another number when", "when the evaluations come in another order"),
+    "noise": (NOISE, DOMAIN, "FAIL: a random number or a clock", "a clock"),
+    "state": (
+        STATE,
+        DOMAIN,
+        "FAIL: the result depends on earlier",
+        "when the evaluations come in another order",
+    ),
     "silent": (EASY, "", "FAIL: ", "2 of 12 (10 n/a)"),
     "declared": (EASY, EASY_DOMAIN, "PASS: ", "2 of 2 (10 outside)"),
     "broken": (EASY, BROKEN, "FAIL: ", "2 of 4 (2 n/a, 8 outside)"),
@@ -238,5 +244,5 @@ def test_wrong_options_are_refused_with_their_name(options, tmp_path, capsys):
 
 
 def test_the_sentence_on_a_model_in_error_has_the_reason():
-    broken = {"candidate": "mine", "gate": "A", "verdict": "ERROR", "reason": "mine has no row", "error": None}
-    assert verdict_sentence("mine", pd.DataFrame([broken])) == "ERROR: mine has no row"
+    broken = verdict_table([Judged("A", "pull_off_force", "mine", "fscm", reason="mine has no row")])
+    assert verdict_sentence("mine", broken) == "ERROR: mine has no row (A)"

@@ -76,8 +76,6 @@ MEASURED = '"measured"\nworst_measured = '
         (GATE, CURVE.replace("upper = 0.1", "upper = 0"), "to 0 must be"),
         ("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = inf", "one must be finite"),
         ("lower = -0.1", "lower = nan", "lower = nan"),
-        ("lower = -0.1", "lower = -1e300", "lower = -1e+300 is beyond 1000 in size"),
-        ("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = 1000.5", "upper = 1000.5 is beyond 1000 in size"),
         # Uncertainties.
         *(("1e-6", value, "max_reference_uncertainty") for value in ("0", "inf", "nan")),
         *(("1e-6", f"1e-6\nmax_candidate_uncertainty = {u}", "max_candidate_uncertainty") for u in ("0", "nan", "inf")),
@@ -138,10 +136,8 @@ def test_what_is_wrong_is_refused_and_named(old, new, sentence):
     ("old", "new"),
     [
         ('"jkr"', '"fscm"\nreference_at = { k = 0 }'),
-        ("upper = 0.1", "upper = 1000"),
         (GATE, CURVE),
         ("lower = -0.1\nupper = 0.1", "lower = -1000\nupper = inf"),
-        ('metric = "rel"\nlower = -0.1', 'metric = "abs"\nlower = -1e6'),
         ('"derived"', MEASURED + "-0.1"),
         ('"derived"', MEASURED + '0.1001\nexpected_failure = "Known."\nmeasured_range = [0.1001, 1.001]'),
         ('"derived"', '"derived"\nworst_measured = -0.01\nmeasured_range = [-0.1, 0.1]'),
