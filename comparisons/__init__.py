@@ -32,6 +32,7 @@ _EXPORTS = {
     "evaluate": "comparisons.runs.tasks",
     "errors": "comparisons.pipeline.errors",
     "compare": "comparisons.pipeline.compare",
+    "fit": "comparisons.fitting.fit",
     "run": "comparisons.pipeline.run",
     "judge": "comparisons.judging.judge",
     "judge_folder": "comparisons.pipeline.judgement",

@@ -39,6 +39,7 @@ _COMMANDS = {
     "solve": "compute one quantity of one problem by one model",
     "curve": "compute curves or surfaces at pull-off, as CSV and as a plot",
     "describe": "Tabor number, pull-off force and admissible models of a problem file",
+    "fit": "fit work of adhesion, modulus and others to measured force-displacement curves",
     "fem": "write fields of the finite elements (vtu, picture), print their verification",
     "list": "list the models, quantities, cases, gates, or the kinds of a problem file",
     "check-model": "check that an external model keeps the contract",

@@ -66,15 +66,19 @@ class JKR(ClosedForm):
 
         Column ``contact_radius``.
         """
+        return self.curve_to(problem, 1.0)
+
+    def curve_to(self, problem: Problem, shares: float) -> Curve:
+        """Return the same to a load of some shares of the pull-off force."""
         punch = GradedPunch.of(problem)
         n, k, s = punch.n, punch.k, punch.s
         pull_off = monomial(*_radius_power(punch, s + k + 1.0, 1.0)).value
         # P(a) / P(a_c) depends on a / a_c alone: x^(n+k+1) theta_c - x^(s+k+1) (n+k+1) over its value at 1.
-        shares = np.linspace(0.0, 1.0, POINTS)
+        parts = np.linspace(0.0, 1.0, POINTS)
         end = 1.0
-        while (s + k + 1.0) * end ** (n + k + 1.0) - (n + k + 1.0) * end ** (s + k + 1.0) < n - s:
+        while (s + k + 1.0) * end ** (n + k + 1.0) - (n + k + 1.0) * end ** (s + k + 1.0) < (n - s) * shares:
             end *= 1.02
-        a = pull_off * end * shares**2
+        a = pull_off * end * parts**2
         scale = punch.scales(problem.mu)
         displacement = punch.flattening * a**n - punch.adhesion * a**s
         load = punch.hertz_load * a ** (n + k + 1.0) - punch.stiffness * punch.adhesion / (1.0 + k) * a ** (s + k + 1.0)

@@ -1,0 +1,85 @@
+"""``fscm-bench fit``: work of adhesion, modulus and other values of a problem file, from measured curves."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import Any
+
+from comparisons.cli.options import JOBS, file, option, output_format, several
+from comparisons.cli.screen import output, print_lines
+from comparisons.console.exit_status import FAILED, OK
+from comparisons.console.progress import log, note, waiting
+from comparisons.fitting.folder import fit_files, fit_table, write_fits
+from comparisons.output.terminal import rich_table
+from comparisons.problem import Problem
+from comparisons.problem.units import NotAValue, in_si
+
+EXAMPLES = (
+    "fscm-bench fit curve.csv --problem probe.toml --free law.work_of_adhesion solid.E",
+    "fscm-bench fit *.jpk-force --problem probe.toml --free solid.E --stiffness '0.2 N/m' --out fits",
+)
+
+OPTIONS = (
+    file("curves", metavar="CURVE", nargs="+", help="CSV with displacement [nm] and load [nN], or a file of an AFM"),
+    file("--problem", required=True, help="a problem file; the fit starts from its values"),
+    several("--free", metavar="KEY", required=True, help="keys of the file that are fitted, as solid.E"),
+    option("--model", choices=("fscm", "jkr"), help="(default: fscm, and its limit jkr beyond a Tabor number of 100)"),
+    option("--branch", choices=("approach", "retreat", "both"), default="both", help="(default: both)"),
+    option("--stiffness", metavar="VALUE", help='of the cantilever, as "0.2 N/m"; by default the displacement is held'),
+    option("--sensitivity", metavar="VALUE", help='deflection for a volt, as "50 nm/V"'),
+    file("--out", metavar="DIR", help="folder for table, JSON and pictures; resumed if it has some"),
+    JOBS,
+    output_format("json"),
+)
+
+
+def call(args: argparse.Namespace) -> int:
+    """Fit and print; return the exit status."""
+    problem = Problem.load(args.problem)
+    instrument = {name: _si(name, getattr(args, name), unit) for name, unit in _INSTRUMENT.items()}
+    with waiting(f"{len(args.curves)} curves" if len(args.curves) > 1 else str(args.curves[0])):
+        items = fit_files(
+            args.curves, problem, args.free, args.out, args.jobs, model=args.model, branch=args.branch, **instrument
+        )
+    fits = [fitted for item in items for fitted in item["fits"]]
+    if args.format == "json":
+        failures = [{"curve": item["file"], "failure": item["failure"]} for item in items if item["failure"]]
+        print(json.dumps(fits[0] if len(fits) == 1 and not failures else {"fits": fits, "failures": failures}))
+    elif fits:
+        table = fit_table(items)
+        output().print(rich_table(table.texts, table.caption))
+        print_lines(line for fitted in fits for line in _lines(fitted, len(fits) > 1))
+    for item in items:
+        if item["failure"]:
+            log(f"{item['file']}: {item['failure']}")
+    if args.out is not None:
+        write_fits(args.out, items)
+        note(f"fits.csv, fits.json, fits.tex and a picture of each curve are in {args.out}")
+    return FAILED if any(item["failure"] for item in items) else OK
+
+
+#: Options of the instrument and their units in SI.
+_INSTRUMENT = {"stiffness": "N/m", "sensitivity": "m/V"}
+
+
+def _si(name: str, text: str | None, unit: str) -> float | None:
+    if text is None:
+        return None
+    try:
+        value = in_si(text, unit)
+    except NotAValue as error:
+        raise ValueError(f"--{name} {text} {error}") from None
+    if not value > 0.0:
+        raise ValueError(f"--{name} {text} is not above 0")
+    return value
+
+
+def _lines(fitted: dict[str, Any], several_curves: bool) -> list[str]:
+    """Return residual and noise, and what the curve does not determine."""
+    name = f"{fitted['curve']}: " if several_curves else ""
+    share = fitted["residual"] / fitted["noise"]
+    lines = [f"{name}residuals are {share:.2g} times the noise of {fitted['noise'] * 1e9:.3g} nN"]
+    if share > 2.0:
+        lines.append(f"{name}the model does not describe the curve: u is too small")
+    return lines + [f"{name}{remark}" for remark in fitted["remarks"]]

@@ -1,0 +1,443 @@
+"""Fit of a contact to a measured force-displacement curve: values of a problem file, with uncertainties.
+
+Least squares of the load (by lmfit) over the position that the machine prescribes, and of the positions of both jumps.
+The noise is that of the residuals; a value of the file with an uncertainty is a datum like those of the record, so that
+the uncertainty of a result contains it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import lmfit
+import numpy as np
+from numpy.typing import NDArray
+
+from comparisons.description.assumptions import assumptions
+from comparisons.fitting.equilibria import Equilibria, by_fscm, by_jkr
+from comparisons.fitting.machine import Machine, Observations
+from comparisons.fitting.parameters import Key, changed, free_keys, uncertain_keys
+from comparisons.fitting.record import Record, read_records
+from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.numerics.bounds import relative_difference
+from comparisons.problem import Problem
+from comparisons.runs.tasks import evaluate
+
+__all__ = ["Fit", "FittedValue", "fit", "fit_record"]
+
+Array = NDArray[np.float64]
+
+#: Above this Tabor number the JKR limit stands for the FSCM; its distance from it, at most 1 % there, is in the budget.
+_LARGEST_MU = 100.0
+
+#: Start values of the JKR limit, as shares of those of the file: a file may be wrong by some powers of ten.
+_SHARES = (0.1, 10.0, 0.01, 100.0)
+
+#: And Tabor numbers at which it begins where that limit does not describe the curve.
+_STIFF = (0.5, 0.1, 3.0, 0.02)
+
+#: The key on which every pull-off force depends.
+_ADHESION = "law.work_of_adhesion"
+
+#: A model describes a record where its residuals are at most twice the noise.
+_DESCRIBED = 4.0
+
+#: Steps of derivatives: of relative values, and of zeros in units of the largest load and of the noise in position.
+_STEP = 1e-3
+
+#: Residual of values for which the model has no path: larger than any of a path.
+_REFUSED = 1e9
+
+#: A value is called undetermined where its standard deviation is a larger share of it.
+_UNDETERMINED = 0.5
+
+#: Two values are called coupled where their correlation is larger.
+_COUPLED = 0.99
+
+
+@dataclass(frozen=True)
+class FittedValue:
+    """A fitted value in SI.
+
+    Attributes
+    ----------
+    value, u : float
+        With its standard uncertainty; infinite where the curve does not determine it.
+    unit : str
+    determined : bool
+    shifts : dict of str to float or None
+        What the error of the model, and that of its assumptions, would change; None where it is unknown.
+    """
+
+    value: float
+    u: float
+    unit: str
+    determined: bool
+    shifts: dict[str, float | None]
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The fit of one curve.
+
+    Attributes
+    ----------
+    record : Record
+    model : str
+        "fscm" or "jkr".
+    problem : Problem
+        With the fitted values.
+    parameters : dict of str to FittedValue
+        By the keys of the problem file.
+    zeros : dict of str to tuple of float
+        Displacement and load of the record where both are zero in the problem, and the drift of that displacement
+        from the begin to the end of the record, each with its standard deviation, in m and N.
+    residual : float
+        Root mean square of the residuals of the load in N.
+    noise : float
+        Noise of the record as its neighbouring points show it, in N.
+    remarks : list of str
+        What the curve does not determine.
+    position, load : ndarray
+        The fitted load at the points of the record, whose positions have the fitted zeros.
+
+    Examples
+    --------
+    >>> FittedValue(0.05, 1e-3, "J/m^2", True, {}).u
+    0.001
+    """
+
+    record: Record
+    model: str
+    problem: Problem
+    parameters: dict[str, FittedValue]
+    zeros: dict[str, tuple[float, float]]
+    residual: float
+    noise: float
+    remarks: list[str]
+    position: Array
+    load: Array
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the fit ready for JSON."""
+
+        def finite(number: float) -> float | None:
+            return number if math.isfinite(number) else None
+
+        return {
+            "curve": self.record.name,
+            "model": self.model,
+            "mu": self.problem.posed.mu if self.problem.is_of_the_paper("solid", "punch") else None,
+            "parameters": {
+                name: {"value": row.value, "u": finite(row.u), "unit": row.unit, "determined": row.determined}
+                | {f"shift_by_{cause}": shift for cause, shift in row.shifts.items()}
+                for name, row in self.parameters.items()
+            },
+            "zeros": {name: {"value": value, "u": finite(u)} for name, (value, u) in self.zeros.items()},
+            "residual": self.residual,
+            "noise": self.noise,
+            "points": len(self.record.load),
+            "remarks": self.remarks,
+        }
+
+
+def fit(
+    curve: str | Path,
+    problem: Problem,
+    free: Sequence[str],
+    *,
+    model: str | None = None,
+    branch: str = "both",
+    stiffness: float | None = None,
+    sensitivity: float | None = None,
+) -> list[Fit]:
+    """Fit values of a problem to the curves of a file.
+
+    Parameters
+    ----------
+    curve : str or path
+        See `comparisons.fitting.record.read_records`.
+    problem : Problem
+        In physical units; its values are where the fit starts.
+    free : sequence of str
+        Keys that are fitted, as "solid.E0".
+    model : str, optional
+        "fscm" or "jkr"; by default the FSCM up to a Tabor number of 100 and its limit, JKR, beyond.
+    branch : str
+        "approach", "retreat" or "both".
+    stiffness, sensitivity : float, optional
+        Of the cantilever, in N/m and m/V.
+
+    Returns
+    -------
+    list of Fit
+        One for each curve of the file.
+
+    Raises
+    ------
+    ValueError
+        One sentence, if the file or a key cannot be used.
+    comparisons.model.ComputationFailed
+        If no values describe the curve.
+    """
+    keys = free_keys(problem, free)
+    records = read_records(Path(curve), stiffness, sensitivity)
+    return [fit_record(record if branch == "both" else record.only(branch), problem, keys, model) for record in records]
+
+
+def fit_record(record: Record, problem: Problem, free: Sequence[Key], model: str | None = None) -> Fit:
+    """Fit values of a problem to one curve, as `fit`."""
+    search = _Search(Observations.of(record), problem, (*free, *uncertain_keys(problem, free)))
+    has_limit = problem.is_of_the_paper("solid", "punch", "law")
+    if model == "jkr" and not has_limit:
+        raise ValueError("--model jkr takes power-law solids and punches under the 9-3 law")
+    starts = search.starts() if has_limit else [{}]
+    if model is None:
+        at_start = changed(problem, search.keys, {key.name: starts[0].get(key.name, 0.0) for key in search.keys})
+        model = "jkr" if has_limit and at_start.posed.mu > _LARGEST_MU else "fscm"
+    return _described(search, search.best(model, starts), model, len(free))
+
+
+class _Search:
+    """Least squares for one record."""
+
+    def __init__(self, observed: Observations, problem: Problem, keys: Sequence[Key]) -> None:
+        self.observed, self.problem, self.keys = observed, problem, tuple(keys)
+        record = observed.record
+        self.noise = record.noise
+        self._position = record.position
+        self._time = np.linspace(0.0, 1.0, len(record.load))
+        self._range = float(np.ptp(self._position))
+        self._load_range = float(np.ptp(record.load))
+        self._has_both = bool(record.approach.any() and not record.approach.all())
+        # The paths of a fit in n or k have no Tabor numbers in common.
+        self._exact = any(key.name in ("solid.k", "punch.n") for key in keys)
+
+    def starts(self) -> list[dict[str, float]]:
+        """Return where the search may begin: at the best fit of the JKR limit, which takes no time.
+
+        Stiff solids are not near that limit.  Where it does not describe the record, the search begins at the pull-off
+        force of the record and several Tabor numbers.
+        """
+        free = [key.name for key in self.keys if key.logarithmic and key.prior is None]
+        for shift in ({}, *({name: math.log(share)} for share in _SHARES for name in free)):
+            try:
+                result = self._minimised(by_jkr, shift)
+            except (NotApplicable, ComputationFailed, ValueError):
+                continue
+            if result.redchi < _DESCRIBED:
+                return [self._values(result)]
+        return [self._of_pull_off(mu) for mu in _STIFF]
+
+    def _of_pull_off(self, mu: float) -> dict[str, float]:
+        """Return numbers with the pull-off force of the record and, if a modulus is free, a Tabor number."""
+        numbers = dict.fromkeys((key.name for key in self.keys), 0.0)
+        loads = self.observed.record.load
+        force = float(np.median(loads[self._unloaded()]) - loads.min())
+        if _ADHESION in numbers:
+            stated = evaluate("jkr", "pull_off_force", self.problem).value
+            numbers[_ADHESION] = math.log(force / stated) if stated and force > 0.0 else 0.0
+        moduli = [key.name for key in self.keys if key.section == "solid" and key.logarithmic]
+        if moduli:
+            logs = []
+            for number in (0.0, 1.0):
+                numbers |= dict.fromkeys(moduli, number)
+                logs.append(math.log(changed(self.problem, self.keys, numbers).posed.mu))
+            # The Tabor number is a power of the modulus.
+            numbers |= dict.fromkeys(moduli, (math.log(mu) - logs[0]) / (logs[1] - logs[0]))
+        return numbers
+
+    def best(self, model: str, starts: Sequence[dict[str, float]]) -> Any:
+        """Return the best result of lmfit of a model from several starts, by `by`."""
+        results, refusal = [], ComputationFailed("no values of the free keys describe the curve")
+        for start in starts:
+            try:
+                results.append(self.by(model, start))
+            except ComputationFailed as error:
+                refusal = error
+            if results and results[-1].redchi < _DESCRIBED:
+                break
+        if not results:
+            raise refusal
+        return min(results, key=lambda result: float(result.chisqr))
+
+    def by(self, model: str, start: dict[str, float]) -> Any:
+        """Return the result of lmfit of a model, from given numbers."""
+        if model == "jkr":
+            return self._minimised(by_jkr, start)
+        return self._minimised(lambda problem, largest: by_fscm(problem, largest, self._exact), start)
+
+    def scaled(self, model: str, result: Any, factor: float) -> Any:
+        """Return the result with loads of the model that are larger by a factor."""
+        self._factor = factor
+        try:
+            return self.by(model, self._values(result))
+        finally:
+            self._factor = 1.0
+
+    _factor = 1.0
+
+    def _values(self, result: Any) -> dict[str, float]:
+        return {_dotted(name): float(parameter.value) for name, parameter in result.params.items()}
+
+    def machine(self, values: dict[str, float], equilibria: Callable[[Problem, float], Equilibria]) -> Machine:
+        """Return the stable sections of the problem of fitted numbers."""
+        problem = changed(self.problem, self.keys, values)
+        largest = float(self.observed.record.load.max()) - values.get("load", 0.0) * self._load_range
+        computed = equilibria(problem, 1.2 * largest)
+        computed = Equilibria(computed.displacement, computed.load * self._factor)
+        return Machine.of(computed, self.observed.record.stiffness)
+
+    def zeros(self, values: dict[str, float]) -> tuple[Array, float]:
+        """Return the positions of the record from their zero, and the zero of the load."""
+        shift = values["displacement"] + values.get("drift", 0.0) * (self._time - 0.5)
+        load = values["load"] * self._load_range
+        compliance = load / self.observed.record.stiffness
+        return self._position - compliance - shift * self._range, load
+
+    def _minimised(self, equilibria: Callable[[Problem, float], Equilibria], start: dict[str, float]) -> Any:
+        parameters = lmfit.Parameters()
+        for key in self.keys:
+            low, high = (key.number(limit) for limit in key.limits)
+            value = start.get(key.name, 0.0)
+            room = {} if math.isinf(low) and math.isinf(high) else {"min": low, "max": high}
+            parameters.add(_plain(key.name), value=value, **room)
+        loads, far = self.observed.record.load, self._unloaded()
+        parameters.add("load", value=start.get("load", float(np.median(loads[far])) / self._load_range))
+        if "displacement" in start:
+            displacement = start["displacement"]
+        else:
+            values = {_dotted(name): float(parameter.value) for name, parameter in parameters.items()}
+            machine = self.machine(values, equilibria)
+            displacement = self._aligned(machine, values) / self._range
+        parameters.add("displacement", value=displacement)
+        if self._has_both:
+            parameters.add("drift", value=start.get("drift", 0.0))
+
+        worst = np.full(int(self.observed.used.sum()) + len(self.keys) + 2, _REFUSED)
+
+        def residuals(parameters: lmfit.Parameters) -> Array:
+            values = {_dotted(name): float(parameter.value) for name, parameter in parameters.items()}
+            try:
+                errors = self._residuals(values, equilibria)
+            except (ComputationFailed, NotApplicable, ValueError):
+                return worst
+            return np.concatenate([errors, np.zeros(len(worst) - len(errors))])
+
+        result = lmfit.minimize(residuals, parameters, method="leastsq", epsfcn=_STEP**2, max_nfev=40 * len(parameters))
+        if not result.chisqr < _REFUSED**2:
+            raise ComputationFailed("no values of the free keys describe the curve")
+        return result
+
+    def _unloaded(self) -> NDArray[np.bool_]:
+        """Points of the tenth that is farthest from the solid."""
+        return np.asarray(self._position <= np.quantile(self._position, 0.1))
+
+    def _aligned(self, machine: Machine, values: dict[str, float]) -> float:
+        """The zero of the position at which the record has the load of the model: the best of those along it."""
+        shifts = self._position[:, None] - machine.contact[0][None, :: max(machine.contact.shape[1] // 40, 1)]
+        tried = np.linspace(shifts.min(), shifts.max(), 400)
+        loads = self.observed.record.load - values["load"] * self._load_range
+        thinned = slice(None, None, max(len(loads) // 400, 1))
+        errors = [
+            float(np.sum((machine.load(self._position - shift, self.observed) - loads)[thinned] ** 2)) for shift in tried
+        ]
+        return float(tried[int(np.argmin(errors))])
+
+    def _residuals(self, values: dict[str, float], equilibria: Callable[[Problem, float], Equilibria]) -> Array:
+        machine = self.machine(values, equilibria)
+        position, zero = self.zeros(values)
+        observed = self.observed
+        errors = (machine.load(position, observed) + zero - observed.record.load)[observed.used] / self.noise
+        others = [values[key.name] / key.deviation for key in self.keys if key.deviation]
+        if machine.jumps:
+            for approach, points in observed.jumps.items():
+                if approach and equilibria is by_jkr:
+                    continue  # Its surfaces do not attract before contact.
+                fold = machine.far[0, -1] if approach else machine.contact[0, 0]
+                around = position[list(points)]
+                # The jump is evenly anywhere between both points.
+                others.append((around.mean() - fold) / (np.ptp(around) / math.sqrt(12.0)))
+        return np.concatenate([errors, others])
+
+
+def _plain(name: str) -> str:
+    return name.replace(".", "__")
+
+
+def _dotted(name: str) -> str:
+    return name.replace("__", ".")
+
+
+def _described(search: _Search, result: Any, model: str, count: int) -> Fit:
+    """Return values, uncertainties and the budget."""
+    values = search._values(result)
+    problem = changed(search.problem, search.keys, values)
+    equilibria = by_jkr if model == "jkr" else (lambda problem, largest: by_fscm(problem, largest, search._exact))
+    machine = search.machine(values, equilibria)
+    position, zero = search.zeros(values)
+    load = machine.load(position, search.observed)
+    errors = (load + zero - search.observed.record.load)[search.observed.used]
+    deviations = {
+        _dotted(name): float(parameter.stderr) if parameter.stderr else math.inf
+        for name, parameter in result.params.items()
+    }
+    shifts = _shifts(search, result, model, problem)
+    parameters = {}
+    for key in search.keys[:count]:
+        value = key.value(values[key.name])
+        u = key.uncertainty(value, deviations[key.name])
+        determined = u <= _UNDETERMINED * abs(value)
+        of_key = {
+            cause: None if changed_values is None else key.value(changed_values[key.name]) - value
+            for cause, changed_values in shifts.items()
+        }
+        parameters[key.name] = FittedValue(value, u, key.unit, determined, of_key)
+    scale = {"displacement": search._range, "load": search._load_range, "drift": search._range}
+    zeros = {
+        name: (values[name] * size, deviations[name] * size) for name, size in scale.items() if name in values
+    }
+    return Fit(
+        record=search.observed.record,
+        model=model,
+        problem=problem,
+        parameters=parameters,
+        zeros=zeros,
+        residual=float(np.sqrt(np.mean(errors**2))),
+        noise=search.noise,
+        remarks=_remarks(parameters, result),
+        position=position,
+        load=load,
+    )
+
+
+def _shifts(search: _Search, result: Any, model: str, problem: Problem) -> dict[str, dict[str, float] | None]:
+    """What the errors of the model and of the assumptions in the load change, as fitted numbers."""
+    force = evaluate("fscm", "pull_off_force", problem)
+    errors: dict[str, float | None] = {"model": 0.0, "assumptions": None}
+    if model == "jkr":
+        limit = evaluate("jkr", "pull_off_force", problem)
+        known = force.value is not None and limit.value is not None
+        errors["model"] = float(relative_difference(limit.value, force.value)) if known else None
+    assumed = assumptions(problem, force)
+    if assumed is not None:
+        errors["assumptions"] = assumed["total"]["error"]
+    return {
+        cause: None if error is None else search._values(search.scaled(model, result, 1.0 / (1.0 + error)))
+        for cause, error in errors.items()
+    }
+
+
+def _remarks(parameters: dict[str, FittedValue], result: Any) -> list[str]:
+    remarks = [f"the curve does not determine {name}" for name, row in parameters.items() if not row.determined]
+    names = list(parameters)
+    for i, name in enumerate(names):
+        correlations = result.params[_plain(name)].correl or {}
+        for other in names[i + 1 :]:
+            if abs(correlations.get(_plain(other), 0.0)) > _COUPLED:
+                remarks.append(f"{name} and {other} are coupled: only their combination is determined well")
+    return remarks

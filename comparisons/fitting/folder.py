@@ -1,0 +1,182 @@
+"""Fits of many curves in one folder: table, JSON, pictures; what the folder has is not computed again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from comparisons.data.input_files import LARGEST_TABLE, read_bytes
+from comparisons.fitting.fit import Fit, fit
+from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.numerics.number_text import short
+from comparisons.output.latex import latex
+from comparisons.output.style import COLOURS, new_figure, save, styled
+from comparisons.output.table import Column, Record, Table
+from comparisons.problem import Problem
+from comparisons.problem.units import prefixed_unit, si_text
+from comparisons.runs.atomic_files import atomic
+from comparisons.runs.csv_format import csv_text
+from comparisons.runs.store import Form, Store
+from comparisons.runs.workers import processes
+
+__all__ = ["draw", "fit_files", "fit_table", "write_fits"]
+
+#: What is stored of a file: its name and the digest of all that determines its fits, and these or why there are none.
+_FORM: Form[dict[str, Any]] = Form("fits", key=lambda item: [item["file"], item["digest"]], read=dict, write=dict)
+
+
+@dataclass(frozen=True)
+class _Task:
+    path: Path
+    problem: Problem
+    free: Sequence[str]
+    options: Mapping[str, Any]
+
+    @property
+    def digest(self) -> str:
+        """Digest of the curve, the problem and the options."""
+        content = read_bytes(self.path, LARGEST_TABLE)
+        text = json.dumps([self.problem.digest, list(self.free), dict(self.options)])
+        return sha256(content + text.encode()).hexdigest()
+
+
+def fit_files(
+    paths: Sequence[Path],
+    problem: Problem,
+    free: Sequence[str],
+    folder: Path | None,
+    jobs: int = 1,
+    **options: Any,
+) -> list[dict[str, Any]]:
+    """Fit every curve of some files, in parallel.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+    problem, free
+        As of `comparisons.fitting.fit.fit`.
+    folder : Path, optional
+        Which keeps each fit with its picture as soon as it exists.
+    jobs : int
+        Number of processes.
+    **options
+        Of `fit`.
+
+    Returns
+    -------
+    list of dict
+        For each file ``file``, ``fits`` as of `Fit.as_json`, and ``failure``, empty where there are fits.
+    """
+    tasks = [_Task(path, problem, free, options) for path in paths]
+    if folder is None:
+        return [item for _, item in processes(partial(_fitted, folder=None), tasks, jobs) if item is not None]
+    folder.mkdir(parents=True, exist_ok=True)
+    with Store(folder, _FORM) as store:
+        stored = {(item["file"], item["digest"]) for item in store.items}
+        missing = [task for task in tasks if (task.path.name, task.digest) not in stored]
+        computed = processes(partial(_fitted, folder=folder), missing, jobs)
+        store.complete("fits", len(missing), ((item or _lost(task), None) for task, item in computed))
+        wanted = {(task.path.name, task.digest) for task in tasks}
+        return sorted((i for i in store.items if (i["file"], i["digest"]) in wanted), key=lambda item: item["file"])
+
+
+def _lost(task: _Task) -> dict[str, Any]:
+    return {"file": task.path.name, "digest": task.digest, "fits": [], "failure": "its process ended twice"}
+
+
+def _fitted(task: _Task, folder: Path | None) -> dict[str, Any]:
+    item: dict[str, Any] = {"file": task.path.name, "digest": task.digest, "fits": [], "failure": ""}
+    try:
+        fits = fit(task.path, task.problem, task.free, **task.options)
+    except (ComputationFailed, NotApplicable) as failure:
+        return item | {"failure": str(failure)}
+    for number, result in enumerate(fits):
+        if folder is not None:
+            stem = task.path.stem + (f"-{number + 1}" if len(fits) > 1 else "")
+            save(draw(result), folder / f"{stem}.png")
+    return item | {"fits": [result.as_json() for result in fits]}
+
+
+def fit_table(items: Sequence[Mapping[str, Any]]) -> Table:
+    """Return one row for each value of each curve."""
+    rows = [
+        {"curve": of_curve["curve"], "model": of_curve["model"], "mu": of_curve["mu"], "key": key}
+        | {**row, "u": np.nan if row["u"] is None else row["u"]}
+        for item in items
+        for of_curve in item["fits"]
+        for key, row in of_curve["parameters"].items()
+    ]
+
+    def shift(name: str, row: Record) -> str:
+        size = row[f"shift_by_{name}"]
+        return "unknown" if size is None or np.isnan(size) else f"{100.0 * size / row['value']:+.2g}"
+
+    columns = [
+        Column("curve", lambda row: str(row["curve"])),
+        Column("model", lambda row: str(row["model"])),
+        Column("mu", lambda row: "" if row["mu"] is None or np.isnan(row["mu"]) else f"{row['mu']:.3g}", "mu"),
+        Column("key", lambda row: str(row["key"])),
+        Column("value", _value_text, "value"),
+        Column("by model (%)", lambda row: shift("model", row), "shift_by_model"),
+        Column("by assumptions (%)", lambda row: shift("assumptions", row), "shift_by_assumptions"),
+    ]
+    return Table("fits", "Fitted values, and what the errors of model and assumptions change", columns, pd.DataFrame(rows))
+
+
+def _value_text(row: Record) -> str:
+    return si_text(row["value"], row["u"], row["unit"]) if row["determined"] else "not determined"
+
+
+def write_fits(folder: Path, items: Sequence[Mapping[str, Any]]) -> None:
+    """Write fits.json, fits.csv and fits.tex."""
+    table = fit_table(items)
+    texts = {
+        "fits.json": json.dumps(list(items), indent=1) + "\n",
+        "fits.csv": csv_text(table.stored),
+        "fits.tex": latex(table),
+    }
+    for name, text in texts.items():
+        with atomic(folder / name) as file:
+            file.write(text.encode())
+
+
+def draw(fitted: Fit) -> Figure:
+    """Draw a record, the fitted loads and the residuals."""
+    record, (zero, _) = fitted.record, fitted.zeros["load"]
+    load = record.load - zero
+    (x_power, x_unit), (y_power, y_unit) = (
+        prefixed_unit(float(np.abs(values).max()), unit) for values, unit in ((fitted.position, "m"), (load, "N"))
+    )
+    with styled():
+        figure = new_figure(6.0, 5.0)
+        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
+        for branch, mask in _of_branches(record.approach):
+            x, colour = fitted.position[mask] * 10.0**-x_power, COLOURS[0 if branch == "approach" else 1]
+            upper.plot(x, load[mask] * 10.0**-y_power, ".", color=colour, ms=2, alpha=0.4, label=branch)
+            upper.plot(x, fitted.load[mask] * 10.0**-y_power, color=colour, label=f"{branch}, {fitted.model}")
+            lower.plot(x, (load - fitted.load)[mask] * 10.0**-y_power, ".", color=colour, ms=2)
+        upper.set(ylabel=f"load ({y_unit})", title=_title(fitted))
+        position = "displacement" if np.isinf(record.stiffness) else "position of the cantilever"
+        lower.set(xlabel=f"{position} ({x_unit})", ylabel="residual")
+        upper.legend()
+    return figure
+
+
+def _of_branches(approach: Any) -> Iterator[tuple[str, Any]]:
+    for branch, mask in (("approach", approach), ("retreat", ~approach)):
+        if mask.any():
+            yield branch, mask
+
+
+def _title(fitted: Fit) -> str:
+    values = (f"{key} = {si_text(row.value, row.u, row.unit)}" for key, row in fitted.parameters.items() if row.determined)
+    return ", ".join(values) or f"{fitted.record.name}: {short(fitted.residual, 0.0)} N"

@@ -1,0 +1,123 @@
+"""The load that a machine records: stable sections of the equilibria over the position that it prescribes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comparisons.fitting.equilibria import Equilibria
+from comparisons.fitting.record import Record
+
+__all__ = ["Machine", "Observations"]
+
+Array = NDArray[np.float64]
+
+#: A section is continued beyond its fold by a straight line, so that a fit feels a fold in the wrong place: over this
+#: share of the way from the fold to pull-off and beyond, along its secant.
+_SECANT = 0.2
+
+
+@dataclass(frozen=True)
+class Observations:
+    """A record with its jumps.
+
+    Attributes
+    ----------
+    record : Record
+    far, contact : ndarray of bool, shape (m,)
+        Points before the surfaces snapped together or after they parted, and points in contact; a point without a jump
+        of its branch is in neither.
+    used : ndarray of bool, shape (m,)
+        Points of the fit: without those at a jump, which the machine may have recorded on its way.
+    jumps : dict of bool to tuple
+        Approach or not -> numbers of the points before and after the jump.
+    """
+
+    record: Record
+    far: NDArray[np.bool_]
+    contact: NDArray[np.bool_]
+    used: NDArray[np.bool_]
+    jumps: dict[bool, tuple[int, int]]
+
+    @classmethod
+    def of(cls, record: Record) -> Observations:
+        """Return the observations of a record."""
+        count = len(record.load)
+        far, contact, used = np.zeros(count, bool), np.zeros(count, bool), np.ones(count, bool)
+        jumps, numbers = {}, np.arange(count)
+        for approach in (True, False):
+            after = record.jump(approach)
+            if after is None:
+                continue
+            mask = record.approach == approach
+            later = mask & (numbers >= after)
+            earlier = mask & ~later
+            contact |= later if approach else earlier
+            far |= earlier if approach else later
+            before = int(np.flatnonzero(earlier)[-1])
+            used[[before, after]] = False
+            jumps[approach] = before, after
+        return cls(record, far, contact, used, jumps)
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Stable sections of equilibria over the position; each has shape (2, m), positions rising.
+
+    Attributes
+    ----------
+    far, contact : ndarray
+        From far away to the fold of the approach, and from that of the retreat into contact; the same where the
+        surfaces do not jump.
+    jumps : bool
+    """
+
+    far: Array
+    contact: Array
+    jumps: bool
+
+    @classmethod
+    def of(cls, equilibria: Equilibria, stiffness: float) -> Machine:
+        """Return the sections for a stiffness of the cantilever in N/m, perhaps infinite."""
+        position = equilibria.displacement + equilibria.load / stiffness
+        path = np.array([position, equilibria.load])
+        falls = np.flatnonzero(np.diff(position) <= 0.0)
+        if not falls.size:
+            return cls(path, path, False)
+        return cls(path[:, : falls[0] + 1], path[:, falls[-1] + 1 :], True)
+
+    def load(self, position: Array, observed: Observations) -> Array:
+        """Return the load at each point of a record, whose zeros are those of the equilibria.
+
+        Parameters
+        ----------
+        position : ndarray, shape (m,)
+            In m.
+        observed : Observations
+            Which points are in contact; for others it is the model that says where it jumps.
+        """
+        fold = np.where(observed.record.approach, self.far[0, -1], self.contact[0, 0])
+        unknown = ~(observed.far | observed.contact)
+        in_contact = observed.contact | (unknown & (position > fold))
+        return np.where(in_contact, self._in_contact(position), self._far_away(position))
+
+    def _in_contact(self, position: Array) -> Array:
+        x, load = self.contact
+        loads = np.interp(position, x, load)
+        if self.jumps:
+            lowest = int(np.argmin(load))
+            reach = x[0] + max(_SECANT * (x[lowest] - x[0]), 1e-3 * float(x[-1] - x[0]))
+            slope = (np.interp(reach, x, load) - load[0]) / (reach - x[0])
+            loads = np.where(position < x[0], load[0] - abs(slope) * (x[0] - position), loads)
+        rise = (load[-1] - load[-2]) / (x[-1] - x[-2])
+        return np.where(position > x[-1], load[-1] + rise * (position - x[-1]), loads)
+
+    def _far_away(self, position: Array) -> Array:
+        x, load = self.far
+        loads = np.interp(position, x, load)
+        # The attraction falls like the square of the gap, which is -x far away.
+        with np.errstate(divide="ignore"):
+            beyond = load[0] * (x[0] / np.minimum(position, x[0])) ** 2
+        return np.where(position < x[0], beyond, loads)

@@ -1,0 +1,124 @@
+"""What a fit may change: keys of a problem file and the zeros of a record."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from comparisons.data.validation import known_name, shown
+from comparisons.problem import Problem
+from comparisons.problem.kinds import KINDS, SECTIONS, limits_of
+from comparisons.problem.uncertain import Uncertainty
+
+__all__ = ["Key", "changed", "free_keys", "uncertain_keys"]
+
+#: Largest logarithm of a share of the value of the file: seventeen powers of ten.
+_WIDEST = 40.0
+
+
+@dataclass(frozen=True)
+class Key:
+    """A key of a problem file that is fitted: by the logarithm of its share of the value of the file, or as it is.
+
+    Attributes
+    ----------
+    name : str
+        As "solid.E0".
+    unit : str
+        In SI; "1" for a number.
+    start : float
+        The value of the file.
+    logarithmic : bool
+        Whether the value is positive without an upper limit.
+    limits : tuple of float
+        Ends of the admissible values, or of the interval of the file.
+    prior : Uncertainty or None
+        The standard deviation of the file.
+    """
+
+    name: str
+    unit: str
+    start: float
+    logarithmic: bool
+    limits: tuple[float, float]
+    prior: Uncertainty | None
+
+    @property
+    def section(self) -> str:
+        """Section of the file."""
+        return self.name.partition(".")[0]
+
+    @property
+    def key(self) -> str:
+        """Key of the section."""
+        return self.name.partition(".")[2]
+
+    def value(self, number: float) -> float:
+        """Return the value of a fitted number, which is 0 at the start."""
+        if not self.logarithmic:
+            return self.start + number
+        return self.start * math.exp(min(max(number, -_WIDEST), _WIDEST))
+
+    def number(self, value: float) -> float:
+        """Return the number of a value."""
+        if not self.logarithmic:
+            return value - self.start
+        return math.log(value / self.start) if value > 0.0 else -math.inf
+
+    def uncertainty(self, value: float, deviation: float) -> float:
+        """Return the standard deviation of a value by that of its number."""
+        return abs(value) * deviation if self.logarithmic else deviation
+
+    @property
+    def deviation(self) -> float | None:
+        """Standard deviation of the number by the file; None if it states none."""
+        if self.prior is None or self.prior.is_interval:
+            return None
+        return self.prior.size / self.start if self.logarithmic else self.prior.size
+
+
+def free_keys(problem: Problem, names: Sequence[str]) -> list[Key]:
+    """Return the keys that are to be fitted.
+
+    Raises
+    ------
+    ValueError
+        One sentence, if a name is unknown, twice there, or no number.
+    """
+    if not names or len(set(names)) < len(names):
+        raise ValueError(f"--free {' '.join(names)}: name each key once, as law.work_of_adhesion solid.E0")
+    return [_key(problem, name) for name in names]
+
+
+def uncertain_keys(problem: Problem, free: Sequence[Key]) -> list[Key]:
+    """Return the other keys to which the file gives a standard deviation or an interval."""
+    names = {key.name for key in free}
+    uncertain = (".".join(key) for key in problem.uncertain)
+    return [_key(problem, name) for name in uncertain if name not in names]
+
+
+def _key(problem: Problem, name: str) -> Key:
+    section, _, key = name.partition(".")
+    where = f"--free {shown(name)}"
+    known_name("section", section, SECTIONS, where)
+    of_problem = getattr(problem, section)
+    forms: Mapping[str, Any] = KINDS[section][of_problem.kind].keys
+    known_name("key", key, [name for name in forms if name in of_problem.values], where)
+    start = problem[name]
+    if not isinstance(start, float | int):
+        raise ValueError(f"{where}: it is no single number of the file; a fit changes numbers")
+    limits = limits_of(forms[key])
+    prior = of_problem.uncertain.get(key)
+    if prior is not None and prior.is_interval:
+        limits = prior.limits(start)
+    logarithmic = start > 0.0 and math.isinf(limits_of(forms[key])[1])
+    return Key(name, forms[key].get("unit", "1"), float(start), logarithmic, limits, prior)
+
+
+def changed(problem: Problem, keys: Sequence[Key], numbers: Mapping[str, float]) -> Problem:
+    """Return the problem with the values of fitted numbers, by the names of the keys."""
+    for key in keys:
+        problem = problem.with_value(key.section, key.key, key.value(numbers[key.name]))
+    return problem
