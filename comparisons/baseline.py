@@ -7,8 +7,7 @@ quick tier has a few cases only.  ``fscm-bench paper`` gives the figures of the 
 benchmark.
 
 ``python -m comparisons.baseline --check FOLDER`` changes nothing.  It lists the results of a run, or the tables of the
-paper's figures, that differ from the committed ones: values by more than their bounds, or bounds by a factor.  The
-wheel has the committed tables, so that it works outside a clone, too.
+paper's figures, that differ from the committed ones: values by more than their bounds, or bounds by a factor.
 """
 
 from __future__ import annotations

@@ -119,7 +119,7 @@ LAYERS = {
         ("pipeline",),
         ("bench",),
         ("baseline",),
-        ("cli", "pytest_entry", "build_step"),
+        ("cli", "pytest_entry"),
         ("__main__",),
         ("start_entry",),
     ),

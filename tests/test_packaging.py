@@ -16,9 +16,7 @@ from pathlib import Path, PurePosixPath
 
 import pytest
 import yaml
-from setuptools import Distribution
 
-from comparisons.build_step import MetadataWithLinks
 from comparisons.runs.environment import NOT_INSTALLED, code_digest
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -64,7 +62,7 @@ def external(*folders: str) -> set[str]:
 def test_every_import_of_the_packages_is_declared_and_nothing_else():
     # An optional package is imported where it is used.
     optional = [requirement for name in ("report", "bench") for requirement in EXTRAS[name]]
-    assert external(*PACKAGES) == {canonical(requirement) for requirement in RUNTIME + optional + FOR_BUILD}
+    assert external(*PACKAGES) == {canonical(requirement) for requirement in RUNTIME + optional}
 
 
 def test_every_import_of_the_tests_is_declared():
@@ -137,54 +135,12 @@ def test_the_source_distribution_has_every_file_of_the_repository(source_distrib
     assert [name for name in sorted(members - expected) if not any(fnmatch(name, pattern) for pattern in BUILT)] == []
 
 
-def test_the_wheel_has_the_packages_and_the_tables_of_the_baseline(wheel):
+def test_the_wheel_has_the_packages_with_their_data(wheel):
     tops = {name.partition("/")[0] for name in files_in(wheel)}
     assert {name for name in tops if not name.endswith(".dist-info")} == {*PACKAGES, "fscm_bench"}
     assert not any((wheel / folder).exists() for folder in NOT_INSTALLED)
     installed = {name for name in repository() if name.partition("/")[0] in PACKAGES and not name.endswith(".py")}
     assert installed <= files_in(wheel)
-    packed, committed = wheel / "comparisons" / "data" / "baseline", ROOT / "results" / "baseline"
-    tables = [path for name in ("", "paper") for path in (committed / name).glob("*.csv")]
-    assert len(tables) > 40
-    for path in tables:
-        assert (packed / path.relative_to(committed)).read_bytes() == path.read_bytes()
-    assert {Path(name).suffix for name in files_in(packed)} == {".csv", ".md", ".tex"}
-
-
-def test_the_page_on_pypi_has_absolute_links_to_files_that_exist(tmp_path, monkeypatch):
-    """Of a release: `pyproject.toml` has the address of the repository then."""
-    source, version = "https://host/owner/name", PROJECT["version"]
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-    attributes = {"name": "fscm-bench", "version": version, "long_description": readme, "script_name": "setup.py"}
-    command = MetadataWithLinks(Distribution({**attributes, "project_urls": {"Source": source}}))
-    command.ensure_finalized()
-    command.run()
-    (metadata,) = tmp_path.glob("*.egg-info/PKG-INFO")
-    links = re.findall(r"\]\(([^)\s]+)\)", metadata.read_text(encoding="utf-8"))
-    ours = [link for link in links if link.startswith(source)]
-    assert len(ours) > 10
-    assert [link for link in links if "://" not in link and not link.startswith("#")] == []
-    for link in ours:
-        kind, tag, path = link.removeprefix(f"{source}/").partition("#")[0].split("/", 2)
-        assert (kind, tag) == ("raw" if path.endswith((".png", ".svg")) else "blob", f"v{version}")
-        assert (ROOT / path).exists()
-
-
-def test_the_check_of_the_baseline_works_by_the_wheel_alone(wheel, tmp_path):
-    for path in (ROOT / "results" / "baseline" / "paper").glob("fig16*.csv"):
-        shutil.copy(path, tmp_path)
-    code = (
-        f"import sys; sys.path.insert(0, {str(wheel)!r}); import comparisons\n"
-        f"assert comparisons.__file__.startswith({str(wheel)!r})\n"
-        "from comparisons.baseline import main, read_baseline\n"
-        "print(len(read_baseline()[0])); sys.exit(main(['--check', '.']))"
-    )
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)
-    assert (done.returncode, done.stderr) == (0, "")
-    rows, agrees = done.stdout.splitlines()
-    assert int(rows) > 1000
-    assert agrees == ". agrees with the baseline"
 
 
 def test_the_same_code_has_the_same_digest_in_a_clone_and_installed(wheel):

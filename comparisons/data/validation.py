@@ -22,7 +22,7 @@ from jsonschema.validators import extend
 
 from comparisons.data.toml_text import is_real
 
-__all__ = ["known_name", "label", "shown", "validated", "validator_of"]
+__all__ = ["known_name", "label", "shipped_validator", "shown", "validated", "validator_of"]
 
 #: What is refused first in one table: a misspelt key is also a missing one.
 _ORDER = ("additionalProperties", "required")
@@ -63,7 +63,7 @@ def validated(
     Traceback (most recent call last):
     ValueError: mine.toml: grid mine: unknown key 'titel': did you mean title?
     """
-    validator = _shipped_validator(schema) if isinstance(schema, str) else schema
+    validator = shipped_validator(schema) if isinstance(schema, str) else schema
     errors = sorted(validator.iter_errors(document), key=_position)
     if errors:
         where = locate(*errors[0].absolute_path, *_unknown_keys(errors[0])) if locate else source
@@ -104,7 +104,8 @@ def known_name(noun: str, name: str, known_names: Iterable[str], where: str) -> 
 
 
 @lru_cache
-def _shipped_validator(schema: str) -> Validator:
+def shipped_validator(schema: str) -> Validator:
+    """Return the validator of ``<schema>.schema.json`` in this folder."""
     return validator_of(json.loads(files("comparisons.data").joinpath(f"{schema}.schema.json").read_text("utf-8")))
 
 

@@ -1,8 +1,8 @@
 """Cases of a run, read from a TOML file.
 
 A case is one problem: dimensionless, or that of a problem file.  A grid is a set of cases (a product of lists of n, k,
-mu and nu, a list of cases, a Latin hypercube, or a problem file with values of some of its keys), with an id, a tier,
-and the quantities and models that are computed.
+mu and nu, a list of cases, or a problem file with values of some of its keys), with an id, a tier, and the quantities
+and models that are computed.
 The form of the file is checked by ``comparisons/data/cases.schema.json``.
 """
 
@@ -12,6 +12,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
+from itertools import product
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +24,14 @@ from comparisons.problem import PARAMETERS, Problem
 from comparisons.problem.variation import Variation, problems_of
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS
-from comparisons.runs.parameter_sets import FORMS, parameter_sets
 
 __all__ = ["TIERS", "VERIFICATION", "Grid", "cases_text", "grids", "grids_for", "load_grids"]
+
+#: Ways in which a grid states its cases.
+_FORMS = 'lists n, k, mu (and nu); cases = [{n = 2, k = 0, mu = 1}, ...]; or problem = "FILE" (and vary)'
+
+#: Most combinations of lists, each of which is built before anything is computed: they take a gigabyte.
+_MOST_CASES = 1_000_000
 
 #: The standing cases and their problem files.
 _DATA = Path(str(files("comparisons.data")))
@@ -104,24 +111,36 @@ def _grid(table: dict[str, Any], where: str, tier: str | None, folder: Path | No
 
 
 def _cases(table: dict[str, Any], where: str, folder: Path | None) -> set[Problem]:
-    """Return the cases of a grid, each once; refuse one that is not admissible, and so the ends of a range."""
+    """Return the cases of a grid, each once; refuse one that is not admissible."""
     if "problem" in table:
         return _cases_of_file(table, where, folder)
-    points = parameter_sets(table, where)
-    ranges = table.get("latin_hypercube", {})
     try:
-        for end in (0, 1) if ranges else ():
-            Problem.dimensionless(*(ranges[name][end] for name in PARAMETERS if name in ranges))
-        return {Problem.dimensionless(*values) for values in points}
+        return {Problem.dimensionless(*numbers) for numbers in _numbers(table)}
     except ValueError as refusal:
         raise ValueError(f"{where}: {refusal}") from None
 
 
+def _numbers(table: dict[str, Any]) -> Iterable[tuple[float, float, float, float | None]]:
+    """Return n, k, mu and nu (None if not prescribed) of every case: of a list, or of the product of lists."""
+    lists = [name for name in PARAMETERS if name in table]
+    if ("cases" in table) == bool(lists):
+        forms = f"{', '.join(lists)} and cases together" if lists else "no cases"
+        raise ValueError(f"it has {forms}; state the cases once: {_FORMS}")
+    if "cases" in table:
+        return [(case["n"], case["k"], case["mu"], case.get("nu")) for case in table["cases"]]
+    if missing := [name for name in PARAMETERS[:3] if name not in lists]:
+        raise ValueError(f"{', '.join(missing)} missing; lists of cases are n, k, mu and perhaps nu")
+    columns = [*(table[name] for name in PARAMETERS[:3]), table.get("nu", [None])]
+    if (count := prod(map(len, columns))) > _MOST_CASES:
+        raise ValueError(f"the lists have {count} combinations, more than {_MOST_CASES}; give shorter lists")
+    return product(*columns)
+
+
 def _cases_of_file(table: dict[str, Any], where: str, folder: Path | None) -> set[Problem]:
     """Return the cases of a problem file, which is in a folder, for every combination of values of its keys."""
-    numbers = [name for name in (*PARAMETERS, "cases", "latin_hypercube") if name in table]
+    numbers = [name for name in (*PARAMETERS, "cases") if name in table]
     if numbers:
-        raise ValueError(f"{where}: it has problem and {', '.join(numbers)} together; state the cases once: {FORMS}")
+        raise ValueError(f"{where}: it has problem and {', '.join(numbers)} together; state the cases once: {_FORMS}")
     name = table["problem"]
     if folder is None:
         raise ValueError(

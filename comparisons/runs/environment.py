@@ -34,7 +34,7 @@ _PACKAGES = ("fscm", "fem_reference", "comparisons")
 _CODE = {".py", ".toml"}
 
 #: Folders that are not installed, or elsewhere.
-NOT_INSTALLED = tuple(Path("comparisons", name) for name in ("build_step", "pytest_entry", "start_entry"))
+NOT_INSTALLED = tuple(Path("comparisons", name) for name in ("pytest_entry", "start_entry"))
 
 #: Digits of a commit in the text of the version.
 _DIGITS = 12

@@ -10,20 +10,18 @@ import json
 import sys
 from collections.abc import Collection, Mapping, Sequence
 from datetime import UTC, datetime
-from functools import lru_cache
 from hashlib import sha256
-from importlib.resources import files as package_files
 from pathlib import Path
 from shlex import quote
 from typing import Any
 
-from jsonschema import Draft202012Validator
 from jsonschema.exceptions import best_match
 
 from comparisons.console.progress import log
 from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import INPUTS, RECORD, RUN_FILES, VERDICTS, is_of_verdicts
 from comparisons.data.input_files import LARGEST_ROWS, LARGEST_TABLE, read_bytes
+from comparisons.data.validation import shipped_validator
 from comparisons.runs.atomic_files import write_json
 from comparisons.runs.environment import differences, environment, fingerprint
 
@@ -33,15 +31,8 @@ __all__ = ["FORMAT", "check_files", "now", "read_record", "record_content", "war
 FORMAT = 6
 
 
-@lru_cache(maxsize=1)
-def _validator() -> Draft202012Validator:
-    schema = json.loads(package_files("comparisons.data").joinpath("run.schema.json").read_text(encoding="utf-8"))
-    Draft202012Validator.check_schema(schema)
-    return Draft202012Validator(schema)
-
-
 def _problem(content: object) -> str | None:
-    error = best_match(_validator().iter_errors(content))
+    error = best_match(shipped_validator("run").iter_errors(content))
     return None if error is None else f"{error.json_path}: {error.message}"
 
 

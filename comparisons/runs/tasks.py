@@ -16,7 +16,7 @@ from typing import Any
 
 from comparisons.external.process_model import contradiction
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
-from comparisons.problem import PARAMETERS, Problem
+from comparisons.problem import Problem
 from comparisons.problem.evaluation import dimensionless_result, evaluated, unit_of
 from comparisons.quantities import ALL_QUANTITIES, Points
 from comparisons.registry import ExternalIdentity, create, depends_on_poisson_ratio
@@ -45,12 +45,6 @@ class Task:
     def problem_key(self) -> tuple[str, Problem]:
         """Model and problem: its quantities are computed together, from one path."""
         return self.model, self.problem
-
-    def as_json(self) -> dict[str, Any]:
-        """Return its form in the record of a run."""
-        if self.problem.name:
-            return {"quantity": self.quantity, "problem": self.problem.name}
-        return {"quantity": self.quantity, **dict(zip(PARAMETERS, self.problem.key, strict=False))}
 
 
 def problem_for(model: str, problem: Problem) -> Problem:

@@ -96,16 +96,15 @@ def test_a_run_of_other_cases_models_or_gates_renews_nothing(tmp_path, target, o
     assert renewed(target) == set()
 
 
-def test_a_run_is_compared_with_what_is_committed_or_packed_in_the_wheel(tmp_path, monkeypatch, capsys):
-    run, packed = made_up(tmp_path / "run", "quick"), tmp_path / "site-packages" / "baseline"
+def test_a_run_is_compared_with_what_is_committed(tmp_path, monkeypatch, capsys):
+    run = made_up(tmp_path / "run", "quick")
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("comparisons.runs.committed._INSTALLED", (tmp_path / "no-clone", packed))
+    monkeypatch.setattr("comparisons.runs.committed._CLONE", tmp_path / "no-clone")
     assert main(["--check", str(run)]) == 2
     message = capsys.readouterr().err
-    assert (message.count("\n"), "install the wheel" in message) == (1, True)
-    for target in (packed, BASELINE):
-        renew(run, target)
-        assert main(["--check", str(run)]) == 0
+    assert (message.count("\n"), "a clone" in message) == (1, True)
+    renew(run)
+    assert main(["--check", str(run)]) == 0
     write_table(results(1.5 + 3e-9), run / "results")
     assert main(["--check", str(run)]) == 2
     assert "results.csv was changed" in capsys.readouterr().err

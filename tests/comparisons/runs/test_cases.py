@@ -1,6 +1,5 @@
 """Cases as data: accepted and refused files."""
 
-import math
 import re
 
 import pytest
@@ -19,14 +18,6 @@ models = ["bradley"]
 quantities = ["pull_off_force"]
 """
 GRID = f"{REST}n = [2, 1]\nk = [0, 0.4]\nmu = [1, 0.5, 1.0]\n"
-HYPERCUBE = """
-[grid.latin_hypercube]
-count = 50
-seed = 3
-n = [1, 6]
-k = [0, 0.8]
-mu = [0.01, 10]
-"""
 
 
 def test_a_grid_is_the_sorted_product_without_duplicates():
@@ -37,27 +28,6 @@ def test_a_grid_is_the_sorted_product_without_duplicates():
 def test_a_list_of_cases_is_taken_as_it_is():
     (grid,) = load_grids(REST + "cases = [{n = 2, k = 0.4, mu = 3, nu = 0.3}, {n = 1, k = 0, mu = 1}]")
     assert grid.cases == (Problem.dimensionless(1, 0, 1), Problem.dimensionless(2, 0.4, 3, 0.3))
-
-
-def test_a_latin_hypercube_has_one_point_in_each_layer_and_the_same_again():
-    (grid,) = load_grids(REST + HYPERCUBE)
-    assert load_grids(REST + HYPERCUBE)[0] == grid
-    assert load_grids(REST + HYPERCUBE.replace("seed = 3", "seed = 4"))[0] != grid
-    units = (
-        [(case.n - 1) / 5 for case in grid.cases],
-        [case.k / 0.8 for case in grid.cases],
-        [math.log(case.mu / 0.01) / math.log(1000) for case in grid.cases],
-    )
-    for unit in units:
-        assert sorted(int(50 * x) for x in unit) == list(range(50))
-    # A message prints six digits, and with them the exact case.
-    assert all(float(f"{x:g}") == x for case in grid.cases for x in case.parameters.values())
-
-
-def test_a_range_of_one_value_is_that_value():
-    (grid,) = load_grids(REST + HYPERCUBE.replace("[1, 6]", "[1.23456789, 1.23456789]") + "nu = [0.1, 0.4]")
-    assert {case.n for case in grid.cases} == {1.23456789}
-    assert len({case.nu for case in grid.cases}) == 50
 
 
 @pytest.mark.parametrize(
@@ -78,12 +48,6 @@ def test_a_range_of_one_value_is_that_value():
         (REST + "nu = [0.3]\ncases = [{n = 2, k = 0, mu = 1}]", "grid a: it has nu and cases together"),
         (REST + "cases = [{n = 2, k = 0}]", "grid a: cases.0: mu missing"),
         (REST + "cases = [{n = 2, k = 0, mu = -1}]", "mu = -1.0"),
-        (REST + HYPERCUBE.replace("50", "0"), "latin_hypercube.count = 0"),
-        (REST + HYPERCUBE.replace("seed = 3", ""), "seed missing"),
-        (REST + HYPERCUBE.replace("[1, 6]", "[6, 1]"), "n = [6, 1]"),
-        (REST + HYPERCUBE.replace("0.01", "0"), "mu = [0, 10]"),
-        (REST + HYPERCUBE.replace("0.8", "1.01"), "k = 1.01"),
-        (REST + HYPERCUBE + "nu = [0.1, 0.5]", "nu = 0.5"),
     ],
 )
 def test_wrong_grids_are_refused_with_the_key_and_the_value(text, named):
