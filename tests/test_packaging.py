@@ -61,7 +61,7 @@ def external(*folders: str) -> set[str]:
 
 def test_every_import_of_the_packages_is_declared_and_nothing_else():
     # An optional package is imported where it is used.
-    optional = [requirement for name in ("report", "bench") for requirement in EXTRAS[name]]
+    optional = [requirement for name in ("report", "bench", "pytest", "afm") for requirement in EXTRAS[name]]
     assert external(*PACKAGES) == {canonical(requirement) for requirement in RUNTIME + optional}
 
 
@@ -137,7 +137,7 @@ def test_the_source_distribution_has_every_file_of_the_repository(source_distrib
 
 def test_the_wheel_has_the_packages_with_their_data(wheel):
     tops = {name.partition("/")[0] for name in files_in(wheel)}
-    assert {name for name in tops if not name.endswith(".dist-info")} == {*PACKAGES, "fscm_bench"}
+    assert {name for name in tops if not name.endswith(".dist-info")} == {*PACKAGES, "fscm_bench", "fscm_bench_pytest"}
     assert not any((wheel / folder).exists() for folder in NOT_INSTALLED)
     installed = {name for name in repository() if name.partition("/")[0] in PACKAGES and not name.endswith(".py")}
     assert installed <= files_in(wheel)

@@ -68,7 +68,9 @@ def by_fscm(problem: Problem, largest: float, exact: bool) -> Equilibria:
         return _of_problem(problem, _rounded(largest / problem.units["load"]))
     posed, units = problem.posed, problem.units
     end = _rounded(largest / units["load"])
-    computed = _resampled(posed.n, posed.k, posed.mu, end, False) if exact else _between(posed.n, posed.k, posed.mu, end)
+    computed = (
+        _resampled(posed.n, posed.k, posed.mu, end, False) if exact else _between(posed.n, posed.k, posed.mu, end)
+    )
     return Equilibria(computed[0] * units["displacement"], computed[1] * units["load"])
 
 
@@ -77,7 +79,9 @@ def by_jkr(problem: Problem, largest: float) -> Equilibria:
     units, force = problem.units, JKR().evaluate(problem, "pull_off_force").value
     curve = JKR().curve_to(problem, max(largest / units["load"] / force, 1.0))
     start = _FAR * float(curve.displacement.min())
-    displacement, load = (np.concatenate([[first], values]) for first, values in ((start, curve.displacement), (0.0, curve.load)))
+    displacement, load = (
+        np.concatenate([[first], values]) for first, values in ((start, curve.displacement), (0.0, curve.load))
+    )
     return Equilibria(displacement * units["displacement"], load * units["load"])
 
 

@@ -344,7 +344,8 @@ class _Search:
         loads = self.observed.record.load - values["load"] * self._load_range
         thinned = slice(None, None, max(len(loads) // 400, 1))
         errors = [
-            float(np.sum((machine.load(self._position - shift, self.observed) - loads)[thinned] ** 2)) for shift in tried
+            float(np.sum((machine.load(self._position - shift, self.observed) - loads)[thinned] ** 2))
+            for shift in tried
         ]
         return float(tried[int(np.argmin(errors))])
 
@@ -398,9 +399,7 @@ def _described(search: _Search, result: Any, model: str, count: int) -> Fit:
         }
         parameters[key.name] = FittedValue(value, u, key.unit, determined, of_key)
     scale = {"displacement": search._range, "load": search._load_range, "drift": search._range}
-    zeros = {
-        name: (values[name] * size, deviations[name] * size) for name, size in scale.items() if name in values
-    }
+    zeros = {name: (values[name] * size, deviations[name] * size) for name, size in scale.items() if name in values}
     return Fit(
         record=search.observed.record,
         model=model,

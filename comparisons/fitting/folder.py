@@ -129,7 +129,9 @@ def fit_table(items: Sequence[Mapping[str, Any]]) -> Table:
         Column("by model (%)", lambda row: shift("model", row), "shift_by_model"),
         Column("by assumptions (%)", lambda row: shift("assumptions", row), "shift_by_assumptions"),
     ]
-    return Table("fits", "Fitted values, and what the errors of model and assumptions change", columns, pd.DataFrame(rows))
+    return Table(
+        "fits", "Fitted values, and what the errors of model and assumptions change", columns, pd.DataFrame(rows)
+    )
 
 
 def _value_text(row: Record) -> str:
@@ -178,5 +180,7 @@ def _of_branches(approach: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _title(fitted: Fit) -> str:
-    values = (f"{key} = {si_text(row.value, row.u, row.unit)}" for key, row in fitted.parameters.items() if row.determined)
+    values = (
+        f"{key} = {si_text(row.value, row.u, row.unit)}" for key, row in fitted.parameters.items() if row.determined
+    )
     return ", ".join(values) or f"{fitted.record.name}: {short(fitted.residual, 0.0)} N"

@@ -127,7 +127,9 @@ def _of_csv(path: Path, text: str, stiffness: float | None, sensitivity: float |
     try:
         table = pd.read_csv(io.StringIO(text), comment="#", skipinitialspace=True)
     except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
-        raise ValueError(f"{path}: the curve is no table in CSV ({str(error).strip()}); write one row a point") from None
+        raise ValueError(
+            f"{path}: the curve is no table in CSV ({str(error).strip()}); write one row a point"
+        ) from None
     columns: dict[str, Any] = {}
     for heading in table.columns:
         match = _HEADING.fullmatch(str(heading))

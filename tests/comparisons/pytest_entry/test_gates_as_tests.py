@@ -1,0 +1,166 @@
+"""The plugin of pytest: gates as tests, and nothing at all without its options."""
+
+from pathlib import Path
+
+import pytest
+
+from comparisons.pipeline.named_verdicts import named_verdicts
+
+from ..conftest import GATES, with_entries
+
+pytest_plugins = ["pytester"]
+
+ROOT = Path(__file__).resolve().parents[3]
+PLUGIN = "fscm_bench_pytest"
+
+
+@pytest.fixture
+def small_grid(small_grid, tmp_path, pytester):
+    """The four cases of toy models, after one run: pytester drops every module that a run inside it imports first."""
+    (tmp_path / "first.toml").write_text(GATES)
+    verdicts = named_verdicts("quick", tmp_path / "first.toml", ["ten-percent"], tmp_path / "first")
+    assert {verdict for _, verdict, _ in verdicts} == {"PASS"}
+    (tmp_path / "first.toml").unlink()
+
+
+@pytest.fixture(autouse=True)
+def importable(monkeypatch):
+    """Also where the package is installed without its plugin, as before the plugin was written."""
+    monkeypatch.syspath_prepend(str(ROOT / "comparisons" / "pytest_entry"))
+    monkeypatch.setenv("PYTHONPATH", str(ROOT / "comparisons" / "pytest_entry"))
+
+
+def gate(id, candidate, lower, upper, **entries):
+    return with_entries(GATES, id=id, candidate=candidate, lower=lower, upper=upper, **entries)
+
+
+DECLARED = {"expected_failure": "it is twelve percent", "worst_measured": 0.12, "measured_range": "[0.11, 0.13]"}
+
+EVERY = "".join(
+    [
+        gate("PASSES", "given", 0.05, 0.15, not_applicable="leave-out"),
+        gate("FAILS", "ten-percent", -0.05, 0.05),
+        gate("DECLARED", "twelve-percent", 0.0, 0.1, **DECLARED),
+        gate("UNCERTAIN", "ten-percent", 0.05, 0.1),
+    ]
+)
+
+
+def run(pytester, text, *options, models=("ten-percent",)):
+    pytester.makefile(".toml", gates=text)
+    named = [f"--fscm-bench-model={model}" for model in models]
+    return pytester.runpytest_inprocess("-p", PLUGIN, "--fscm-bench-gates=gates.toml", *named, *options)
+
+
+def test_each_gate_and_case_is_a_test(small_grid, pytester):
+    result = run(pytester, EVERY, "-rA", models=("ten-percent", "twelve-percent", "refuses"))
+    # PASSES: two models pass and one is skipped; the others have one model each; a whole-gate verdict on "refuses".
+    result.assert_outcomes(passed=8, skipped=4, failed=8 + 1, xfailed=4)
+    result.stdout.fnmatch_lines(
+        [
+            "*FAILS?ten-percent n=2 k=0 mu=0.1?*",
+            "FAIL: E = 0.1*, U = *, limits -0.05 to 0.05",
+            "computed again by: fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0 --mu 0.1",
+            "INCONCLUSIVE: *reaches across the limit 0.1*",
+            "ERROR: 0 cases were evaluated, 4 are declared",
+        ]
+    )
+    output = result.stdout.str()
+    assert "it has no such [thing]" in output
+    assert "it is twelve percent" in output
+    assert "Traceback" not in output
+    assert "named_verdicts.py" not in output
+
+
+def test_one_gate_can_be_chosen_and_the_folder_kept(small_grid, pytester):
+    result = run(pytester, EVERY, "-k", "PASSES", "--fscm-bench-out=kept")
+    result.assert_outcomes(passed=4, deselected=8)
+    assert (pytester.path / "kept" / "junit.xml").is_file()
+
+
+def test_an_ini_file_names_them(small_grid, pytester):
+    pytester.makefile(".toml", gates=gate("PASSES", "given", 0.05, 0.15))
+    pytester.makeini("[pytest]\nfscm_bench_gates = gates.toml\nfscm_bench_model =\n    ten-percent\n")
+    pytester.makepyfile("def test_mine():\n    pass")
+    pytester.runpytest_inprocess("-p", PLUGIN).assert_outcomes(passed=5)
+    # Tests that are named come alone.
+    pytester.runpytest_inprocess("-p", PLUGIN, "test_an_ini_file_names_them.py").assert_outcomes(passed=1)
+
+
+CASES = """
+[[grid]]
+id = "pads"
+title = "Pads"
+reference = "bradley"
+models = ["jkr"]
+quantities = ["pull_off_force"]
+problem = "pad.toml"
+vary = { "punch.R" = ["1 um", "2 um"] }
+"""
+PAD = """
+solid = {kind = "homogeneous", E = "2 MPa", nu = 0.4}
+punch = {kind = "sphere", R = "1 um"}
+law = {kind = "lennard-jones-9-3", work_of_adhesion = "50 mJ/m^2", z0 = "0.4 nm"}
+"""
+
+
+def test_problem_files_take_the_place_of_the_standing_cases(pytester):
+    """In a process of its own, as of a user: closed forms need no other models."""
+    entries = {"reference": "bradley", "cases": '{ "punch.R" = ["1 um", "2 um"] }', "min_cases": 2}
+    pytester.makefile(".toml", cases=CASES, pad=PAD, gates=gate("PADS", "jkr", -0.26, -0.24, **entries))
+    pytester.makeini("[pytest]\nfscm_bench_cases = cases.toml\n")
+    options = ["--fscm-bench-gates=gates.toml", "--fscm-bench-model=jkr", "-rA"]
+    result = pytester.runpytest_subprocess("-p", PLUGIN, *options)
+    result.assert_outcomes(passed=2)
+    result.stdout.fnmatch_lines(["*PADS?jkr pad.toml; punch.R=1 um?*"])
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--fscm-bench-model=jkr"], "--fscm-bench-gates FILE is missing"),
+        (["--fscm-bench-gates=gates.toml"], "--fscm-bench-model SPEC is missing"),
+        (["--fscm-bench-gates=none.toml", "--fscm-bench-model=jkr"], "none.toml does not exist"),
+    ],
+)
+def test_what_is_missing_is_named(pytester, options, sentence):
+    pytester.makefile(".toml", gates=EVERY)
+    result = pytester.runpytest_inprocess("-p", PLUGIN, *options)
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+    result.stderr.fnmatch_lines([f"ERROR: *{sentence}*"])
+
+
+def test_a_gate_that_cannot_be_used_is_one_sentence(small_grid, pytester):
+    result = run(pytester, EVERY.replace("0.15", "2e9"))
+    result.assert_outcomes(errors=1)
+    result.stdout.fnmatch_lines(["*upper = 2000000000 is beyond 1000 in size*"])
+    result.stdout.no_fnmatch_line("*check_numbers*")
+
+
+def test_a_run_that_cannot_compute_is_one_sentence(small_grid, pytester):
+    pytester.mkdir("kept")
+    (pytester.path / "kept" / "store.sqlite").write_text(500 * "no store\n")
+    result = run(pytester, gate("PASSES", "given", 0.05, 0.15), "--fscm-bench-out=kept")
+    result.assert_outcomes(errors=1)
+    result.stdout.fnmatch_lines(["*kept/store.sqlite is not a store*"])
+    run(pytester, gate("OTHERS", "twelve-percent", 0.0, 0.2)).assert_outcomes(errors=1)
+
+
+def test_it_costs_nothing_in_other_projects(pytester):
+    """Not even in one with a package of the same name: the plugin is loaded, and nothing of fscm-bench is."""
+    pytester.mkpydir("comparisons")
+    pytester.makepyfile(
+        """
+        import sys
+
+        def test_nothing_is_imported():
+            assert "fscm_bench_pytest" in sys.modules
+            heavy = {"fscm", "fem_reference", "comparisons", "numpy", "pandas", "scipy", "threadpoolctl", "filelock"}
+            assert not heavy & sys.modules.keys()
+
+        def test_the_package_of_the_project_is_its_own():
+            import comparisons
+            assert not hasattr(comparisons, "create")
+        """
+    )
+    pytester.runpytest_subprocess("-p", PLUGIN).assert_outcomes(passed=2)
