@@ -35,6 +35,8 @@ ALLOWED = {
     "comparisons.problem.elastic_energy": ("fscm",),
     # Checks the sections of a file before the whole.
     "comparisons.problem.reading": ("fscm",),
+    # The equilibria under a machine, which are no quantity of a model.
+    "comparisons.fitting.equilibria": ("fscm",),
     # Derivatives of a value, which are no quantity of a model.
     "comparisons.description.uncertainty": ("fscm",),
     # The Stieltjes scheme from an accurate surface on.
@@ -115,6 +117,7 @@ LAYERS = {
         ("description",),
         ("judging",),
         ("output",),
+        ("fitting",),
         ("paper",),
         ("pipeline",),
         ("bench",),

@@ -40,7 +40,7 @@ _COMMANDS = {
     "curve": "compute curves or surfaces at pull-off, as CSV and as a plot",
     "describe": "Tabor number, pull-off force and admissible models of a problem file",
     "fit": "fit work of adhesion, modulus and others to measured force-displacement curves",
-    "fem": "write fields of the finite elements (vtu, picture), print their verification",
+    "fem": "write fields of the finite elements (vtu, picture), print their verification and solver tables",
     "list": "list the models, quantities, cases, gates, or the kinds of a problem file",
     "check-model": "check that an external model keeps the contract",
     "new-model": "write a template for a model of your own: a package with a test and a CI workflow",

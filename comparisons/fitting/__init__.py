@@ -1,0 +1,1 @@
+"""Values of a problem file from measured force-displacement curves."""

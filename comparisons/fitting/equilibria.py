@@ -112,11 +112,11 @@ def _between(n: float, k: float, mu: float, end: float) -> Array:
     numbers = [_RATIO**index for index in indices]
     # Paths with folds and such without have no landmarks in common but start, pull-off and end.
     plain = any(len(_landmarks(_fine(n, k, number, end))) < 5 for number in numbers)
-    total = 0.0
-    for index, number in zip(indices, numbers, strict=True):
-        weight = math.prod((exponent - other) / (index - other) for other in indices if other != index)
-        total = total + weight * _resampled(n, k, number, end, plain)
-    return np.asarray(total)
+    paths = [_resampled(n, k, number, end, plain) for number in numbers]
+    weights = [
+        math.prod((exponent - other) / (index - other) for other in indices if other != index) for index in indices
+    ]
+    return np.asarray(np.tensordot(weights, paths, axes=1))
 
 
 @lru_cache(maxsize=256)

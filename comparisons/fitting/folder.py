@@ -78,13 +78,13 @@ def fit_files(
     """
     tasks = [_Task(path, problem, free, options) for path in paths]
     if folder is None:
-        return [item for _, item in processes(partial(_fitted, folder=None), tasks, jobs) if item is not None]
+        return [item or _lost(task) for task, item in processes(partial(_fitted, folder=None), tasks, jobs)]
     folder.mkdir(parents=True, exist_ok=True)
     with Store(folder, _FORM) as store:
         stored = {(item["file"], item["digest"]) for item in store.items}
         missing = [task for task in tasks if (task.path.name, task.digest) not in stored]
         computed = processes(partial(_fitted, folder=folder), missing, jobs)
-        store.complete("fits", len(missing), ((item or _lost(task), None) for task, item in computed))
+        store.complete("fits", len(missing), (item or _lost(task) for task, item in computed))
         wanted = {(task.path.name, task.digest) for task in tasks}
         return sorted((i for i in store.items if (i["file"], i["digest"]) in wanted), key=lambda item: item["file"])
 
@@ -126,8 +126,8 @@ def fit_table(items: Sequence[Mapping[str, Any]]) -> Table:
         Column("mu", lambda row: "" if row["mu"] is None or np.isnan(row["mu"]) else f"{row['mu']:.3g}", "mu"),
         Column("key", lambda row: str(row["key"])),
         Column("value", _value_text, "value"),
-        Column("by model (%)", lambda row: shift("model", row), "shift_by_model"),
-        Column("by assumptions (%)", lambda row: shift("assumptions", row), "shift_by_assumptions"),
+        Column("model %", lambda row: shift("model", row), "shift_by_model"),
+        Column("assumed %", lambda row: shift("assumptions", row), "shift_by_assumptions"),
     ]
     return Table(
         "fits", "Fitted values, and what the errors of model and assumptions change", columns, pd.DataFrame(rows)
@@ -144,7 +144,7 @@ def write_fits(folder: Path, items: Sequence[Mapping[str, Any]]) -> None:
     texts = {
         "fits.json": json.dumps(list(items), indent=1) + "\n",
         "fits.csv": csv_text(table.stored),
-        "fits.tex": latex(table),
+        "fits.tex": latex(table.texts, table.caption, table.id),
     }
     for name, text in texts.items():
         with atomic(folder / name) as file:

@@ -1,4 +1,4 @@
-"""``fscm-bench fem``: fields, a picture and the verification of the finite elements."""
+"""``fscm-bench fem``: fields, a picture, verification and the linear solver of the finite elements."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from comparisons.output.style import picture_path, save
 from comparisons.output.terminal import rich_table
 from comparisons.runs.atomic_files import writable_file, writing
 from fem_reference import export
-from fem_reference.verification import elastic_checks
+from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, solver_table
 
 EXAMPLES = (
     "fscm-bench fem --n 2 --k 0.4 --mu 1 --vtu body.vtu --plot body.png",
@@ -34,18 +34,22 @@ OPTIONS = (
     file("--vtu", help="write mesh, displacement and stresses here"),
     file("--plot", help="draw the deformed body here"),
     option("--verify", action="store_true", help="print the checks against exact solutions"),
-    option("--full", action="store_true", help="all checks (long)"),
+    option("--solver", action="store_true", help="print the table of the linear solvers"),
+    option("--full", action="store_true", help="all checks and sizes (long)"),
 )
 
-_FORMATS = {"error": ".1e", "limit": ".2g"}
+_FORMATS = {"error": ".1e", "limit": ".2g", "residual": ".0e", "agreement": ".0e"} | {
+    **dict.fromkeys(("setup_seconds", "solve_seconds", "direct_seconds"), ".2f"),
+    **dict.fromkeys(("megabytes", "direct_megabytes"), ".0f"),
+}
 # The picture extends to so many contact radii, and its largest displacement is this share of that.
 _EXTENT, _SHARE = 2.0, 0.15
 
 
 def call(args: argparse.Namespace) -> int:
     """Compute, write and print; return the exit status."""
-    if not (args.vtu or args.plot or args.verify):
-        raise ValueError("nothing to do: give --vtu FILE, --plot FILE or --verify")
+    if not (args.vtu or args.plot or args.verify or args.solver):
+        raise ValueError("nothing to do: give --vtu FILE, --plot FILE, --verify or --solver")
     status = _fields(args) if args.vtu or args.plot else OK
     if args.verify:
         with waiting("verification"):
@@ -54,6 +58,10 @@ def call(args: argparse.Namespace) -> int:
         output().print(rich_table(rows, "verification of the finite elements", _FORMATS))
         if not rows["passed"].all():
             status = FAILED
+    if args.solver:
+        with waiting("linear solvers"):
+            rows = pd.DataFrame(map(asdict, solver_table(FULL_STUDY if args.full else QUICK_STUDY)))
+        output().print(rich_table(rows, "conjugate gradients with pyamg beside a direct solve", _FORMATS))
     return status
 
 
