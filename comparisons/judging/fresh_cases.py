@@ -10,15 +10,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, NamedTuple
 from zlib import crc32
 
 from comparisons.console.progress import log
+from comparisons.data.contained_paths import path_inside
 from comparisons.domain import Domain, declared_domain
 from comparisons.judging.fresh_points import REACH, sample
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.selection import cases_of, relevant
 from comparisons.problem import Problem
+from comparisons.problem.problem import split_name
+from comparisons.problem.variation import parse_variation, problems_of
 from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.cases import TIERS, Grid
 from comparisons.runs.tasks import Task, plan
@@ -76,23 +80,31 @@ class FreshCases:
                 "gate": gate.id.removesuffix(RANDOM),
                 "candidate": gate.candidate,
                 "reference": gate.reference,
-                "cases": [[case.n, case.k, case.mu] for case in grid.cases],
+                "cases": [case.name or list(case.parameters.values()) for case in grid.cases],
             }
             for gate, grid in self.parts
         ]
         return {"count": self.count, "seed": self.seed, "parts": parts, "undrawn": list(self.undrawn)}
 
     @classmethod
-    def of_json(cls, stored: Mapping[str, Any], gates: Iterable[Gate]) -> FreshCases:
-        """Return the fresh cases of a record, as far as they are about some gates."""
+    def of_json(cls, stored: Mapping[str, Any], gates: Iterable[Gate], folder: Path) -> FreshCases:
+        """Return the fresh cases of a record, as far as they are about some gates; the folder has the problem files."""
         gates_by_id = {gate.id: gate for gate in gates}
         parts = []
         for entry in stored["parts"]:
             if gate := gates_by_id.get(entry["gate"]):
-                cases = tuple(Problem.dimensionless(*case) for case in entry["cases"])
+                cases = tuple(_stored_problem(case, folder) for case in entry["cases"])
                 parts.append(_part(gate, entry["candidate"], entry["reference"], cases))
         undrawn = tuple(entry for entry in stored["undrawn"] if entry["gate"] in gates_by_id)
         return cls(stored["count"], stored["seed"], tuple(parts), undrawn)
+
+
+def _stored_problem(case: list[float] | str, folder: Path) -> Problem:
+    if not isinstance(case, str):
+        return Problem.dimensionless(*case[:3])
+    file, *texts = split_name(case)
+    (problem,) = problems_of(path_inside(folder, file), [parse_variation(text) for text in texts], file)
+    return problem
 
 
 def draw(
@@ -105,8 +117,8 @@ def draw(
 ) -> FreshCases:
     """Draw fresh cases for every gate of every model that compares one value with one reference.
 
-    A gate of one model whose cases have tags has none, nor has a gate whose own ranges have no room for them, nor one
-    of problem files alone.
+    A gate of one model whose cases have tags has none, nor has a gate whose own ranges have no room for them.  Those of
+    problem files are drawn between the values of their varied keys.
 
     Parameters
     ----------
@@ -134,14 +146,11 @@ def draw(
     for gate in relevant(drawn_for, grids, models):
         if gate.candidate not in models:
             continue
-        standing = [case for case in cases_of(gate, grids, models) if not case.name]
-        declared = (case for grid in grids if gate.quantity in grid.quantities for case in grid.cases)
-        avoided = [case for case in declared if not case.name]
+        standing = cases_of(gate, grids, models)
+        avoided = [case for grid in grids if gate.quantity in grid.quantities for case in grid.cases]
         seeds = [seed, crc32(f"{gate.id} {gate.candidate}".encode())]
         is_of_values = gate.metric in _METRICS and not gate.rival and not gate.reference_at
-        drawn = None
-        if standing and is_of_values:
-            drawn = sample(gate, domains.get(gate.candidate), standing, avoided, count, seeds)
+        drawn = sample(gate, domains.get(gate.candidate), standing, avoided, count, seeds) if is_of_values else None
         if drawn is None:
             passed_over += 1
             continue
@@ -156,7 +165,7 @@ def draw(
             by_reference.setdefault(_reference(gate, case), []).append(case)
         parts += [_part(gate, gate.candidate, name, tuple(cases)) for name, cases in sorted(by_reference.items())]
     if passed_over:
-        log(f"{passed_over} gates have no fresh cases: of curves, files, single cases, with a rival or reference_at")
+        log(f"{passed_over} gates have no fresh cases: of curves, with a rival or a reference_at, or of single cases")
     return FreshCases(count, seed, tuple(parts), tuple(undrawn))
 
 
@@ -164,7 +173,7 @@ def _no_room(name: str, untested: int, standing: int) -> str:
     reach = ", ".join(f"{low:g} <= {parameter} <= {high:g}" for parameter, (low, high) in REACH.items())
     return (
         f"{untested} of {standing} standing cases are in parts of the domain of {name} that have no room for fresh "
-        f"cases beside them: points, ranges hardly wider than a point, or outside {reach}"
+        f"cases beside them: points, ranges hardly wider than a point, no varied key, or outside {reach}"
     )
 
 

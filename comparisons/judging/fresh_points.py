@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,15 +14,21 @@ from comparisons.domain import Domain
 from comparisons.judging.gates import Gate
 from comparisons.judging.selection import promised
 from comparisons.problem import Problem
+from comparisons.problem.problem import split_name
+from comparisons.problem.variation import parse_variation, problems_of
+from comparisons.runs.case_columns import unit_in
 
 __all__ = ["REACH", "Sample", "sample"]
 
-#: The smallest and the largest value of n, k and mu.
+#: The smallest and the largest value of parameters.
 _Box = Mapping[str, tuple[float, float]]
 
 #: Fresh cases are drawn inside these ranges at most. The full self-consistent model converges in all of them: its edge
-#: becomes too narrow beyond k = 0.8 at mu = 10, and the rest is wider than the box of the atlas.
+#: becomes too narrow beyond k = 0.8 at mu = 10, and the rest is wider than the box of the atlas. Other parameters, the
+#: varied keys of problem files, reach as far as their standing values.
 REACH: _Box = {"n": (0.8, 10.0), "k": (0.0, 0.8), "mu": (0.005, 10.0)}
+#: Points are even in these parameters, and in the logarithm of the others where they are positive.
+_LINEAR = ("n", "k")
 
 #: A fresh case differs from every standing one by this part of the reach in one of the parameters: by 0.09 in n, 0.008
 #: in k or 8 % in mu. Most neighbouring standing values differ by more than twice that.
@@ -68,70 +76,128 @@ def sample(
     Sample or None
         None if the gate itself leaves no room, whatever the domain is.
     """
-    coordinates = _coordinates(standing)
-    hull = _box(coordinates.min(axis=0), coordinates.max(axis=0))
-    largest_box = _limited(gate, hull if domain is None else {})
-    if not _points(largest_box, avoided, 1, seed):
+    families = [_Family.of(gate, cases, avoided) for cases in _grouped(standing)]
+    if all(family.reach and not family.points(family.frame(domain), 1, seed) for family in families):
         return None
-    spaces = [(largest_box, list(standing))]
-    if domain is not None:
-        spaces = [
-            (_limited(gate, table.limits), [case for case in standing if table.within(case.numbers)])
-            for table in domain.of_quantity(gate.quantity)
-        ]
-    cases: set[Problem] = set()
+    spaces = [(family, box, tested) for family in families for box, tested in family.boxes(domain)]
+    cases: list[Problem] = []
     untested = {case for case in standing if promised(domain, gate.quantity, case) is not False}
-    shares = _shares([len(tested) for _, tested in spaces], count, seed)
-    for number, ((box, tested), share) in enumerate(zip(spaces, shares, strict=True)):
-        points = _points(box, avoided, share, [*seed, number])
-        cases |= set(points[:share])
+    shares = _shares([len(tested) for _, _, tested in spaces], count, seed)
+    for number, ((family, box, tested), share) in enumerate(zip(spaces, shares, strict=True)):
+        points = family.points(box, share, [*seed, number])
+        cases += islice(family.problems_at(points), share)
         untested -= {*tested} if points else set()
-    return Sample(tuple(sorted(cases)), frozenset(untested))
+    return Sample(tuple(sorted(dict.fromkeys(cases))), frozenset(untested))
 
 
-def _limited(gate: Gate, box: _Box) -> _Box:
-    """Return the part of a box that a gate is about and in which fresh cases are drawn."""
-    limits = {name: (ends, box.get(name, ends), gate.cases.get(name, ends)) for name, ends in REACH.items()}
-    return {name: (max(low for low, _ in ends), min(high for _, high in ends)) for name, ends in limits.items()}
+def _numbers(case: Problem) -> dict[str, float]:
+    """Return the parameters that fresh cases vary; Poisson's ratio is left to the models."""
+    return {
+        name: float(value) for name, value in case.parameters.items() if name != "nu" and not isinstance(value, str)
+    }
 
 
-def _points(box: _Box, avoided: Sequence[Problem], count: int, seed: list[int]) -> list[Problem]:
-    """Return at least `count` cases of a box; none if hardly any of the box is apart from the cases to avoid."""
-    if any(low > high for low, high in box.values()):
-        return []
-    # It takes a second to import.
-    from scipy.stats import qmc
-
-    (low, high), reach = (_even(np.array(list(ends.values())).T) for ends in (box, REACH))
-    unit = qmc.Halton(len(box), seed=np.random.default_rng(seed)).random(max(_DRAWN, 3 * count))
-    points = low + unit * (high - low)
-    distance = np.abs(points[:, None] - _even(_coordinates(avoided))) / np.diff(reach, axis=0)
-    is_apart = (distance.max(axis=2) >= _APART).all(axis=1)
-    if is_apart.mean() < _ROOM:
-        return []
-    points[:, 2] = np.exp(points[:, 2])
-    return [
-        Problem.dimensionless(*(_rounded(value, ends) for value, ends in zip(point, box.values(), strict=True)))
-        for point in points[is_apart]
-    ]
+def _family_of(case: Problem) -> tuple[str, ...]:
+    """Return what the cases of a family have in common: their file, and their varied keys that are no numbers."""
+    words = (f"{name}={value}" for name, value in case.parameters.items() if isinstance(value, str))
+    return split_name(case.name)[0], *_numbers(case), *words
 
 
-def _coordinates(cases: Iterable[Problem]) -> NDArray[np.float64]:
-    """Return n, k and mu of cases in three columns."""
-    return np.array([[case.n, case.k, case.mu] for case in cases], dtype=float)
+def _grouped(cases: Iterable[Problem]) -> list[list[Problem]]:
+    groups: dict[tuple[str, ...], list[Problem]] = {}
+    for case in cases:
+        groups.setdefault(_family_of(case), []).append(case)
+    return [groups[family] for family in sorted(groups)]
 
 
-def _even(coordinates: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return n, k and ln(mu), in which points are drawn evenly."""
-    return np.column_stack([coordinates[:, :2], np.log(coordinates[:, 2])])
+@dataclass(frozen=True, slots=True)
+class _Family:
+    """Standing cases of a gate that differ in numbers alone, and the cases that fresh ones are apart from.
 
+    `reach` has the parameters in which fresh cases can differ, with the ends of the ranges in which they are drawn.
+    """
 
-def _box(low: NDArray[np.float64], high: NDArray[np.float64]) -> _Box:
-    return {name: (float(low[index]), float(high[index])) for index, name in enumerate(REACH)}
+    gate: Gate
+    standing: list[Problem]
+    avoided: list[Problem]
+    hull: _Box
+    reach: _Box
+
+    @classmethod
+    def of(cls, gate: Gate, standing: list[Problem], avoided: Iterable[Problem]) -> _Family:
+        values = {name: [_numbers(case)[name] for case in standing] for name in _numbers(standing[0])}
+        hull = {name: (min(numbers), max(numbers)) for name, numbers in values.items()}
+        reach = {name: REACH.get(name, ends) for name, ends in hull.items()}
+        alike = [case for case in avoided if _family_of(case) == _family_of(standing[0])]
+        return cls(gate, standing, alike, hull, {name: ends for name, ends in reach.items() if ends[0] < ends[1]})
+
+    def frame(self, domain: Domain | None) -> _Box:
+        """Return the largest box that the gate leaves to any domain, or to models that declare none."""
+        return self._limited(self.hull if domain is None else {})
+
+    def boxes(self, domain: Domain | None) -> Iterator[tuple[_Box, list[Problem]]]:
+        """Yield the boxes in which fresh cases are drawn, each with the standing cases that they test."""
+        # A domain restricts n, k and mu alone.
+        if domain is None or not self.reach.keys() & REACH.keys():
+            yield self.frame(None), self.standing
+            return
+        for table in domain.of_quantity(self.gate.quantity):
+            tested = [case for case in self.standing if table.within(case.parameters)]
+            yield self._limited({name: table.ends(name) for name in self.reach}), tested
+
+    def points(self, box: _Box, count: int, seed: list[int]) -> list[dict[str, float]]:
+        """Return points of a box, even if some are left out; none if it has hardly any that are apart."""
+        if not box or any(low > high for low, high in box.values()):
+            return []
+        # It takes a second to import.
+        from scipy.stats import qmc
+
+        is_linear = [name in _LINEAR or low <= 0.0 for name, (low, _) in box.items()]
+
+        def coordinates(points: Iterable[Mapping[str, Any]]) -> NDArray[np.float64]:
+            values = np.array([[point[name] for name in box] for point in points], dtype=float)
+            return np.where(is_linear, values, np.log(np.where(is_linear, 1.0, values)))
+
+        low, high = coordinates([{name: ends[end] for name, ends in box.items()} for end in (0, 1)])
+        unit = qmc.Halton(len(box), seed=np.random.default_rng(seed)).random(max(_DRAWN, 3 * count))
+        points = low + unit * (high - low)
+        ends = coordinates([{name: self.reach[name][end] for name in box} for end in (0, 1)])
+        distance = np.abs(points[:, None] - coordinates(map(_numbers, self.avoided)))
+        apart = ((distance / np.diff(ends, axis=0)).max(axis=2) >= _APART).all(axis=1)
+        values = np.where(is_linear, points, np.exp(np.where(is_linear, 0.0, points)))[apart]
+        drawn = [dict(zip(box, map(_rounded, point, box.values()), strict=True)) for point in values]
+        return drawn if apart.mean() >= _ROOM else []
+
+    def problems_at(self, points: Iterable[Mapping[str, float]]) -> Iterator[Problem]:
+        """Yield the problem at each point that has one."""
+        for point in points:
+            try:
+                yield _problem_at(self.standing[0], point)
+            except ValueError:
+                # Two keys may exclude each other, as the thickness of a coating and that of its transition.
+                continue
+
+    def _limited(self, box: _Box) -> _Box:
+        """Return the part of a box that the gate is about and in which fresh cases are drawn."""
+        limits = {
+            name: [ends, box.get(name, ends), self.gate.cases.get(name, ends)] for name, ends in self.reach.items()
+        }
+        return {name: (max(low for low, _ in ends), min(high for _, high in ends)) for name, ends in limits.items()}
 
 
 def _rounded(value: float, ends: tuple[float, float]) -> float:
     return min(max(float(f"{value:.{_DIGITS}g}"), ends[0]), ends[1])
+
+
+def _problem_at(like: Problem, point: Mapping[str, float]) -> Problem:
+    if like.path is None:
+        return Problem.dimensionless(**point)
+    texts = []
+    for column, value in {**like.parameters, **point}.items():
+        key, unit = unit_in(column)
+        texts.append(f"{key}={value}" if isinstance(value, str) or unit == "1" else f"{key}={value!r} {unit}")
+    (problem,) = problems_of(like.path, [parse_variation(text) for text in texts], split_name(like.name)[0])
+    return problem
 
 
 def _shares(sizes: Sequence[int], count: int, seed: list[int]) -> list[int]:

@@ -67,9 +67,11 @@ def _difference(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
             f"it has a value in {len(right)} standing cases, and in {len(new)} of the {len(evaluated)} fresh ones: it "
             "knows the standing cases only"
         )
-    parameters = ["n", "k", "mu"]
-    is_inside = (new[parameters] >= right[parameters].min()) & (new[parameters] <= right[parameters].max())
-    between = is_inside.all(axis=1)
+    # Fresh cases of problem files are drawn between the standing ones, and have no n, k and mu.
+    ranges = {name: (right[name].min(), right[name].max()) for name in ("n", "k", "mu")}
+    between = pd.concat([new[name].between(*ends) | new[name].isna() for name, ends in ranges.items()], axis=1).all(
+        axis=1
+    )
     beyond, largest, certain = new["verdict"] == Verdict.FAIL, _errors(right), _errors(new[between])
     # What is certain of the error of a fresh case, against the most that the error of a standing one can be.
     much_worse = len(certain) > 0 and _is_much_worse(largest, certain)

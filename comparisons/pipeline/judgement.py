@@ -11,7 +11,7 @@ from typing import Any
 import pandas as pd
 
 from comparisons.console.progress import log, note
-from comparisons.data.file_names import CURVES, GATES_TEXT, RECORD, RESULTS
+from comparisons.data.file_names import CURVES, GATES_TEXT, INPUTS, RECORD, RESULTS
 from comparisons.judging.card_gates import every_verdict, judge_cards, judge_digits, overall
 from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import FreshCases
@@ -145,6 +145,6 @@ def _inputs_with_gates(folder: Path, record: Mapping[str, Any], gates: Path | No
     fresh = None
     if "fresh" in record:
         judged = relevant(loaded.gates, inputs.cases.grids, inputs.models)
-        fresh = FreshCases.of_json(record["fresh"], judged)
+        fresh = FreshCases.of_json(record["fresh"], judged, folder / INPUTS)
     loaded = replace(loaded, source=None if source is None else str(source))
     return replace(inputs, gates=loaded, fresh=fresh)

@@ -62,3 +62,12 @@ def test_a_model_that_is_right_in_the_standing_cases_alone_fails(fresh, fails):
 def test_a_model_that_is_not_right_in_the_standing_cases_has_failed_there(standing):
     fresh = rows("A-RANDOM", [ok(0.5, 1.0, verdict=Verdict.FAIL)])
     assert compare_with_standing(rows("A", standing) if standing else rows("A", STANDING)[:0], fresh).empty
+
+
+def test_fresh_cases_of_a_problem_file_are_between_its_standing_ones():
+    standing, fresh = (rows(gate, [ok(None, error)]) for gate, error in (("A", 1e-3), ("A-RANDOM", 0.5)))
+    tables = (
+        table.assign(n=None, k=None, mu=None).astype({"n": float, "k": float, "mu": float})
+        for table in (standing, fresh)
+    )
+    assert len(compare_with_standing(*tables)) == 1

@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
+from comparisons.problem.variation import parse_variations, problems_of
 
 PAD = """
 solid = {kind = "homogeneous", E = "2 MPa", nu = 0.4}
@@ -153,3 +154,25 @@ def test_a_comparison_has_the_problems(run, tmp_path):
         "quantity model n k mu nu problem solid.E value u_num unit reference reference_value u_reference kappa u_kappa"
     )
     assert [name.partition(" ")[0] for name in pd.read_csv(tmp_path / "compared" / "kappa.csv")] == names.split()
+
+
+def test_a_model_that_knows_the_problems_by_heart_is_wrong_in_fresh_ones(run, tmp_path):
+    (tmp_path / "cases.toml").write_text(PADS)
+    known = [problem.mu for problem in problems_of(tmp_path / "pad.toml", parse_variations(["solid.E=1, 2 MPa"]))]
+    value = f"1.5 if any(abs(problem.mu / mu - 1) < 1e-9 for mu in {known}) else 2.0"
+    for _ in range(2):
+        assert run("--random", "6", "--seed", "1", value=value) == 1
+    # Stored results of an external model are evaluated again.
+    again = record(tmp_path)["evaluated_again"]["models"]["mine"]
+    assert again["same"]
+    assert all(task["problem"].startswith("pad.toml; ") for task in again["tasks"])
+    judged = verdicts(tmp_path)
+    assert set(judged.loc[judged["gate"] == "PADS", "verdict"]) == {"PASS"}
+    fresh = judged[(judged["gate"] == "PADS-RANDOM") & judged["problem"].notna()]
+    assert fresh["verdict"].tolist() == ["FAIL"] * 6
+    # The fresh problems are between the stated ones, and none is one of them.
+    values = [float(label.rpartition("=")[2].removesuffix(" Pa")) for label in fresh["problem"]]
+    assert all(1e6 < value < 2e6 for value in values)
+    # They are judged again from the folder alone.
+    (tmp_path / "pad.toml").unlink()
+    assert main(["judge", str(tmp_path / "out")]) == 1
