@@ -25,7 +25,6 @@ _EXPORTS = {
     "Curve": "comparisons.model",
     "NotApplicable": "comparisons.model",
     "ComputationFailed": "comparisons.model",
-    "PhysicalModel": "comparisons.external.physical_model",
     "QUANTITIES": "comparisons.quantities",
     "create": "comparisons.registry",
     "Problem": "comparisons.problem",

@@ -109,7 +109,7 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
     'jkr'
     """
     if name not in MODELS:
-        return _external_model(name, poisson_ratio)
+        return _external_model(name)
     module, _, cls = MODELS[name].partition(":")
     factory = getattr(import_module(module), cls)
     if depends_on_poisson_ratio(name) and poisson_ratio is not None:
@@ -166,12 +166,12 @@ def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, ExternalIdentit
     return names, external
 
 
-def _external_model(spec: str, poisson_ratio: float | None) -> Model:
+def _external_model(spec: str) -> Model:
     try:
         source_of(spec)
     except ValueError as error:
         raise ValueError(f"unknown model: {error}; the models are {', '.join(MODELS)}") from None
-    model = load_model(spec, poisson_ratio)
+    model = load_model(spec)
     if model.name in MODELS:
         raise ValueError(
             f"the name {model.name} of the external model belongs to a model of fscm-bench: choose another name"

@@ -57,7 +57,6 @@ class DataModel:
         At the first thing that is wrong; one sentence names it with its place.
     """
 
-    physical = False
     #: Its manifest lists the cases.
     applies_to = Domain(())
 
@@ -78,7 +77,7 @@ class DataModel:
         self.citation = f"{manifest['author']}{source} ({manifest['licence']})"
         self.hashed = f"the predictions, a CSV with {len(self.rows)} rows"
 
-    def evaluate(self, problem: Problem, quantity: str, *, scales: int = 0) -> Result:
+    def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the prediction, or raise `NotApplicable` for a case that the submission does not cover."""
         key = (quantity, problem.n, problem.k, problem.mu)
         if key not in self.rows:

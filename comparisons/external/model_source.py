@@ -21,7 +21,10 @@ from comparisons.external.data_model import MANIFEST, DataModel
 from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import one_line
 
-__all__ = ["GROUP", "close_models", "installed", "load_again", "load_model", "source_of"]
+__all__ = ["GROUP", "AnyExternalModel", "close_models", "installed", "load_again", "load_model", "source_of"]
+
+#: A model of the user: a class or program, or a table of data.
+AnyExternalModel = ExternalModel | DataModel
 
 #: Group of the entry points by which an installed package offers models.
 GROUP = "fscm_bench.models"
@@ -31,7 +34,7 @@ _TABLES = {".csv", ".tsv", ".dat", ".txt", ".parquet", ".xlsx", ".ods"}
 
 _SPECS = f"an installed model, FILE.py:CLASS, a program (./PROGRAM) or a folder with a {MANIFEST}"
 
-_loaded: dict[tuple[str, float | None], ExternalModel | DataModel] = {}
+_loaded: dict[str, AnyExternalModel] = {}
 
 
 def installed() -> list[tuple[str, str, str]]:
@@ -107,28 +110,26 @@ def _program(path: str, quoted: str) -> dict[str, Any]:
     return {"kind": "program", "file": path}
 
 
-def load_model(spec: str, poisson_ratio: float | None = None) -> ExternalModel | DataModel:
+def load_model(spec: str) -> AnyExternalModel:
     """Return the model that a SPEC names; loaded once in a process and kept.
 
     Parameters
     ----------
     spec : str
         See the module's text.
-    poisson_ratio : float, optional
-        For a model of physical quantities; the others do not depend on it.
 
     Raises
     ------
     ValueError
         If there is none, or it does not load; the sentence has the reason.
     """
-    key = (repr(source_of(spec)), poisson_ratio)
+    key = repr(source_of(spec))
     if key not in _loaded:
-        _loaded[key] = load_again(spec, poisson_ratio)
+        _loaded[key] = load_again(spec)
     return _loaded[key]
 
 
-def load_again(spec: str, poisson_ratio: float | None = None) -> ExternalModel | DataModel:
+def load_again(spec: str) -> AnyExternalModel:
     """Return the model that a SPEC names in a process of its own, which the caller closes.
 
     Raises
@@ -137,7 +138,7 @@ def load_again(spec: str, poisson_ratio: float | None = None) -> ExternalModel |
         As `load_model`.
     """
     source = source_of(spec)
-    return DataModel(Path(source["folder"])) if source["kind"] == "data" else connect(source, spec, poisson_ratio)
+    return DataModel(Path(source["folder"])) if source["kind"] == "data" else connect(source, spec)
 
 
 @atexit.register

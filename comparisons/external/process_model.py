@@ -16,7 +16,7 @@ from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 
-__all__ = ["PATIENCE", "ExternalModel", "ExternalModelWithCurve", "connect", "contradiction"]
+__all__ = ["PATIENCE", "ExternalModel", "connect", "contradiction"]
 
 _Reply = TypeVar("_Reply", Result, Curve)
 
@@ -35,8 +35,6 @@ class ExternalModel:
         Which files these are, in words.
     limits : tuple of str
         Limits in which the model is exact, as its author states (see `comparisons.external.contract_checks`).
-    physical : bool
-        Whether it works in physical units.
     applies_to : Domain or None
         The domain that it declares.
     is_program : bool
@@ -49,23 +47,27 @@ class ExternalModel:
     domain: str
     hashed: str
     limits: tuple[str, ...]
-    physical: bool
     applies_to: Domain | None
 
     def __init__(self, source: dict[str, Any], child: Child, stated: dict[str, Any]) -> None:
+        if stated.pop("has_curve"):
+            self.curve = self._curve
         vars(self).update(stated)
         self._source, self._child = source, child
         self._refusal, self._overdue = "", 0
         self.is_program = source["kind"] == "program"
 
-    def evaluate(self, problem: Problem, quantity: str, *, scales: int = 0) -> Result:
+    def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity, or raise `NotApplicable` or `ComputationFailed`; nothing else."""
         if quantity not in QUANTITIES:
             raise ValueError(f"quantity {quantity!r} is unknown; the known ones are {', '.join(QUANTITIES)}")
-        more = {"scales": scales} if scales else {}
         started = time.perf_counter()
-        result = self._reply({"request": "evaluate", "quantity": quantity, **more}, problem, result_of)
+        result = self._reply({"request": "evaluate", "quantity": quantity}, problem, result_of)
         return replace(result, seconds=time.perf_counter() - started)
+
+    def _curve(self, problem: Problem) -> Curve:
+        """Return the curve of a model that has one, or raise as `evaluate`."""
+        return self._reply({"request": "curve"}, problem, curve_of)
 
     def close(self) -> None:
         """End the process; the next request starts a new one."""
@@ -101,15 +103,7 @@ class ExternalModel:
             raise ComputationFailed(self._refusal)
 
 
-class ExternalModelWithCurve(ExternalModel):
-    """A model in a process of its own that has a force-displacement curve as well."""
-
-    def curve(self, problem: Problem) -> Curve:
-        """Return the curve, or raise as `evaluate`."""
-        return self._reply({"request": "curve"}, problem, curve_of)
-
-
-def connect(source: dict[str, Any], spec: str, poisson_ratio: float | None = None) -> ExternalModel:
+def connect(source: dict[str, Any], spec: str) -> ExternalModel:
     """Start a process that loads the model, and return the model.
 
     Raises
@@ -119,12 +113,10 @@ def connect(source: dict[str, Any], spec: str, poisson_ratio: float | None = Non
     """
     if os.name != "posix":
         raise ValueError("models that are code are run on Linux and macOS only; predictions as data everywhere")
-    source = source | {"poisson_ratio": poisson_ratio}
     try:
-        child, stated = _started(source)
+        return ExternalModel(source, *_started(source))
     except (ComputationFailed, NotApplicable) as failure:
         raise ValueError(f"the model {one_line(spec, 200)} cannot be loaded: {one_line(str(failure))}") from None
-    return (ExternalModelWithCurve if stated["has_curve"] else ExternalModel)(source, child, stated)
 
 
 def contradiction(before: tuple[str, str], now: tuple[str, str]) -> str:

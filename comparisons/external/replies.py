@@ -66,7 +66,6 @@ def described(line: bytes, source: dict[str, Any]) -> dict[str, Any]:
             "domain": one_line(reply["domain"]),
             "hashed": hashed,
             "limits": tuple(one_line(limit, 60) for limit in reply.get("limits", [])),
-            "physical": bool(of_worker.get("physical")),
             "applies_to": None if domain is None else Domain.of(domain),
             "has_curve": reply.get("curve", False),
         }

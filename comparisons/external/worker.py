@@ -6,14 +6,12 @@ stdout and stderr are redirected to the null device, so a model may print what i
 
 from __future__ import annotations
 
-import inspect
 import json
 import numbers
 import os
 import sys
 import traceback
 from collections.abc import Callable, Iterable
-from contextlib import suppress
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from typing import Any
@@ -22,7 +20,6 @@ import numpy as np
 
 from comparisons.domain import declared_domain
 from comparisons.external.fingerprint import SITES
-from comparisons.external.physical_model import PhysicalModel, evaluate_in_units
 from comparisons.external.text_rules import TEXTS, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from fscm.problem import Problem
@@ -57,7 +54,7 @@ def serve(source: dict[str, Any], megabytes: float) -> None:
                 model, files = _loaded(source)
                 reply = _description(model, files)
             else:
-                reply = {"evaluate": _evaluated, "curve": _curve}[request["request"]](model, request, source)
+                reply = {"evaluate": _evaluated, "curve": _curve}[request["request"]](model, request)
             text = _encoded({"status": "ok"} | reply)
         except NotApplicable as refusal:
             text = json.dumps({"status": "not-applicable", "reason": _text_of(refusal)})
@@ -147,8 +144,8 @@ def _description(model: Any, files: dict[str, Any]) -> dict[str, Any]:
     if missing := [name for name in TEXTS if not hasattr(model, name)]:
         raise ComputationFailed(f"the model has no {', '.join(missing)}; it needs {', '.join(TEXTS)}")
     domain = declared_domain(model)
-    physical = isinstance(model, PhysicalModel)
-    _check_methods(model, physical)
+    if not callable(getattr(model, "evaluate", None)):
+        raise ComputationFailed("the model has no method evaluate(problem, quantity)")
     limits = getattr(model, "limits", ())
     return {
         **{name: str(getattr(model, name)) for name in TEXTS},
@@ -156,40 +153,16 @@ def _description(model: Any, files: dict[str, Any]) -> dict[str, Any]:
         "files": getattr(model, "files", ()),
         "applies_to": None if domain is None else domain.as_json(),
         "curve": callable(getattr(model, "curve", None)),
-        "python": files | {"physical": physical},
+        "python": files,
     }
 
 
-def _check_methods(model: Any, physical: bool) -> None:
-    """Refuse a model without a method that is called, or with one that takes other arguments."""
-    called = {"evaluate_physical" if physical else "evaluate": ("problem", "quantity"), "curve": ("problem",)}
-    for name, arguments in called.items():
-        method, call = getattr(model, name, None), f"{name}({', '.join(arguments)})"
-        if not callable(method):
-            if name != "curve":
-                raise ComputationFailed(f"the model has no method {call}")
-            continue
-        with suppress(ValueError):  # of a compiled method nothing is known
-            signature = inspect.signature(method)
-            try:
-                signature.bind(*arguments)
-            except TypeError:
-                code = getattr(inspect.unwrap(method), "__code__", None)
-                line = f" in line {code.co_firstlineno} of {Path(code.co_filename).name}" if code else ""
-                title = one_line(f"{getattr(method, '__qualname__', method)}{signature}", 120)
-                raise ComputationFailed(f"{title}{line} is called as {call}: let it take these arguments") from None
-
-
-def _evaluated(model: Any, request: dict[str, Any], source: dict[str, Any]) -> dict[str, Any]:
-    problem, quantity = _problem(request), request["quantity"]
-    if isinstance(model, PhysicalModel):
-        result = evaluate_in_units(model, problem, quantity, source["poisson_ratio"], request.get("scales", 0))
-    else:
-        result = model.evaluate(problem, quantity)
+def _evaluated(model: Any, request: dict[str, Any]) -> dict[str, Any]:
+    result = model.evaluate(_problem(request), request["quantity"])
     return _attributes(result, Result, ("value", "u_num", "residual", "size", "iterations"))
 
 
-def _curve(model: Any, request: dict[str, Any], _: dict[str, Any]) -> dict[str, Any]:
+def _curve(model: Any, request: dict[str, Any]) -> dict[str, Any]:
     return _attributes(model.curve(_problem(request)), Curve, ("displacement", "load", "columns"))
 
 

@@ -13,8 +13,7 @@ from typing import Any
 from comparisons.console.progress import note, waiting
 from comparisons.external.contract_checks import examine
 from comparisons.external.data_model import DataModel
-from comparisons.external.evaluations import AnyExternalModel
-from comparisons.external.model_source import load_again
+from comparisons.external.model_source import AnyExternalModel, load_again
 from comparisons.problem import Problem
 from comparisons.registry import ExternalIdentity
 from comparisons.runs.environment import computing_environment

@@ -8,8 +8,7 @@ from comparisons.cli.options import option
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, FAILS, OK
 from comparisons.console.progress import waiting
-from comparisons.external.contract_checks import examine
-from comparisons.external.evaluations import SKIPPED
+from comparisons.external.contract_checks import SKIPPED, examine
 from comparisons.external.model_source import load_model
 from comparisons.registry import MODELS
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.external.model_source import close_models, load_model, source_of
+from comparisons.external.model_source import close_models, source_of
 from comparisons.model import ComputationFailed, HasCurve, Model, NotApplicable
 from comparisons.problem import Problem
 from comparisons.registry import create
@@ -102,26 +102,6 @@ def test_what_names_no_model_is_refused_in_one_sentence(tmp_path, monkeypatch, c
     for command in (["run", "--model", spec], ["check-model", spec]):
         assert main(command) == 2
         assert capsys.readouterr().err.count("\n") == 1
-
-
-@pytest.mark.parametrize(
-    ("method", "called"),
-    [
-        ("def evaluate(self, p): ...", "evaluate(problem, quantity)"),
-        ("def evaluate_physical(self, problem): ...", "evaluate_physical(problem, quantity)"),
-        ("def curve(self): ...", "curve(problem)"),
-        ("def evaluate(self, case, name, accuracy=None): ...", ""),
-        ("evaluate = property(lambda self: max)", ""),
-    ],
-)
-def test_methods_that_take_other_arguments_are_refused_with_their_line(write_model, method, called):
-    spec = write_model(more=method)
-    if not called:
-        assert load_model(spec).name == "stranger"
-        return
-    with pytest.raises(ValueError, match=r"in line \d+ of stranger\.py is called as ") as refusal:
-        load_model(spec)
-    assert called in str(refusal.value)
 
 
 PROGRAM = ROOT / "tests" / "examples" / "program" / "jkr.sh"
