@@ -1,32 +1,25 @@
-"""Tables of random problems: the rows of a CSV file, and the computation of those that it lacks."""
+"""Tables of random problems: CSV files whose column `number` tells the problem of a row."""
 
 from __future__ import annotations
 
 import csv
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import NamedTuple
 
 
-class RandomTable(NamedTuple):
-    """One file; the problem of a row is known by the column `number`."""
+def stored(table: Path) -> list[dict[str, str]]:
+    """Return all rows."""
+    with table.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
 
-    path: Path
-    columns: tuple[str, ...]
 
-    def rows(self) -> list[dict[str, str]]:
-        """Return all rows."""
-        with self.path.open(encoding="utf-8", newline="") as file:
-            return list(csv.DictReader(file))
-
-    def complete(self, numbers: Iterable[int], rows_of: Callable[[int], Iterable[dict[str, object]]]) -> None:
-        """Append the rows of the problems that the file lacks, each problem as soon as it is computed."""
-        known = {row["number"] for row in self.rows()} if self.path.exists() else None
-        with self.path.open("a", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, self.columns, lineterminator="\n")
-            if known is None:
-                writer.writeheader()
-            for number in numbers:
-                if str(number) not in (known or ()):
-                    writer.writerows(rows_of(number))
-                    file.flush()
+def complete(table: Path, numbers: Iterable[int], rows_of: Callable[[int], Iterable[dict[str, object]]]) -> None:
+    """Append the rows of the problems that the file lacks, each as soon as it is computed; the file has a header."""
+    known = {row["number"] for row in stored(table)}
+    with table.open("r+", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, next(csv.reader([file.readline()])), lineterminator="\n")
+        file.seek(0, 2)
+        for number in numbers:
+            if str(number) not in known:
+                writer.writerows(rows_of(number))
+                file.flush()

@@ -7,6 +7,7 @@ from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import CentralGap, EdgeGap, EdgeRadius, GapRise, Size
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.newton import newton
+from fem_reference._contact.tail import TailContact
 from fem_reference._contact.tracing import traced
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
@@ -30,9 +31,11 @@ def points():
     return traced(_contact())
 
 
-@pytest.mark.parametrize("punch", [PowerPunch(1.0, 1.0), PowerPunch(2.0, 1.0), PowerPunch(5.0, 1.0)])
-def test_tangent_and_load_gradient_by_central_differences(punch):
-    contact = _contact(0.5, 0.4, 0.25, punch=punch)
+@pytest.mark.parametrize(("n", "has_tail"), [(1.0, False), (2.0, False), (5.0, False), (2.0, True)])
+def test_tangent_and_load_gradient_by_central_differences(n, has_tail):
+    contact = _contact(0.5, 0.4, 0.25, punch=PowerPunch(n, 1.0))
+    if has_tail:
+        contact = TailContact(contact.punch, contact.law, contact.compliance, 0.4)
     rng = np.random.default_rng(2)
     y = np.append(0.05 * rng.normal(size=contact.unknowns) * (np.arange(contact.unknowns) < 20), [-0.4, 1.3])
     v = np.append(1e-2 * rng.normal(size=contact.unknowns) * (np.arange(contact.unknowns) < 20), [0.3, 0.2])
@@ -69,23 +72,15 @@ def test_every_control_finds_the_same_state(points):
         assert np.abs(state.y - y).max() <= 1e-8, type(control).__name__
 
 
-def test_rates_are_derivatives_along_the_path(points):
+def test_rates_are_derivatives_along_the_path_and_the_load_is_that_of_the_energy(points):
     for point in (points[5], points[-5]):
         h = 1e-4 * point.parameter
         ahead, behind = (point.branch.solve(point.parameter + d, point.predict(point.parameter + d)) for d in (h, -h))
-        load = (ahead.state.load - behind.state.load) / (2 * h)
-        assert point.state.load_rate == pytest.approx(load, rel=1e-6)
-        delta = (ahead.state.displacement - behind.state.displacement) / (2 * h)
-        assert point.state.displacement_rate == pytest.approx(delta, rel=1e-6)
-
-
-def test_energy_derivative_is_the_load(points):
-    for point in (points[8], points[-3]):
-        h = 1e-3 * point.parameter
-        ahead, behind = (point.branch.solve(point.parameter + d, point.predict(point.parameter + d)) for d in (h, -h))
+        load, delta = (getattr(ahead.state, name) - getattr(behind.state, name) for name in ("load", "displacement"))
+        assert point.state.load_rate == pytest.approx(load / (2 * h), rel=1e-6)
+        assert point.state.displacement_rate == pytest.approx(delta / (2 * h), rel=1e-6)
         contact = point.branch.contact
         energy = contact.energy(ahead.state.y) - contact.energy(behind.state.y)
-        delta = ahead.state.displacement - behind.state.displacement
         assert energy / delta == pytest.approx(point.state.load, rel=2e-5)
 
 

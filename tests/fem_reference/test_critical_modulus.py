@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 import fem_reference
-from fem_reference import LennardJones, NoSuchEvent, OffsetPowerLaw, PowerLaw, PowerPunch, Problem, solve
+from fem_reference import Exponential, LennardJones, NoSuchEvent, OffsetPowerLaw, PowerLaw, PowerPunch, Problem, solve
 from fem_reference._contact import critical
 from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.cusp import cusp_from, displacement_rates, slowest
@@ -18,8 +18,6 @@ from fem_reference._contact.path import point_at
 from fem_reference._contact.tracing import traced
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference.accuracy import level_for
-from fem_reference.modulus import CustomModulus
-from tests.fem_reference.profile_solid import ProfileSolid
 
 LAW = LennardJones(work_of_adhesion=1.0, z0=1.0)
 FLAT = Problem(PowerLaw(E0=1.0, c0=1.0, k=0.0, nu=0.0), PowerPunch(n=5.0, Q=1.0), LAW)
@@ -123,7 +121,7 @@ def test_a_solid_whose_compliance_does_not_scale():
 
 
 def test_a_solid_without_a_reference_modulus_is_refused():
-    solid = ProfileSolid(CustomModulus(lambda z: 1.0 + 0.0 * z, 0.0, 0.0, 1.0), 0.3)
+    solid = Exponential(1.0, 1.0, 1.0, 0.3)
     with pytest.raises(ValueError, match=r"has no reference modulus E0.*take a PowerLaw$"):
         solve(replace(FLAT, solid=solid), "critical_modulus")
 

@@ -8,9 +8,6 @@ import pytest
 from fem_reference import Interface, PowerLaw
 from fem_reference._elastic.compliance import is_scaling, scaled_poisson
 from fem_reference._elastic.depth_scales import DepthScales, depth_scales
-from fem_reference._elastic.elasticity import Body, stiffness
-from fem_reference._elastic.mapping import InteriorChart
-from fem_reference._elastic.mesh import uniform_grid
 from fem_reference.coating import CoatingModulus
 from fem_reference.depth_profiles import ExponentialModulus, TableModulus, TablePoisson
 from fem_reference.modulus import CustomModulus, PowerLawModulus
@@ -67,22 +64,6 @@ def test_a_mesh_follows_poissons_ratio():
     assert is_scaling(E, 0.3, ())
     assert not is_scaling(E, CoatingPoisson(0.1, 0.4, 3.0), ())
     assert not is_scaling(E, 0.3, (1.0,))
-
-
-def test_stiffness_of_two_layers_is_that_of_both():
-    """Elements with the Poisson ratio of their layer: the ratio of depth is the sum of the two bodies."""
-    mesh, chart = uniform_grid(2.0, 2).quads(), InteriorChart(1e-3, 0.0)
-    E, none = PowerLawModulus(1.0, 1.0, 0.0), np.zeros(0, int)
-    layered, _ = stiffness(Body(mesh, chart, E, CoatingPoisson(0.2, 0.45, 1.0), 3), none)
-    soft, basis = stiffness(Body(mesh, chart, E, 0.45, 3), none)
-    hard, _ = stiffness(Body(mesh, chart, E, 0.2, 3), none)
-    deep = np.flatnonzero(mesh.p[1][mesh.t].mean(axis=0) > 1.0)
-    below = np.unique(basis.element_dofs[:, deep])
-    inner = np.setdiff1d(below, np.unique(basis.element_dofs[:, np.setdiff1d(np.arange(4), deep)]))
-    above = np.setdiff1d(np.arange(basis.N), below)
-    for matrix, scalar in ((soft, inner), (hard, above)):
-        rows = np.concatenate([2 * scalar, 2 * scalar + 1])
-        assert abs(layered[rows] - matrix[rows]).max() <= 1e-14
 
 
 def _custom(*arguments):

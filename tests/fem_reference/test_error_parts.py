@@ -11,7 +11,6 @@ from fem_reference._contact import error_parts
 from fem_reference._contact.error_parts import PARTS, events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.resolved import ResolvedEvents
-from fem_reference._contact.tail import TailContact
 from fem_reference._elastic.compliance import ScalingCompliance
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import FEATURES, variant
@@ -86,18 +85,6 @@ def test_algebra_part_responds_to_rounding(monkeypatch):
     assert small < 1e-10
     assert large > 1e-8
     assert contact.compliance.matrix is matrix
-
-
-def test_tail_has_the_derivative_of_its_load():
-    plain = _contact(replace(SPEC, extent=16.0))
-    contact = TailContact(plain.punch, plain.law, plain.compliance, 0.3)
-    y = np.concatenate([np.full(contact.unknowns, 0.1), [-0.5, 1.5]])
-    h = 1e-6
-    for index in (0, int(contact.compliance.trace.nodes.size) - 1, -2, -1):
-        step = np.zeros(y.size)
-        step[index] = h
-        slope = (contact.load(y + step) - contact.load(y - step)) / (2 * h)
-        assert contact.load_gradient(y)[index] == pytest.approx(slope, rel=1e-6, abs=1e-9)
 
 
 @pytest.mark.parametrize("feature", FEATURES)

@@ -1,5 +1,7 @@
 """Fields: the surface stress is the traction, the file reads back, the picture is drawn."""
 
+from dataclasses import replace
+
 import meshio
 import numpy as np
 import pytest
@@ -56,6 +58,8 @@ def test_one_unit_of_every_length(state):
     scaled = field.in_units_of(0.25, 7.0)
     assert scaled.displacement / scaled.points == pytest.approx(field.displacement / field.points, rel=1e-12)
     assert scaled.stress / scaled.modulus[:, None] == pytest.approx(field.stress / field.modulus[:, None], rel=1e-12)
+    sheared = replace(field, stress=np.tile([0.0, 0.0, 0.0, 2.0], (len(field.points), 1)))
+    assert sheared.von_mises == pytest.approx(2.0 * 3.0**0.5)
     assert 0.25 * scaled.gap == pytest.approx(field.gap, nan_ok=True)
     assert 7.0 * scaled.pressure == pytest.approx(field.pressure, nan_ok=True)
     with pytest.raises(ValueError, match="length = 0"):

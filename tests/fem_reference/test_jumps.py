@@ -9,6 +9,7 @@ from scipy.interpolate import CubicHermiteSpline
 import fem_reference.solution as solution_module
 from fem_reference import (
     Coating,
+    Exponential,
     LennardJones,
     NoSuchEvent,
     NotConverged,
@@ -18,10 +19,8 @@ from fem_reference import (
     solve_together,
 )
 from fem_reference._contact.events import PathEvents, energy_lost
-from fem_reference.depth_profiles import ExponentialModulus
 from fem_reference.quantities import LOSSES, TABLE, further_losses
 from tests.fem_reference.analytic_branch import AnalyticBranch
-from tests.fem_reference.profile_solid import ProfileSolid
 from tests.fem_reference.solved_together import sphere_on
 
 PAIR = (-1.0, -3.0)
@@ -130,7 +129,7 @@ def test_the_loss_on_meshes_of_their_own_has_every_jump(name, monkeypatch):
 
     monkeypatch.setattr(solution_module, "_solved_together", solved)
     monkeypatch.setattr(solution_module, "path_over_meshes", lambda problem, accuracy: events)
-    problem = sphere_on(ProfileSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1))
+    problem = sphere_on(Exponential(3.0, 1.0, 5.0, 0.1))
     row = TABLE["hysteresis_energy"]
     loss = solution_module._summed(problem, {"hysteresis_energy": row}, "default")["hysteresis_energy"]
     assert requested[:2] == list(LOSSES)

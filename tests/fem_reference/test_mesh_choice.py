@@ -6,16 +6,13 @@ import numpy as np
 import pytest
 
 from fem_reference import CustomPunch, LennardJones, NotConverged, PowerLaw, Problem, solve
-from fem_reference._contact.mesh_choice import MeshChoice, chosen
+from fem_reference._contact.mesh_choice import MeshChoice
 from fem_reference._elastic.mesh import graded_grid
 from fem_reference.accuracy import level_for
 from tests.fem_reference.solved_together import problem_with
 
 #: The edge is 1e-10 of its radius wide.
 UNRESOLVED = problem_with(0.8778961468202925, 5.103826446508255, 1.8234594621046147, 0.3894883306671959)
-
-#: Its edge is 1e-5 of its radius wide, and coarser meshes do not tell.
-NARROW = problem_with(0.8809850211203045, 1.1940881349252646, 1.0561697405334003, 0.13588631365234863)
 
 #: At k = 0, mu = 3, by the integral equation; all digits shown.
 CONE_JUMP_OUT_GAP = -0.03186462
@@ -24,15 +21,6 @@ CONE_JUMP_OUT_GAP = -0.03186462
 def test_an_edge_that_no_mesh_resolves_is_refused():
     with pytest.raises(NotConverged, match="of its radius, and the smallest that are meshed"):
         solve(UNRESOLVED, "pull_off_force", "quick")
-
-
-@pytest.mark.heavy
-def test_a_mesh_that_is_fine_enough_is_found_from_one_that_is_far_too_coarse():
-    """By quarters the search ran out of meshes, at every accuracy."""
-    choice, spec, size = chosen(NARROW, ("pull_off",), "quick")
-    assert choice.level == level_for("quick")
-    assert spec.edge_width < 1e-5
-    assert choice.traced(spec, size).at("pull_off").state.load == pytest.approx(-19.428, rel=1e-3)
 
 
 def test_far_elements_have_a_share_of_the_density():

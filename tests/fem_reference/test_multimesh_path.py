@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve
+from fem_reference import Coating, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve
 from fem_reference._contact import multimesh_path as multimesh_path_module
 from fem_reference._contact.edge_states import EdgeStates
 from fem_reference._contact.jkr_tension import jkr_curve
@@ -16,24 +16,20 @@ from fem_reference._contact.mesh_choice import MeshChoice, followed_path
 from fem_reference._contact.multimesh_path import multimesh_path
 from fem_reference._contact.path import equilibrium_points
 from fem_reference.accuracy import level_for
-from fem_reference.coating import CoatingModulus
-from fem_reference.poisson import CoatingPoisson
-from tests.fem_reference.profile_solid import ProfileSolid
 from tests.fem_reference.solved_together import sphere_on
 
-HOMOGENEOUS = sphere_on(ProfileSolid(CoatingModulus(1.0, 1.0, 1.0), 0.0))
+HOMOGENEOUS = sphere_on(Coating(1.0, 1.0, 1.0, 0.0, 0.0))
 
 
 def stiff_coating(E_coating, thickness, range_of_law=0.4):
     """A sphere of 5 um, 50 mJ/m^2, on a coating in MPa and nm on 1.5 MPa; forces in pN."""
-    interface = (thickness, 0.0)
-    solid = ProfileSolid(CoatingModulus(E_coating, 1.5, *interface), CoatingPoisson(0.4, 0.49, *interface))
+    solid = Coating(E_coating, 1.5, thickness, 0.0, 0.4, 0.49)
     return Problem(solid, PowerPunch(2.0, 5000.0), LennardJones(50.0, range_of_law))
 
 
 def soft_coating(E_coating):
     """The same under 10.6 mJ/m^2 on 1.56 nm of a soft coating on 850 MPa: the Tabor number of 1 MPa is 160."""
-    solid = ProfileSolid(CoatingModulus(E_coating, 850.0, 1.56, 0.0), 0.3)
+    solid = Coating(E_coating, 850.0, 1.56, 0.0, 0.3)
     return Problem(solid, PowerPunch(2.0, 3400.0), LennardJones(10.6, 0.404))
 
 
@@ -170,7 +166,7 @@ def test_contact_on_a_soft_coating_begins_where_it_jumps_in():
 
 def test_a_path_on_a_very_soft_solid_begins_farther_away():
     """At a Tabor number of 2e4 there is no equilibrium with the central gap that suits stiffer solids."""
-    solid = ProfileSolid(CoatingModulus(1e-3, 1e-3, 1.0), 0.3)
+    solid = Coating(1e-3, 1e-3, 1.0, 0.0, 0.3)
     choice = MeshChoice(Problem(solid, PowerPunch(2.0, 3400.0), LennardJones(10.6, 0.404)), level_for("quick"))
     start = next(equilibrium_points(choice.contact(*choice.first_mesh())))
     assert start.state.central_gap > 12.0 * 0.404

@@ -7,19 +7,17 @@ from types import SimpleNamespace
 import pytest
 
 import fem_reference.solution as solution_module
-from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve, solve_together
-from fem_reference.depth_profiles import ExponentialModulus
+from fem_reference import Exponential, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve, solve_together
 from fem_reference.quantities import TABLE
-from tests.fem_reference.profile_solid import ProfileSolid
 from tests.fem_reference.solved_together import sphere_on
 
 FORCE, JUMP_IN, JUMP_OUT = NAMES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
 ROWS = {name: TABLE[name] for name in NAMES}
 LAW = LennardJones(1.0, 1.0)
-GRADED = sphere_on(ProfileSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1))
+GRADED = sphere_on(Exponential(3.0, 1.0, 5.0, 0.1))
 #: Of a power punch, n = 5, on a solid that softens: by both references, all digits shown.
 ZERO_LOAD = 0.42243083
-CONE = replace(GRADED, solid=ProfileSolid(ExponentialModulus(0.9, 0.3, 5.0), 0.1), punch=PowerPunch(1.0, 1.0))
+CONE = replace(GRADED, solid=Exponential(0.9, 0.3, 5.0, 0.1), punch=PowerPunch(1.0, 1.0))
 
 
 def _own(problem, points, missed=(), monkeypatch=None):
@@ -47,7 +45,7 @@ def test_one_mesh_serves_every_event_of_a_solid_that_scales(monkeypatch):
 
 def test_the_bound_of_a_second_event_holds():
     """On the mesh of the pull-off the three values at zero load turn back, 1.4 bounds from the value."""
-    problem = Problem(ProfileSolid(ExponentialModulus(2.0, 1.0, 2.0), 0.3), PowerPunch(5.0, 1.0), LAW)
+    problem = Problem(Exponential(2.0, 1.0, 2.0, 0.3), PowerPunch(5.0, 1.0), LAW)
     zero_load = solve_together(problem, (FORCE, "zero_load_displacement"), "quick")["zero_load_displacement"]
     assert zero_load.value == pytest.approx(ZERO_LOAD, abs=zero_load.u_num + 1e-8)
     assert zero_load.u_num < 1e-6

@@ -1,21 +1,19 @@
 """Shapes of punches of the finite elements: heights, slopes, kinks and the meshes that follow them."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from fem_reference import (
-    LennardJones,
-    MeasuredPunch,
-    NotConverged,
-    PowerLaw,
-    Problem,
-)
+from fem_reference import MeasuredPunch, NotConverged, PowerLaw
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.mesh_lengths import kinks_within
 from fem_reference._elastic.mesh import MeshSpec, graded_grid
 from fem_reference._elastic.trace import trace_of
+from tests.fem_reference.solved_together import sphere_on
+
+SOFT = PowerLaw(1.0, 1.0, 0.0, 0.3)
 
 
 def test_mesh_lines_at_kinks():
@@ -40,13 +38,9 @@ def test_derivatives_of_the_surface_functions():
     assert trace.slopes(node) == pytest.approx(trace.slopes(node * (1 + 1e-12)), rel=1e-9, abs=1e-9)
 
 
-def _problem(punch):
-    return Problem(PowerLaw(1.0, 1.0, 0.0, 0.3), punch, LennardJones(1.0, 1.0))
-
-
 def test_only_kinks_in_reach_are_lines():
     r = np.linspace(0.0, 60.0, 121)
-    kinks = kinks_within(_problem(MeasuredPunch(r[::2], r[::2] ** 2 / 2)))
+    kinks = kinks_within(replace(sphere_on(SOFT), punch=MeasuredPunch(r[::2], r[::2] ** 2 / 2)))
     assert len(kinks) == 24
     assert max(kinks) < math.sqrt(600.0)
 
@@ -54,4 +48,4 @@ def test_only_kinks_in_reach_are_lines():
 def test_too_many_kinks_are_refused():
     r = np.linspace(0.0, 20.0, 101)
     with pytest.raises(NotConverged, match="the slope of the punch jumps at 100 radii"):
-        chosen(_problem(MeasuredPunch(r, r**2 / 2)), ("pull_off",), "quick")
+        chosen(replace(sphere_on(SOFT), punch=MeasuredPunch(r, r**2 / 2)), ("pull_off",), "quick")

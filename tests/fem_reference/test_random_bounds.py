@@ -6,6 +6,7 @@ import pytest
 
 from tests.fem_reference.random_problems import COUNT, TABLE, UNFINISHED, ratio, rows
 from tests.marks import heavy
+from tests.random_tables import stored
 
 #: Of bound to error: beyond it a bound says nothing.
 LARGEST_RATIO = 1e5
@@ -23,12 +24,12 @@ def test_no_error_is_above_its_bound(number):
     table = rows(number)
     ratios = {row["quantity"]: ratio(row) for row in table if row["status"] == "value"}
     assert {name: value for name, value in ratios.items() if not 1.0 <= value <= LARGEST_RATIO} == {}
-    expected = {row["quantity"]: row["status"] for row in TABLE.rows() if int(row["number"]) == number}
+    expected = {row["quantity"]: row["status"] for row in stored(TABLE) if int(row["number"]) == number}
     assert {row["quantity"]: row["status"] for row in table} == expected
 
 
 def test_no_error_of_the_table_is_above_its_bound():
-    table = TABLE.rows()
+    table = stored(TABLE)
     assert {int(row["number"]) for row in table} == set(range(COUNT)) - UNFINISHED
     ratios = [ratio(row) for row in table if row["status"] == "value"]
     assert all(1.0 <= value <= LARGEST_RATIO for value in ratios)

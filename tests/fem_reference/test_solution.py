@@ -30,8 +30,6 @@ from fem_reference import (
 from fem_reference._contact.error_parts import PARTS
 from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference.accuracy import ACCURACIES, level_for
-from fem_reference.modulus import CustomModulus
-from tests.fem_reference.profile_solid import ProfileSolid
 from tests.fem_reference.solved_together import PROBLEM, problem_with, solved, sphere_on
 from tests.reference_values import REFERENCE_VALUES
 
@@ -117,20 +115,6 @@ def test_finer_meshes_are_taken_where_a_path_cannot_be_traced(monkeypatch, trace
             chosen(problem, ("pull_off",), "default")
 
 
-def _in_small_units(length, force):
-    """The body of the ratio 1 at k = 0.4, in other units."""
-    solid = PowerLaw(problem_with(0.4, 1.0, nu=0.25).solid.E0 * force / length**2, length, 0.4, 0.25)
-    return Problem(solid, PowerPunch(2.0, length), LennardJones(force / length, length))
-
-
-def test_unit_scaling():
-    """The same body in millimetres and millinewtons."""
-    base = _pull_off(0.4, 1.0, accuracy="quick")
-    force = solve(_in_small_units(1e3, 1e3), "pull_off_force", "quick")
-    assert force.value == pytest.approx(base.value * 1e3, rel=1e-9)
-    assert force.u_num == pytest.approx(base.u_num * 1e3, rel=1e-2)
-
-
 def test_events_lie_on_the_traced_path():
     path = trace(PROBLEM, "quick")
     results = {quantity: solved()[quantity].value for quantity in fem_reference.QUANTITIES}
@@ -143,23 +127,6 @@ def test_events_lie_on_the_traced_path():
     assert path.displacement[index] < results["zero_load_displacement"] < path.displacement[index + 1]
     assert np.all(np.diff(path.central_gap[np.isnan(path.edge_radius)]) < 0)
     assert np.all(np.diff(path.edge_radius[path.edge_radius > 0]) > 0)
-
-
-@pytest.mark.heavy
-def test_a_quantity_that_does_not_exist_does_not_hide_the_others():
-    """Also where it is the first, in a solid whose mesh is placed at its contact edge."""
-    solid = ProfileSolid(CustomModulus(lambda z: 50.0 + 0.0 * z, 0.0, 0.0, surface_depth=1.0), 0.3)
-    problem = sphere_on(solid)
-    solutions = solve_together(problem, ("jump_in_gap", "pull_off_force"), "quick")
-    assert list(solutions) == ["jump_in_gap", "pull_off_force"]
-    assert isinstance(solutions["jump_in_gap"], NoSuchEvent)
-    force = solutions["pull_off_force"]
-    assert force.value == pytest.approx(2 * math.pi, rel=0.02)
-    # The edge moves over a fixed mesh; the value is that of the whole system there as well.
-    assert force.value != force.values[-1]
-    assert force.value == pytest.approx(force.values[-1], rel=1e-8)
-    none = solve_together(problem, ("jump_in_gap", "jump_out_gap"), "quick")
-    assert {type(reason) for reason in none.values()} == {NoSuchEvent}
 
 
 def test_accuracy_names_are_those_of_numbers():

@@ -15,8 +15,9 @@ complete path has as well; a complete path may have more of them, on branches to
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
@@ -49,30 +50,30 @@ _MOST_BRANCHES = 24
 _BEYOND = 2e-3
 
 
+class State(NamedTuple):
+    """A stable state, and the derivative of its load by the displacement."""
+
+    displacement: float
+    load: float
+    slope: float
+    gap: np.ndarray
+
+
 @dataclass
 class Branch:
     """Stable states in the order of their displacements, and whether a jump ends them below and above."""
 
-    displacements: list[float] = field(default_factory=list)
-    loads: list[float] = field(default_factory=list)
-    slopes: list[float] = field(default_factory=list)
-    gaps: list[np.ndarray] = field(default_factory=list)
+    states: list[State]
     below: bool = False
     above: bool = False
 
-    def add(self, d: float, load: float, slope: float, H: np.ndarray, upwards: bool) -> None:
-        for values, value in zip(
-            (self.displacements, self.loads, self.slopes, self.gaps), (d, load, slope, H), strict=True
-        ):
-            values.insert(len(values) if upwards else 0, value)
-
     def least_load(self) -> float:
         """Smallest load; between two states it is the cubic through loads and slopes."""
-        least = min(self.loads)
-        for i, j in pairwise(range(len(self.loads))):
-            if self.slopes[i] < 0.0 < self.slopes[j]:
-                pair = slice(i, j + 1)
-                cubic = CubicHermiteSpline(self.displacements[pair], self.loads[pair], self.slopes[pair])
+        least = min(state.load for state in self.states)
+        for a, b in pairwise(self.states):
+            if a.slope < 0.0 < b.slope:
+                ends = [a.displacement, b.displacement], [a.load, b.load], [a.slope, b.slope]
+                cubic = CubicHermiteSpline(*ends)
                 least = min(least, float(np.min(cubic(cubic.derivative().roots(extrapolate=False)))))
         return least
 
@@ -162,7 +163,8 @@ class BruteForce:
     def swept(self, branch: Branch, end: float, upwards: bool) -> bool:
         """Continue a branch from one of its ends; whether it ends in a jump, not at `end` or apart."""
         sense = 1.0 if upwards else -1.0
-        d, H, step = branch.displacements[-upwards], branch.gaps[-upwards], _FIRST
+        state, step = branch.states[-upwards], _FIRST
+        d, H = state.displacement, state.gap
         apart = _APART * (1.0 + self.problem.mu)
         factors, tangent = self._linearised(H)
         while sense * (end - d) > 0.0 and (upwards or np.min(H) < apart):
@@ -179,7 +181,7 @@ class BruteForce:
                     return True
                 continue
             d, H, factors, tangent = d + sense * step, new, new_factors, new_tangent
-            branch.add(d, *self._load(H, tangent), H, upwards)
+            branch.states.insert(len(branch.states) if upwards else 0, self._state(d, H, tangent))
             # The deviation from the trapezoidal rule is of third order.
             growth = min(_GROWTH, (0.5 * _SURPRISE / max(surprise, 1e-12)) ** (1.0 / 3.0))
             step = min(growth * step, _LONGEST_PRESSED if self.load(H) > 0.0 else _LONGEST)
@@ -190,18 +192,17 @@ class BruteForce:
         factors = self._factors(self.jacobian(H))
         return factors, lu_solve(factors, -np.ones_like(H), check_finite=False)
 
-    def _load(self, H, tangent):
-        """Load and its derivative by the displacement."""
-        return self.load(H), float(self.area @ (self.problem.law.slope(H) * tangent))
+    def _state(self, d, H, tangent):
+        return State(d, self.load(H), float(self.area @ (self.problem.law.slope(H) * tangent)), H)
 
     def _on(self, branch: Branch, H, d) -> bool:
         """Whether a state is on a branch: Newton's method from the states next to it leads to it."""
-        at = branch.displacements
+        at, gaps = [state.displacement for state in branch.states], [state.gap for state in branch.states]
         if not at[0] - _FIRST < d < at[-1] + _FIRST:
             return False
         j = int(np.clip(np.searchsorted(at, d), 1, len(at) - 1)) if len(at) > 1 else 0
         fraction = np.clip((d - at[j - 1]) / (at[j] - at[j - 1]), 0.0, 1.0) if j else 1.0
-        start = (1.0 - fraction) * branch.gaps[j - 1] + fraction * branch.gaps[j]
+        start = (1.0 - fraction) * gaps[j - 1] + fraction * gaps[j]
         new = self._solved(start, d, self._factors(self.jacobian(start)))
         return new is not None and bool(np.max(np.abs(new - H) / self.clearance(H)) < _SAME)
 
@@ -215,13 +216,13 @@ class BruteForce:
                 continue
             if len(branches) == _MOST_BRANCHES:
                 raise RuntimeError(f"more than {_MOST_BRANCHES} branches")
-            branch = Branch()
-            branch.add(d, *self._load(H, self._linearised(H)[1]), H, True)
+            branch = Branch([self._state(d, H, self._linearised(H)[1])])
             branches.append(branch)
             for upwards in (False, True):
                 if self.swept(branch, largest if upwards else -math.inf, upwards):
-                    beyond = branch.displacements[-upwards] + (_BEYOND if upwards else -_BEYOND)
-                    seeds.append((beyond, self.relaxed(branch.gaps[-upwards], beyond)))
+                    last = branch.states[-upwards]
+                    beyond = last.displacement + (_BEYOND if upwards else -_BEYOND)
+                    seeds.append((beyond, self.relaxed(last.gap, beyond)))
                     if upwards:
                         branch.above = True
                     else:
@@ -275,6 +276,6 @@ def stable_states(problem: Problem, height: float) -> StableStates:
     branches = BruteForce(problem, min(width, _WIDTH), fine).branches(displacement)
     return StableStates(
         -min(branch.least_load() for branch in branches),
-        tuple(sorted(branch.displacements[0] for branch in branches if branch.below)),
-        tuple(sorted(branch.displacements[-1] for branch in branches if branch.above)),
+        tuple(sorted(branch.states[0].displacement for branch in branches if branch.below)),
+        tuple(sorted(branch.states[-1].displacement for branch in branches if branch.above)),
     )

@@ -22,12 +22,10 @@ from fscm._equilibrium import State
 from fscm._threads import one_thread
 from fscm._whole_path import path_end
 from tests.fscm.equilibria_on_finer_meshes import FINER
-from tests.random_tables import RandomTable
+from tests.random_tables import complete, stored
 
 SEED, COUNT = 20261122, 500
-TABLE = RandomTable(
-    Path(__file__).with_suffix(".csv"), ("number", "n", "k", "mu", "quantity", "status", "value", "u_num")
-)
+TABLE = Path(__file__).with_suffix(".csv")
 # Steps of an eighth in arc length.
 STEPS = 8
 # Numbers of problems whose finer path takes more than a minute.
@@ -109,11 +107,11 @@ class Stored(NamedTuple):
 def stored_values() -> dict[int, dict[str, Stored]]:
     """Rows of the table, by number and quantity."""
     values: dict[int, dict[str, Stored]] = {}
-    for row in TABLE.rows():
-        stored = Stored(row["status"], float(row["value"] or math.nan), float(row["u_num"] or 0.0))
-        values.setdefault(int(row["number"]), {})[row["quantity"]] = stored
+    for row in stored(TABLE):
+        value = Stored(row["status"], float(row["value"] or math.nan), float(row["u_num"] or 0.0))
+        values.setdefault(int(row["number"]), {})[row["quantity"]] = value
     return values
 
 
 if __name__ == "__main__":
-    TABLE.complete((number for number in range(COUNT) if number not in UNFINISHED), rows)
+    complete(TABLE, (number for number in range(COUNT) if number not in UNFINISHED), rows)

@@ -14,11 +14,9 @@ import numpy as np
 from fscm import CustomPunch, MeasuredPunch, Problem, solve
 from fscm.punch import PunchShape
 from tests.fscm.brute_force import stable_states
-from tests.random_tables import RandomTable
+from tests.random_tables import complete
 
-TABLE = RandomTable(
-    Path(__file__).with_suffix(".csv"), ("number", "pull_off_force", "brute_force", "retreat", "approach")
-)
+TABLE = Path(__file__).with_suffix(".csv")
 SEED = 20261122
 COUNT = 100
 
@@ -131,4 +129,4 @@ def rows(number: int) -> list[dict[str, object]]:
 
 
 if __name__ == "__main__":
-    TABLE.complete(range(COUNT), rows)
+    complete(TABLE, range(COUNT), rows)

@@ -2,9 +2,14 @@
 
 from functools import cache
 
-from fscm import Analysis, Coating, LennardJones, PowerPunch, Problem, trace
+import numpy as np
+
+from fscm import Analysis, Coating, CustomPunch, LennardJones, PowerPunch, Problem, trace
 
 analysis_of, path_of = cache(Analysis), cache(trace)
+
+#: A tall asperity on a flat paraboloid.
+ASPERITY = CustomPunch(lambda r: -8 * np.expm1(-(r**2)) + r**2 / 50, growth=2)
 
 #: A sphere on a stiff coating of a soft solid, in SI units: radius, work of adhesion, range of the law, substrate.
 R, WORK, Z0 = 5e-6, 0.05, 0.4e-9

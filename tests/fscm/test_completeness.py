@@ -14,34 +14,29 @@ from fscm.errors import NotConverged
 from fscm.experiment import load_controlled_retreat
 from fscm.path import EquilibriumPath
 from fscm.punch import PowerSum, RoundedCone
-from tests.fscm.solved_once import analysis_of, path_of
+from tests.fscm.solved_once import ASPERITY, analysis_of, path_of
 from tests.marks import heavy
 
-ASPERITY = Problem(2, 0, 0.3, punch=CustomPunch(lambda r: -8 * np.expm1(-(r**2)) + r**2 / 50, growth=2))
+TALL = Problem(2, 0, 0.3, punch=ASPERITY)
 
 
-@pytest.fixture(scope="module")
-def asperity() -> Analysis:
-    return Analysis(ASPERITY)
-
-
-def test_the_path_goes_on_behind_a_tall_asperity(asperity: Analysis) -> None:
+def test_the_path_goes_on_behind_a_tall_asperity() -> None:
     """The plain around the asperity of 8 z0 adheres after the first compressive load; value of a finer path."""
-    solution = asperity.solution("pull_off_force")
+    solution = analysis_of(TALL).solution("pull_off_force")
     assert solution.value == pytest.approx(36.50212035, abs=1e-8)
     assert solution.u_num < 1e-7
-    minima = [fold.load for fold in asperity.folds if fold.quantity == "load" and not fold.maximum]
+    minima = [fold.load for fold in analysis_of(TALL).folds if fold.quantity == "load" and not fold.maximum]
     assert minima == pytest.approx([-0.96158840, -36.50212035], abs=1e-4)
 
 
-def test_the_path_behind_an_asperity_is_passed_once(asperity: Analysis) -> None:
+def test_the_path_behind_an_asperity_is_passed_once() -> None:
     """The edge jumps from the asperity to the plain; no state comes twice, and delta and P turn only at true folds."""
-    turns = [fold for fold in asperity.folds if fold.quantity == "displacement"]
+    turns = [fold for fold in analysis_of(TALL).folds if fold.quantity == "displacement"]
     assert [fold.maximum for fold in turns] == [True, False]
     assert turns[0].displacement == pytest.approx(7.27959, abs=1e-4)
     assert turns[1].displacement == pytest.approx(7.06167, abs=1e-4)
     # Neither the load nor the displacement is stationary where the mesh changes over to another edge.
-    for a, b in pairwise(asperity.points):
+    for a, b in pairwise(analysis_of(TALL).points):
         if a.segment != b.segment:
             assert b.state.load == pytest.approx(a.state.load, rel=1e-4)
             assert b.state.displacement == pytest.approx(a.state.displacement, rel=1e-4)
@@ -75,9 +70,8 @@ def test_the_least_load_tends_to_that_without_adhesion() -> None:
 
 def test_a_path_whose_end_has_no_bound_is_not_known_to_be_complete() -> None:
     """So soft a solid pulls itself up to the punch farther than is examined."""
-    problem = Problem(2, 0, 20.0, punch=CustomPunch(lambda r: -8 * np.expm1(-(r**2)) + r**2 / 50, growth=2))
     with pytest.raises(NotConverged, match="cannot be told where its last tension is"):
-        Analysis(problem).solution("pull_off_force")
+        Analysis(Problem(2, 0, 20.0, punch=ASPERITY)).solution("pull_off_force")
 
 
 @pytest.mark.parametrize(

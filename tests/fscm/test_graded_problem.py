@@ -6,9 +6,7 @@ import pytest
 from fscm import (
     Coating,
     Exponential,
-    LennardJones,
     NotConverged,
-    PowerPunch,
     PowerSum,
     Problem,
     RoundedCone,
@@ -81,17 +79,6 @@ def test_the_short_path_is_for_power_laws_alone():
     assert pull_off_path(Problem(2, 0.0, 1.0, law=law), Meshes()) is None
     assert pull_off_path(Problem(2, 0.0, 1.0, graded=SOFT_BELOW), Meshes()) is None
     assert pull_off_path(Problem(1, 0.2, 1.0, punch=RoundedCone(2.0)), Meshes()) is None
-
-
-def test_physical_units_scale_out():
-    solid = Exponential(E_surface=1e9, E_depth=5e9, length=1e-7, nu=0.3)
-    metres = Problem(solid, PowerPunch(2, Q=1e-6), LennardJones(0.05, 3e-10))
-    exponential = Exponential(E_surface=1.0, E_depth=5.0, length=1e2, nu=0.3)
-    nanometres = Problem(exponential, PowerPunch(2, Q=1e3), LennardJones(0.05, 0.3))
-    assert metres.mu == pytest.approx(nanometres.mu, rel=1e-12)
-    lengths = [problem.dimensionless.graded.length for problem in (metres, nanometres)]
-    assert lengths[0] == pytest.approx(lengths[1], rel=1e-12)
-    assert nanometres.units["radius"] == pytest.approx((1e3 * 0.3) ** 0.5)
 
 
 def test_what_needs_a_power_law_is_refused_in_one_sentence():

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from fscm import Analysis, CustomPunch, NoSuchEvent, Problem, trace
+from fscm import Analysis, NoSuchEvent, Problem, trace
 from tests.fscm.brute_force import BruteForce, stable_states
 from tests.fscm.random_punches import COUNT, TABLE, random_punch
+from tests.fscm.solved_once import ASPERITY
 from tests.marks import heavy
+from tests.random_tables import stored
 
 # The fixed mesh of the brute force does not resolve the contact edge: measured worst 4e-4 over the hundred punches.
 BRUTE_FORCE = 1e-3
@@ -19,7 +21,7 @@ JUMP = 3e-3
 LIGHT = (0, 2, 3, 4, 6, 9)
 
 
-ROWS = TABLE.rows()
+ROWS = stored(TABLE)
 
 
 def test_no_punch_of_the_table_is_silently_wrong() -> None:
@@ -76,8 +78,7 @@ def test_a_path_has_an_edge_where_the_mesh_does_not_follow_it() -> None:
 @pytest.mark.heavy
 def test_the_force_of_the_tall_asperity_by_another_route() -> None:
     """A fixed mesh from compression under displacement control, no edge followed: all ten digits of 36.50212035."""
-    problem = Problem(2, 0, 0.3, punch=CustomPunch(lambda r: -8 * np.expm1(-(r**2)) + r**2 / 50, growth=2))
-    brute = BruteForce(problem, 0.3, 13.0, order=10, most=10**6, height=1e6)
+    brute = BruteForce(Problem(2, 0, 0.3, punch=ASPERITY), 0.3, 13.0, order=10, most=10**6, height=1e6)
     H = brute.compressed(12.0)
 
     def load(displacement: float) -> float:

@@ -111,13 +111,14 @@ AT = {"thickness": 1.0, "E_coating": 1.0, "E_substrate": 9.0, "nu": 0.3}
     ("name", "quantities"), [("thickness", ("pull_off_force",)), *heavy(*((name, tuple(SENSITIVE)) for name in AT))]
 )
 def test_quantities_of_a_coated_solid(name, quantities):
+    rule = difference if name == "thickness" else five_points
     for quantity in quantities:
         slope = sensitivity(coated(), quantity).derivative(lambda x: coated(**{name: x}), AT[name], AT[name])
-        rule = difference if name == "thickness" else five_points
-        expected = rule(
-            lambda x, quantity=quantity: quantities_of_a_coated_solid(name, x, quantities)[quantity].value, AT[name]
-        )
-        assert close(slope, expected, FITTED, scale=0.1), quantity
+
+        def value(x, quantity=quantity):
+            return quantities_of_a_coated_solid(name, x, quantities)[quantity].value
+
+        assert close(slope, rule(value, AT[name]), FITTED, scale=0.1), quantity
 
 
 def test_the_incompressible_linear_solid_has_no_neighbours():

@@ -118,15 +118,6 @@ def test_the_tail_is_fitted_or_absent(package):
     assert float(ends.energy(np.array(1.0))) == 0.0
 
 
-@both
-def test_a_table_is_a_value(package):
-    gaps, tractions = points(nine_three(package))
-    again = package.TabulatedLaw(list(gaps), tuple(tractions), z0=RANGE, tail_exponent=3.0)
-    assert again == table(package) != table(package, tail_exponent=None)
-    assert hash(again) == hash(table(package))
-    assert repr(again).startswith("TabulatedLaw(120 points")
-
-
 GAPS = np.geomspace(0.75, 20.0, 40)
 TRACTIONS = GAPS**-9 - GAPS**-3
 RISING = np.geomspace(0.75, 1.19, 12)

@@ -7,7 +7,6 @@ import pytest
 
 import fem_reference
 import fscm
-from fscm.graded.compliance import compliance
 
 NAMES = (
     *("PowerLaw", "Homogeneous", "OffsetPowerLaw", "Exponential", "Coating", "Layers", "TabulatedModulus"),
@@ -56,9 +55,3 @@ def test_impossible_layers_are_refused(package):
     ):
         with pytest.raises(ValueError, match=words):
             package.Layers(E, nu, thickness)
-
-
-def test_one_layer_is_a_coating():
-    layers, coating = fscm.Layers([1e9, 3e9], [0.3, 0.4], [1e-8]), fscm.Coating(1e9, 3e9, 1e-8, 0.0, 0.3, 0.4)
-    waves = np.geomspace(1e4, 1e12, 9)
-    assert compliance(layers, waves) == pytest.approx(compliance(coating, waves), rel=1e-12)

@@ -7,6 +7,7 @@ import pytest
 
 import fscm
 from tests.fem_reference.random_problems import TABLE, problems, rows
+from tests.random_tables import stored
 
 SAMPLE = 40
 """Every so many problems of the table are compared in the light test."""
@@ -18,7 +19,7 @@ UNIT = {"pull_off_force": math.pi, "hysteresis_energy": math.pi}
 @lru_cache(maxsize=1)
 def _table():
     table = {}
-    for row in TABLE.rows():
+    for row in stored(TABLE):
         table.setdefault(int(row["number"]), []).append(row)
     return table
 
