@@ -7,7 +7,6 @@ from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import CentralGap, EdgeGap, EdgeRadius, GapRise, Size
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.newton import newton
-from fem_reference._contact.tail import TailContact
 from fem_reference._contact.tracing import traced
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
@@ -31,11 +30,9 @@ def points():
     return traced(_contact())
 
 
-@pytest.mark.parametrize(("n", "has_tail"), [(1.0, False), (2.0, False), (5.0, False), (2.0, True)])
-def test_tangent_and_load_gradient_by_central_differences(n, has_tail):
+@pytest.mark.parametrize("n", [1.0, 2.0, 5.0])
+def test_tangent_and_load_gradient_by_central_differences(n):
     contact = _contact(0.5, 0.4, 0.25, punch=PowerPunch(n, 1.0))
-    if has_tail:
-        contact = TailContact(contact.punch, contact.law, contact.compliance, 0.4)
     rng = np.random.default_rng(2)
     y = np.append(0.05 * rng.normal(size=contact.unknowns) * (np.arange(contact.unknowns) < 20), [-0.4, 1.3])
     v = np.append(1e-2 * rng.normal(size=contact.unknowns) * (np.arange(contact.unknowns) < 20), [0.3, 0.2])

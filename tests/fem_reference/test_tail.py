@@ -60,6 +60,16 @@ def test_load_and_energy_behind_the_mesh(k):
     assert change == pytest.approx(surface + elastic, abs=QUADRATURE * (abs(surface) + abs(elastic)))
 
 
+def test_the_gradient_of_the_load_is_its_derivative():
+    _, _, tail, y = _contacts(0.3)
+    h = 1e-6
+    for index in (0, int(tail.compliance.trace.nodes.size) - 1, -2, -1):
+        step = np.zeros(y.size)
+        step[index] = h
+        slope = (tail.load(y + step) - tail.load(y - step)) / (2 * h)
+        assert tail.load_gradient(y)[index] == pytest.approx(slope, rel=1e-6, abs=1e-9)
+
+
 def test_the_traction_behind_the_mesh_moves_the_surface_by_the_integral_of_a_homogeneous_half_space():
     """Far from the axis a pressure p(r) moves it by 2/E* times the integral of p dr."""
     problem, plain, tail, y = _contacts(0.0)

@@ -105,6 +105,15 @@ def test_a_missed_tolerance_is_no_number(soft_path, soft_system, monkeypatch, to
         events.value(TABLE["pull_off_force"].functional)
 
 
+def test_an_equilibrium_that_is_left_after_one_step_is_refused_for_its_residual(soft_system, monkeypatch):
+    """Measured: 2e-5 of the traction.  A tolerance that is a hundred times as large would take it."""
+    path = PathEvents(traced(_soft_contact(0.01 * SPOILED)))
+    monkeypatch.setattr(uncondensed, "NEWTON_TOLERANCE", 1e-4)
+    events = UncondensedEvents(path, lambda: soft_system)
+    with pytest.raises(NotConverged, match="residual"):
+        events.value(TABLE["pull_off_force"].functional)
+
+
 def test_the_end_of_a_jump_moves_with_its_beginning(soft_path):
     beginning, end = EventEquations("jump_in", soft_path.jump_in), EventEquations("landing", soft_path.landing)
     equations = {"jump_in": beginning, "landing": end}

@@ -12,10 +12,13 @@ from fscm.interpolation import fitting
 from fscm.interpolation.__main__ import main, nodes_in
 from fscm.interpolation.building import FACTOR, build, layouts, tail_bound
 from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, RELATIVE
-from fscm.interpolation.coordinates import BOX
+from fscm.interpolation.coordinates import BOX, LEAST_MU, MOST_MU
+from fscm.interpolation.design import rounded, sobol
 from fscm.interpolation.storage import stored
 
 TABLES = Path(__file__).resolve().parents[2] / "results" / "baseline" / "atlas"
+#: Seed of the random problems of the verification, which are uniform in n, k and the logarithm of mu.
+VERIFICATION_SEED = 13
 JUMPS = [name for name, composition in QUANTITIES.items() if composition.jumps]
 
 #: Two fits to the same nodes on different processors: rounding, through the regularised Gram matrix of condition 1e11.
@@ -85,10 +88,13 @@ def test_bounds_and_errors_hold_as_far_as_the_critical_tabor_number(quantity):
     assert np.all(errors <= bounds + u_num)
 
 
-def test_no_series_is_fitted_to_a_problem_of_the_verification():
-    fitted, random = (set(zip(*parameters(table(name)), strict=True)) for name in ("nodes", "verification"))
-    assert len(random) == 2000
-    assert not random & fitted
+def test_the_problems_of_the_verification_are_random_and_none_is_fitted():
+    unit = sobol(3, 2000, VERIFICATION_SEED)
+    n, k = (low + (high - low) * unit[:, i] for i, (low, high) in enumerate((BOX["n"], BOX["k"])))
+    columns = rounded("n", n), rounded("k", k), rounded("mu", LEAST_MU * (MOST_MU / LEAST_MU) ** unit[:, 2])
+    fitted, compared = (set(zip(*parameters(table(name)), strict=True)) for name in ("nodes", "verification"))
+    assert compared == set(zip(*columns, strict=True))
+    assert not compared & fitted
 
 
 def test_jumps_exist_where_the_solver_finds_them():

@@ -6,7 +6,9 @@ import pytest
 from fscm import (
     Coating,
     Exponential,
+    LennardJones,
     NotConverged,
+    PowerPunch,
     PowerSum,
     Problem,
     RoundedCone,
@@ -79,6 +81,12 @@ def test_the_short_path_is_for_power_laws_alone():
     assert pull_off_path(Problem(2, 0.0, 1.0, law=law), Meshes()) is None
     assert pull_off_path(Problem(2, 0.0, 1.0, graded=SOFT_BELOW), Meshes()) is None
     assert pull_off_path(Problem(1, 0.2, 1.0, punch=RoundedCone(2.0)), Meshes()) is None
+
+
+def test_the_length_of_a_solid_is_in_units_of_the_radius():
+    solid = Exponential(E_surface=1e9, E_depth=5e9, length=1e-7, nu=0.3)
+    problem = Problem(solid, PowerPunch(2, Q=1e-6), LennardJones(0.05, 3e-10))
+    assert problem.dimensionless.graded.length == pytest.approx(1e-7 / problem.units["radius"])
 
 
 def test_what_needs_a_power_law_is_refused_in_one_sentence():
