@@ -7,7 +7,7 @@ from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK
 from comparisons.console.progress import log
 from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import Verdict
-from comparisons.judging.report_card import card_lines, given_models, verdict_sentence
+from comparisons.judging.report_card import card_lines, given_models
 from comparisons.judging.summary import summarise
 from comparisons.output.verdicts import declared_sentence, gate_lines, gates_sentence, unexpected
 from comparisons.pipeline.judgement import Judgement
@@ -24,8 +24,8 @@ STATUS = {
     Verdict.PASS: OK,
 }
 
-#: A summary has so many gates with their commands; report cards that are longer become a sentence for each model.
-_GATES, _CARD_LINES = 4, 12
+#: A summary has so many gates with their commands.
+_GATES = 4
 
 #: Gates in error with a sentence each.
 _ERRORS = 2
@@ -42,7 +42,7 @@ def print_verdicts(judgement: Judgement, *, verbose: bool, quiet: bool) -> None:
         for line in gate_lines(unexpected(gates), judgement.inputs.specs, _GATES):
             log(line)
     else:
-        print_lines(_cards(judgement, verbose))
+        print_lines(_cards(judgement))
         rows, most = (gates, None) if verbose else (unexpected(gates), _GATES)
         print_lines(gate_lines(rows, judgement.inputs.specs, most))
         print_lines(filter(None, [declared_sentence(gates), gates_sentence(gates, judgement.verdicts)]))
@@ -53,15 +53,11 @@ def print_verdicts(judgement: Judgement, *, verbose: bool, quiet: bool) -> None:
         log(f"{len(wrong) - _ERRORS} more gates are in error")
 
 
-def _cards(judgement: Judgement, verbose: bool) -> list[str]:
-    """Return the lines of the report cards of the given models; where they are long, a sentence for each."""
+def _cards(judgement: Judgement) -> list[str]:
+    """Return the lines of the report cards of the given models."""
     lines: list[str] = []
-    names = given_models(judgement.inputs.models, judgement.verdicts)
-    for name in names:
+    for name in given_models(judgement.inputs.models, judgement.verdicts):
         card = card_lines(name, judgement.verdicts, judgement.cards.get(name), judgement.inputs.domains.get(name))
         label_width = max(len(label) for label, _ in card)
         lines += [f"report card of {name}", *(f"  {label:{label_width}}  {text}" for label, text in card)]
-    if verbose or len(lines) <= _CARD_LINES:
-        return lines
-    sentences = [f"{name}: {verdict_sentence(name, judgement.verdicts)}" for name in names]
-    return [*sentences, "--verbose prints the report cards"]
+    return lines

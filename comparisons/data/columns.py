@@ -7,7 +7,7 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any, NamedTuple
 
-__all__ = ["FILES", "Column", "column", "title"]
+__all__ = ["FILES", "Column", "column"]
 
 #: Files of the descriptions; the columns that the first one states for every table hold in the tables of all files.
 FILES = ("columns.toml", "columns_of_figures.toml", "columns_of_solvers.toml")
@@ -56,18 +56,6 @@ def _varied(name: str) -> Column | None:
         return None
     key, _, unit = key.partition(" [")
     return Column(unit or "1", f"value of the key {key} of [{section}] of the problem file")
-
-
-def title(table: str) -> str | None:
-    """Return what a row of a table is; None of a table without a title.
-
-    Examples
-    --------
-    >>> title("results")
-    'One row for each model, quantity and case'
-    """
-    content = _tables().get(table)
-    return str(content["table"][table]["title"]) if content else None
 
 
 @lru_cache(maxsize=1)

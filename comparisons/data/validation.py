@@ -145,11 +145,8 @@ def _sentence(error: ValidationError, document: Mapping[str, Any], schema: Mappi
         return f"{where}{table}unknown key {shown(wrong)}{_nearest(wrong, error.schema['properties'])}"
     if error.validator == "required":
         missing = [key for key in error.validator_value if key not in error.instance]
-        optional = [key for key in error.schema["properties"] if key not in error.validator_value]
-        return (
-            f"{where}{table}{', '.join(missing)} missing; {error.schema.get('title', 'it')} has "
-            f"{', '.join(error.validator_value)}" + (f" and may have {', '.join(optional)}" if optional else "")
-        )
+        has = f"{error.schema.get('title', 'it')} has {', '.join(error.validator_value)}"
+        return f"{where}{table}{', '.join(missing)} missing; {has}"
     depth, description = _described(schema, path)
     if error.validator == "oneOf" or (depth < len(path) and "description" in error.schema):
         depth, description = len(path), error.schema["description"]

@@ -15,7 +15,7 @@ from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import checked_jobs
 from comparisons.runs.record import now, record_content, write_record
 
-__all__ = ["FinishedFigure", "FinishedPaper", "make_figures"]
+__all__ = ["FinishedFigure", "make_figures"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,20 +31,7 @@ class FinishedFigure:
     failure: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class FinishedPaper:
-    """The folder of the figures, and each figure."""
-
-    folder: Path
-    figures: tuple[FinishedFigure, ...]
-
-    @property
-    def failures(self) -> dict[str, str]:
-        """Name of each figure that failed -> the reason."""
-        return {finished.figure.stem: finished.failure for finished in self.figures if finished.failure}
-
-
-def make_figures(names: Iterable[str] | None, folder: Path, *, jobs: int = 1) -> FinishedPaper:
+def make_figures(names: Iterable[str] | None, folder: Path, *, jobs: int = 1) -> tuple[FinishedFigure, ...]:
     """Compute figures of the paper and write their tables, pictures and texts, and the record, into a folder.
 
     Parameters
@@ -70,8 +57,8 @@ def make_figures(names: Iterable[str] | None, folder: Path, *, jobs: int = 1) ->
     ...     finished = make_figures(["1"], Path(folder))
     ...     sorted(path.name for path in Path(folder).glob("*.json"))
     ['run.json']
-    >>> finished.failures
-    {}
+    >>> [figure.failure for figure in finished]
+    ['']
     """
     checked_jobs(jobs)
     wanted = None if names is None else list(names)
@@ -96,7 +83,7 @@ def make_figures(names: Iterable[str] | None, folder: Path, *, jobs: int = 1) ->
         seconds={},
     )
     write_record(record, folder / RECORD, [path.name for figure in finished for path in figure.files])
-    return FinishedPaper(folder, finished)
+    return finished
 
 
 def _finished(figure: PaperFigure, outcomes: dict[CachedCall, Outcome], folder: Path) -> FinishedFigure:

@@ -11,7 +11,7 @@ import os
 import platform
 import re
 import subprocess
-from importlib.metadata import PackageNotFoundError, distribution, requires, version
+from importlib.metadata import distribution, requires, version
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any
@@ -41,11 +41,8 @@ _DIGITS = 12
 
 
 def package_version() -> str:
-    """Return the version of the installed distribution, ``"not installed"`` when run from a bare clone."""
-    try:
-        return version(DISTRIBUTION)
-    except PackageNotFoundError:
-        return "not installed"
+    """Return the version of the installed distribution."""
+    return version(DISTRIBUTION)
 
 
 def version_text() -> str:
@@ -133,10 +130,7 @@ def _commit() -> dict[str, Any]:
     if (root / ".git").exists():
         commit, status = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain", *_PACKAGES)
         return {"commit": commit, "dirty": None if status is None else bool(status)}
-    try:
-        recorded = json.loads(distribution(DISTRIBUTION).read_text("direct_url.json") or "{}")
-    except PackageNotFoundError:
-        recorded = {}
+    recorded = json.loads(distribution(DISTRIBUTION).read_text("direct_url.json") or "{}")
     return {"commit": recorded.get("vcs_info", {}).get("commit_id"), "dirty": None}
 
 
@@ -149,10 +143,7 @@ def _git(root: Path, *arguments: str) -> str | None:
 
 
 def _dependencies() -> dict[str, str]:
-    try:
-        needed = [line for line in requires(DISTRIBUTION) or [] if "extra ==" not in line]
-    except PackageNotFoundError:
-        return {}
+    needed = [line for line in requires(DISTRIBUTION) or [] if "extra ==" not in line]
     names = [re.split(r"[^A-Za-z0-9._-]", line, maxsplit=1)[0] for line in needed]
     return {name: version(name) for name in sorted(names)}
 

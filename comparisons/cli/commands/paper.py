@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections import Counter
 from pathlib import Path
 
 from comparisons.cli.options import JOBS, file, several
@@ -31,15 +30,13 @@ def call(args: argparse.Namespace) -> int:
     """Compute what is missing, write the figures, print their files; return the exit status."""
     finished = make_figures(args.figure, args.out, jobs=args.jobs)
     console = output()
-    for written in finished.figures:
+    for written in finished:
         figure = written.figure
         if written.failure:
             log(f"{figure.stem}: {written.failure}")
             continue
-        kinds = Counter(path.suffix[1:] for path in written.files)
-        files = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
-        console.print(f"{figure.stem}: {figure.title} ({files})")
+        console.print(f"{figure.stem}: {figure.title} ({len(written.files)} files)")
         if figure.shown:
             console.print(figure.shown(written.tables))
-    console.print(f"written to {finished.folder}")
-    return FAILED if finished.failures else OK
+    console.print(f"written to {args.out}")
+    return FAILED if any(written.failure for written in finished) else OK

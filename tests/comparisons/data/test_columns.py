@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.data.columns import column, title
+from comparisons.data.columns import column
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -21,7 +21,6 @@ def header(path):
 
 @pytest.mark.parametrize("path", TABLES, ids=lambda path: path.relative_to(ROOT).as_posix())
 def test_every_column_of_a_committed_table_has_unit_and_description(path):
-    assert title(path.stem)
     assert [name for name in header(path) if column(path.stem, name) is None] == []
     assert all(column(path.stem, name).description for name in header(path))
 

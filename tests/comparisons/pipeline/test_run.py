@@ -71,12 +71,12 @@ def test_grids_of_a_user_can_be_judged_at_once_and_later(small_grid, tmp_path, c
 
 
 def test_the_figures_of_the_paper_have_a_record(tmp_path):
-    finished = make_figures(["2"], tmp_path)
-    assert finished.failures == {}
+    (finished,) = make_figures(["2"], tmp_path)
+    assert finished.failure == ""
     record = read_record(tmp_path / "run.json")
     assert record["command_name"] == "paper"
     assert record["arguments"] == {"figure": ["2"]}
-    assert set(record["files"]) == {path.name for path in finished.figures[0].files}
+    assert set(record["files"]) == {path.name for path in finished.files}
     assert sum(part["computations"] for part in record["parts"]) == record["rows"]["all"]
     make_figures(["2"], tmp_path)
     assert read_record(tmp_path / "run.json")["rows"]["resumed"] == record["rows"]["all"]
