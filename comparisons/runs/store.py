@@ -163,7 +163,7 @@ class Store(Generic[_Item]):
         for entry in sorted(self._entries.values(), key=lambda entry: (entry.part, entry.seconds)):
             if used(entry.item):
                 part = parts.setdefault(entry.part, json.loads(entry.part) | {"seconds": 0.0, "computations": 0})
-                part["seconds"] = max(part["seconds"], entry.seconds)
+                part["seconds"] = entry.seconds
                 part["computations"] += 1
         for part in parts.values():
             del part["code"]

@@ -49,17 +49,6 @@ def test_a_run_leaves_its_tables_and_record(small_grid, tmp_path, capsys):
     assert kappa["u_kappa"].tolist() == pytest.approx([(1e-9 + 1.1e-9) / 2] * 4)
 
 
-def test_the_record_says_where_the_numbers_come_from(small_grid, tmp_path):
-    run(tmp_path, "--tier", "full")
-    record = json.loads(read(tmp_path, "run.json"))
-    assert record["arguments"]["tier"] == "full"
-    assert record["rows"] == {"all": 12, "resumed": 0, "ok": 8, "not-applicable": 4}
-    assert {"commit", "dirty", "version", "code_sha256"} <= record["package"].keys()
-    assert {"cpu", "cores", "system"} <= record["machine"].keys()
-    assert record["started"] <= record["finished"]
-    assert set(record["seconds"]["by_model"]) == {"exact", "ten-percent", "refuses"}
-
-
 def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_path, monkeypatch, capsys):
     grid = grid_text(["md-improved"], tier="quick", n=[2], k=[0, 0.4], mu=[0.5, 1])
     monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(grid))
