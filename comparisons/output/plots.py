@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,14 +12,14 @@ import pandas as pd
 
 from comparisons.numerics.number_text import case_text, percent_text
 from comparisons.output.style import MODEL_NAMES, model_styles
-from comparisons.output.table import Column, Record, columns, key_columns, key_text, physical_text
+from comparisons.output.table import Column, Record, columns, key_columns, key_text, physical_text, words
 from comparisons.problem.problem import split_name
 from comparisons.problem.units import prefixed_unit
 from comparisons.quantities import ALL_QUANTITIES, CURVES, CurveQuantity, Kind, title_of
 from comparisons.runs.case_columns import unit_in, varied_of, with_problem
 from comparisons.runs.rows import CASE
 
-__all__ = ["Plot", "curves", "in_registry", "kappa", "tension_view", "values_over_keys"]
+__all__ = ["Plot", "agreement", "curve", "curves", "in_registry", "kappa", "values_over_keys"]
 
 #: Ratio of the largest and the smallest abscissa from which an axis is logarithmic.
 _LOG = 30.0
@@ -166,6 +166,29 @@ def kappa(table: pd.DataFrame, over: str = "") -> Plot:
     )
 
 
+def agreement(table: pd.DataFrame) -> Plot:
+    """Difference of two models over the sum of their bounds, for each quantity over the number of the case.
+
+    Parameters
+    ----------
+    table : DataFrame
+        As of `comparisons.output.errors.agreement`.
+    """
+    rows = table.sort_values(["n", "k", "mu"], kind="stable").sort_values("quantity", key=_ranks, kind="stable")
+    cases = 1.0 + rows.groupby("quantity").cumcount()
+    choices = columns("quantity")
+    return Plot(
+        id="plot-agreement",
+        title="Difference over the sum of the bounds",
+        x_label="case, by n, k and μ",
+        y_label="difference / sum of bounds",
+        choices=choices,
+        points=_points(rows, choices, lambda row: "", cases, rows["en"]),
+        table="agreement",
+        caption="",
+    )
+
+
 def _ranks(quantities: pd.Series) -> pd.Series:
     return quantities.map(in_registry)
 
@@ -174,16 +197,26 @@ def curves(table: pd.DataFrame) -> list[Plot]:
     """One plot for each kind of curve that is stored."""
     usable = table[(table["status"] == "ok") & table["mu"].notna()]
     usable = usable.sort_values(["n", "k", "mu", "point"], kind="stable")
+    cases = usable[["n", "k", "mu"]].to_dict("records")
+    usable = usable.assign(case=[case_text(case) for case in cases])
     of_quantities = ((quantity, usable[usable["quantity"] == name]) for name, quantity in CURVES.items())
-    return [_curve(quantity, rows) for quantity, rows in of_quantities if len(rows)]
+    return [curve(quantity, rows) for quantity, rows in of_quantities if len(rows)]
 
 
-def _curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
+def curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
+    """Plot of one kind of curve.
+
+    Parameters
+    ----------
+    quantity : CurveQuantity
+    rows : DataFrame
+        The points: model, the text of the case, x and y, and perhaps nu.
+    """
     x, y = quantity.x.symbol, quantity.y.symbol
-    choices = [Column("case", lambda row: case_text({name: row[name] for name in ("n", "k", "mu")}))]
+    choices = [words("case")]
     points = _points(rows, choices, lambda row: f"{x} = {row['x']:.6g}, {y} = {row['y']:.6g}", rows["x"], rows["y"])
     views = {
-        group: tension_view((curve["x"].tolist(), curve["y"].tolist()) for _, curve in of_group.groupby("label"))
+        group: _tension_view(of_group)
         for group, of_group in (points.groupby("group") if quantity.kind is Kind.CURVE else ())
     }
     return Plot(
@@ -200,19 +233,13 @@ def _curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
     )
 
 
-def tension_view(curves: Iterable[tuple[list[float], list[float]]]) -> list[float] | None:
-    """Return the limits [x0, x1, y0, y1] of the tension, and of as much compression; None without tension.
-
-    Examples
-    --------
-    >>> tension_view([([0.0, 1.0, 2.0, 9.0], [-0.5, -1.0, 0.5, 40.0])])
-    [-0.1, 2.1, -1.15, 1.0]
-    """
-    pairs = [(np.array(x), np.array(y)) for x, y in curves]
-    deepest = min((float(load.min()) for _, load in pairs), default=0.0)
+def _tension_view(points: pd.DataFrame) -> list[float] | None:
+    """Return the limits [x0, x1, y0, y1] of the tension, and of as much compression; None without tension."""
+    x, load = points["x"], points["y"]
+    deepest = float(load.min())
     if deepest >= 0.0:
         return None
-    visible = np.concatenate([x[(abs(load) > -_FAINT * deepest) & (load < -deepest)] for x, load in pairs])
+    visible = x[(load.abs() > -_FAINT * deepest) & (load < -deepest)]
     margin = 0.05 * float(np.ptp(visible))
     return [float(visible.min()) - margin, float(visible.max()) + margin, 1.15 * deepest, -deepest]
 

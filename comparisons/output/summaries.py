@@ -27,7 +27,7 @@ from comparisons.output.terminal import rich_table
 from comparisons.runs import rows as stored_rows
 from comparisons.runs.case_columns import varied_of, with_problem
 
-__all__ = ["case_tables", "every_error", "largest_table", "summary_tables", "sweep_tables", "terminal_tables"]
+__all__ = ["case_tables", "largest_errors", "summary_tables", "sweep_tables", "terminal_tables"]
 
 #: Columns of the tables where no terminal states its own; rows that a terminal shows; spaces between columns.
 WIDTH, _ROWS, _GAP = 80, 40, 2
@@ -35,8 +35,8 @@ WIDTH, _ROWS, _GAP = 80, 40, 2
 #: The reference is shown to this digit, or to the digit that its uncertainty leaves it.
 _LEAST_REFERENCE = 5e-7
 
-#: Values of n for which a line has room beside the models; failures that are written one by one.
-_SHAPES, _FAILURES = 4, 3
+#: Failures that are written one by one.
+_FAILURES = 3
 
 _QUANTITY = words("quantity")
 _SHORT = percents("largest", "kappa", "u_kappa", least=SHORT_PERCENT)
@@ -125,30 +125,10 @@ def terminal_tables(
         yield rich_table(of_quantity.texts, of_quantity.caption)
 
 
-def _printed(layout: Sequence[Column], rows: pd.DataFrame, title: str, most: int | None = _ROWS) -> RenderableType:
+def _printed(layout: Sequence[Column], rows: pd.DataFrame, title: str) -> RenderableType:
     """Return a table of the first rows; the title tells how many there are."""
-    more = f" (the first {most} of {len(rows)} rows)" if most and len(rows) > most else ""
-    return rich_table(Table("", title, layout, rows.head(most or len(rows))).texts, title + more)
-
-
-def largest_table(maxima: pd.DataFrame) -> RenderableType | None:
-    """Return the largest abs(kappa) of each model, for each n if these are few; None if there is no kappa.
-
-    Parameters
-    ----------
-    maxima : DataFrame
-        As of `comparisons.output.errors.largest`.
-    """
-    if maxima.empty:
-        return None
-    if maxima["quantity"].nunique() > 1 or maxima["n"].nunique() > _SHAPES:
-        return largest_errors(maxima)
-    worst = worst_rows(maxima, ["model", "n"])
-    cells = [f"{_SHORT.text(row)}\n{exact(row['k'])}, {row['mu']:.4g}" for row in worst.to_dict("records")]
-    wide = worst.assign(cell=cells).pivot(index="model", columns="n", values="cell").fillna("")
-    wide.columns = pd.Index([f"n = {exact(n)}" for n in wide.columns])
-    title = f"{maxima['quantity'].iloc[0]}: largest abs(kappa) in percent for each n; below it k and mu"
-    return rich_table(wide.reset_index(), title)
+    more = f" (the first {_ROWS} of {len(rows)} rows)" if len(rows) > _ROWS else ""
+    return rich_table(Table("", title, layout, rows.head(_ROWS)).texts, title + more)
 
 
 def largest_errors(kappa: pd.DataFrame) -> RenderableType:
@@ -195,29 +175,6 @@ def _computations(rows: pd.DataFrame) -> RenderableType:
     counts = counts.reindex(columns=["ok", "not-applicable", "failed"], fill_value=0)
     counts["seconds"] = rows.groupby("model")["seconds"].sum().round(1)
     return rich_table(counts.reset_index(), "computations")
-
-
-def every_error(results: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> Iterator[RenderableType]:
-    """Yield the errors in every case, the failed computations, and the largest errors beside those of the paper.
-
-    Parameters
-    ----------
-    results, kappa, maxima : DataFrame
-        As `comparisons.pipeline.tables.RunTables` has them.
-    """
-    for (quantity, reference), rows in kappa.groupby(["quantity", "reference"]):
-        title = f"{quantity} of {reference} with its u_num, and kappa of each model in percent"
-        yield _printed([*columns("model"), *_CASE, *columns("reference's value", "κ (%)")], rows, title, None)
-    failed = results[results["status"] == "failed"]
-    if len(failed):
-        layout = [*columns("model"), _QUANTITY, *_CASE, *columns("reason")]
-        yield _printed(layout, failed, "failed computations", None)
-    yield _computations(results)
-    end = Column("at_end", lambda row: "yes" if row["at_end"] else "")
-    layout = [*columns("model"), *_CASE, end, *columns("κ (%)"), words("paper_percent"), words("verdict")]
-    for quantity, rows in maxima.groupby("quantity"):
-        title = f"{quantity}: largest abs(kappa) in percent, and that of the paper (at_end: of the range of mu)"
-        yield _printed(layout, rows, title, None)
 
 
 def failure_lines(failures: Sequence[stored_rows.Row]) -> Iterator[str]:

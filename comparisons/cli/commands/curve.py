@@ -12,7 +12,8 @@ from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, file, option, prob
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, waiting
 from comparisons.model import ComputationFailed, Model, NotApplicable
-from comparisons.output.figures import curves
+from comparisons.output import plots
+from comparisons.output.figures.of_run import draw_plots
 from comparisons.output.style import picture_path, save
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import evaluated
@@ -57,7 +58,9 @@ def call(args: argparse.Namespace) -> int:
         with atomic(file_of_points) as written:
             written.write(csv_text(table).encode())
     if args.plot:
-        save(curves.draw(points_of_models, quantity, problem.label), args.plot)
+        axes = {CURVES[args.quantity].x.name: "x", CURVES[args.quantity].y.name: "y"}
+        rows = _table(points_of_models, args.quantity).rename(columns=axes).assign(case=problem.label)
+        save(draw_plots([plots.curve(quantity, rows)]), args.plot)
     if to_stdout:
         print(csv_text(table), end="")
     return status

@@ -56,7 +56,7 @@ def call(args: argparse.Namespace) -> int:
     judgement = finished.judgement
     if not args.quiet:
         # The numbers of the paper belong to the standing gates.
-        _print_errors(finished, verbose=args.verbose, with_paper=args.gates is None)
+        _print_errors(finished, with_paper=args.gates is None)
     if judgement is not None:
         print_verdicts(judgement, verbose=args.verbose, quiet=args.quiet)
     status = print_end(finished.failures, finished.folder)
@@ -67,16 +67,10 @@ def call(args: argparse.Namespace) -> int:
     return status or STATUS[judgement.verdict]
 
 
-def _print_errors(finished: FinishedRun, *, verbose: bool, with_paper: bool) -> None:
-    """Print the largest errors, or the error of every case."""
-    tables, console = finished.tables, output()
-    if verbose:
-        for table in summaries.every_error(tables.results, tables.kappa, tables.largest):
-            console.print(table)
-        return
-    if (largest := summaries.largest_table(tables.largest)) is not None:
-        console.print(largest)
-    if "problem" in tables.kappa:
-        console.print(summaries.largest_errors(tables.kappa[tables.kappa["problem"].fillna("") != ""]))
+def _print_errors(finished: FinishedRun, *, with_paper: bool) -> None:
+    """Print the largest errors, how the computations ended, and what agrees with the paper."""
+    tables = finished.tables
+    if len(tables.kappa):
+        output().print(summaries.largest_errors(tables.kappa))
     of_paper = summaries.paper_sentence(tables.largest) if with_paper else ""
     print_lines(filter(None, [summaries.computations_sentence(finished.counts), of_paper]))

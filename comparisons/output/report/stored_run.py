@@ -87,7 +87,11 @@ class Stored:
         joined = results.merge(kappa, on=_KEY, how="left")
         # A model without any value has no relative error, which would name the reference.
         joined["reference"] = joined["reference"].fillna(joined["stated"])
-        return errors.error_summary(joined[joined["model"] != joined["reference"]])
+        summary = errors.error_summary(joined[joined["model"] != joined["reference"]])
+        if planned is not None:
+            return summary
+        # A model with values and no error is compared with no reference: it verifies one.
+        return summary[(summary["cases"] > 0) | (summary["answered"] == 0)].reset_index(drop=True)
 
 
 def read_folder(folder: Path) -> Stored:

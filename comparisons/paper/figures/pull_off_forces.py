@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import partial
 from itertools import product
 from typing import Any
@@ -14,8 +15,7 @@ from matplotlib.lines import Line2D
 from scipy.interpolate import CubicSpline
 
 from comparisons.output.errors import relative_error
-from comparisons.output.figures.of_run import kappa_handles, kappa_panels
-from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered
+from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered, model_styles
 from comparisons.paper.drawing import LABELS, by_model, dashed, held, label_of, legend_below, level, of_model, panels
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure, together
 from comparisons.paper.tasks import GRADIENTS, values_of
@@ -31,6 +31,8 @@ _ENDS, _JKR_FROM = (_TRANSITION[0], _TRANSITION[-1]), 0.3
 #: corners.  At k = 0.4 it passes the denser values of Fig. 14 within 6e-4 for every n, less than its own width.
 _SMOOTH = 121
 _K = 0.4
+#: Face of the markers of a model (None: the colour of its line), and the colour of what is common to every n.
+_FACES, _OF_ALL = {"md-original": "white", "md-improved": None}, "0.45"
 #: Ten a decade, the preferred numbers of the series R10 but for rounding.
 TABOR_NUMBERS = tuple(float(f"{mu:.3g}") for mu in np.geomspace(0.01, 10.0, 31))
 #: Ticks of a logarithmic axis of forces, by the greatest ratio of its ends.
@@ -150,6 +152,36 @@ def fig15_pull_off_by_rigid_limit() -> Plan[Tables]:
     return {"": tables[""]}
 
 
+def _kappa_handles(shapes: Iterable[float]) -> list[Line2D]:
+    """Return what the legend shows: the colour and marker of each n, increasing, and the line of each model."""
+    handles = [
+        Line2D([], [], color=COLOURS[index], marker=MARKERS[index], ms=3.5, label=f"$n$ = {n:g}")
+        for index, n in enumerate(sorted(shapes))
+    ]
+    for model, face in _FACES.items():
+        style: dict[str, Any] = {"color": _OF_ALL, "marker": MARKERS[0], "ms": 3.5, "mfc": face or _OF_ALL}
+        handles.append(Line2D([], [], ls=model_styles([model])[model].line, label=MODEL_NAMES[model], **style))
+    return handles
+
+
+def _kappa_panels(complete: Axes, enlarged: Axes, kappa: pd.DataFrame) -> None:
+    """Draw kappa (of one quantity and gradient exponent) into two axes: all of it, and near zero."""
+    for index, (n, of_shape) in enumerate(kappa.sort_values("mu").groupby("n")):
+        for model, face in _FACES.items():
+            points = of_shape[of_shape["model"] == model]
+            colour, line = COLOURS[index], model_styles([model])[model].line
+            style: dict[str, Any] = {"color": colour, "marker": MARKERS[index], "mfc": face or colour, "ms": 3.5}
+            error, u = 100 * points["kappa"], 100 * points["u_kappa"]
+            for axes in (complete, enlarged) if len(points) else ():
+                axes.plot(points["mu"], error, ls=line, label=f"$n$ = {n:g}, {MODEL_NAMES[model]}", **style)
+                axes.fill_between(points["mu"], error - u, error + u, color=colour, alpha=0.2)
+    for axes in (complete, enlarged):
+        axes.set(xscale="log", xlabel=r"Tabor number $\mu$")
+        axes.axhline(0, color="0.4", lw=0.8)
+    complete.set_ylabel(r"relative error of the pull-off force $\kappa$ (%)")
+    enlarged.set_ylim(-9, 9)
+
+
 def _by_soft(figure: Figure, table: pd.DataFrame, kappa: pd.DataFrame) -> None:
     above, below = np.ravel(figure.subfigures(2, 1, height_ratios=[1.0, 1.15], squeeze=False))
     axes = above.subplots()
@@ -165,14 +197,14 @@ def _by_soft(figure: Figure, table: pd.DataFrame, kappa: pd.DataFrame) -> None:
     _log_forces(axes, table["ratio"].min() / 1.2, table["ratio"].max() * 1.2)
     above.legend(handles=handles, loc="outside right center")
     complete, enlarged = below.subplots(1, 2)
-    kappa_panels(complete, enlarged, kappa)
+    _kappa_panels(complete, enlarged, kappa)
     for panel, letter, words in (
         (axes, "a", f"scaled by the soft limit, {held(k=_K)}"),
         (complete, "b", f"relative error, {held(k=_K)}"),
         (enlarged, "c", "enlarged"),
     ):
         lettered(panel, letter, words)
-    below.legend(handles=kappa_handles(_SHAPES), loc="outside lower center", ncols=6, columnspacing=1.2)
+    below.legend(handles=_kappa_handles(_SHAPES), loc="outside lower center", ncols=6, columnspacing=1.2)
 
 
 @paper_figure(_by_soft, size=(7.2, 6.6))
