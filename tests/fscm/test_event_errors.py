@@ -153,9 +153,13 @@ def test_the_hysteresis_of_a_rounded_cone_is_bounded_by_its_own_error(k, mu, slo
     assert fine.u_num < 1e-8 * solution.value
 
 
+def _beyond(r):
+    return np.maximum(r - 5.0, 0.0)
+
+
 def test_an_extreme_of_large_curvature_is_not_missed():
     """Under a flat end the load changes within a gap of 1e-5: a step of 1e-8 still left 4e-12 of 8.7."""
-    flat = CustomPunch(lambda r: 0.5 * np.maximum(r - 5.0, 0.0) ** 2, 2.0, kinks=(5.0,))
+    flat = CustomPunch(lambda r: 0.5 * _beyond(r) ** 2, 2.0, _beyond, kinks=(5.0,))
     state = Analysis(Problem(2, 0, 3.0, punch=flat)).event("pull_off").value
     errors = EventErrors(state)
     rate, curvature, _ = errors.derivatives("load")
