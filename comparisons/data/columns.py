@@ -28,7 +28,7 @@ class Column(NamedTuple):
 
 
 def column(table: str, name: str) -> Column | None:
-    """Return what a column of a table holds; None of a column that fscm-bench does not name.
+    """Return what a column of a table holds; None of one that fscm-bench does not name, as a varied key.
 
     Examples
     --------
@@ -40,22 +40,11 @@ def column(table: str, name: str) -> Column | None:
     's'
     >>> column("results", "depth_of_my_own") is None
     True
-    >>> column("results", "punch.R [m]")
-    Column(unit='m', description='value of the key R of [punch] of the problem file')
     """
     by_file = _tables().get(table)
     layers = [by_file["table"][table].get("column", {}), by_file.get("column", {})] if by_file else []
     described = next((layer[name] for layer in [*layers, _contents()[0]["column"]] if name in layer), None)
-    return Column(**described) if described else _varied(name)
-
-
-def _varied(name: str) -> Column | None:
-    """A key of a problem file that was varied; its unit stands in brackets."""
-    section, _, key = name.removesuffix("]").partition(".")
-    if section not in ("solid", "punch", "law"):
-        return None
-    key, _, unit = key.partition(" [")
-    return Column(unit or "1", f"value of the key {key} of [{section}] of the problem file")
+    return Column(**described) if described else None
 
 
 @lru_cache(maxsize=1)

@@ -191,7 +191,7 @@ def lost_row(task: Task) -> Row:
 
 
 def _evaluate_external(identity: ExternalIdentity, task: Task) -> Row:
-    """Evaluate an external model; the row has failed if the model is not what it was at the start of the run.
+    """Evaluate an external model; `ValueError` if it is not what it was at the start of the run.
 
     Outside the domain that it declares it is not even started.
     """
@@ -202,8 +202,7 @@ def _evaluate_external(identity: ExternalIdentity, task: Task) -> Row:
         return _row(identity, task.quantity, problem, started, status="not-applicable", reason=reason)
     model = create(identity.spec, problem.nu)
     if (model.name, model.version) != (identity.name, identity.version):
-        reason = contradiction((identity.name, identity.version), (model.name, model.version))
-        return _row(identity, task.quantity, problem, started, status="failed", reason=reason)
+        raise ValueError(contradiction((identity.name, identity.version), (model.name, model.version)))
     return evaluate(model, task.quantity, problem)
 
 

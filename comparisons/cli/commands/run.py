@@ -9,7 +9,6 @@ from comparisons.cli.options import JOBS, OUT, QUIET, VERBOSE, file, option, sev
 from comparisons.cli.run_screen import print_end
 from comparisons.cli.screen import output, print_lines
 from comparisons.cli.verdict_screen import STATUS, print_verdicts
-from comparisons.console.exit_status import FAILED
 from comparisons.console.progress import note
 from comparisons.output import summaries
 from comparisons.pipeline.finished_run import FinishedRun
@@ -57,11 +56,9 @@ def call(args: argparse.Namespace) -> int:
     if not args.quiet:
         # The numbers of the paper belong to the standing gates.
         _print_errors(finished, with_paper=args.gates is None)
-    if judgement is not None:
-        print_verdicts(judgement, verbose=args.verbose, quiet=args.quiet)
+    assert judgement is not None  # There are gates: the standing ones, or those of the user.
+    print_verdicts(judgement, verbose=args.verbose, quiet=args.quiet)
     status = print_end(finished.failures, finished.folder)
-    if judgement is None:
-        return FAILED
     if not judgement.verdicts.empty:
         note(f"next: fscm-bench report {quote(str(finished.folder))}")
     return status or STATUS[judgement.verdict]
