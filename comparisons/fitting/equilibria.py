@@ -19,6 +19,7 @@ from scipy.interpolate import CubicSpline
 
 import fscm
 from comparisons.model import ComputationFailed
+from comparisons.models.bradley import rigid_load
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
@@ -36,8 +37,11 @@ _POINTS, _BETWEEN = 240, 8
 #: Degrees between two states: a spline needs fewer than a polygon.
 _TURN = 30.0
 
-#: Range of the JKR limit's approach without contact, in units of its displacement at pull-off.
-_FAR = 1e3
+#: Share of the pull-off force up to which surfaces before contact are as good as rigid.
+_WEAK = 0.1
+
+#: Farthest gap of the JKR limit, in units of its displacement at pull-off and of the range of the law.
+_FAR = 100.0
 
 
 class Equilibria(NamedTuple):
@@ -75,13 +79,17 @@ def by_fscm(problem: Problem, largest: float, exact: bool) -> Equilibria:
 
 
 def by_jkr(problem: Problem, largest: float) -> Equilibria:
-    """Return those of JKR-n-k, the limit of large Tabor numbers, as `by_fscm`: no load before the surfaces touch."""
+    """Return those of JKR-n-k, the limit of large Tabor numbers, as `by_fscm`.
+
+    Before the surfaces touch, which is at zero displacement, they attract each other as rigid ones do (Eq. 42).
+    """
     units, force = problem.units, JKR().evaluate(problem, "pull_off_force").value
     curve = JKR().curve_to(problem, max(largest / units["load"] / force, 1.0))
-    start = _FAR * float(curve.displacement.min())
-    displacement, load = (
-        np.concatenate([[first], values]) for first, values in ((start, curve.displacement), (0.0, curve.load))
-    )
+    gap = np.geomspace(_FAR * abs(float(curve.displacement.min())) + _FAR, 1.0, _POINTS)
+    attraction = rigid_load(problem.n, gap)
+    weak = attraction > -_WEAK * force
+    displacement = np.concatenate([-gap[weak], curve.displacement])
+    load = np.concatenate([attraction[weak], curve.load])
     return Equilibria(displacement * units["displacement"], load * units["load"])
 
 

@@ -66,7 +66,8 @@ class FittedValue:
     Attributes
     ----------
     value, u : float
-        With its standard uncertainty; infinite where the curve does not determine it.
+        With its standard uncertainty by noise, uncertain values of the file and error of the model; infinite where the
+        curve does not determine it.
     unit : str
     determined : bool
     shifts : dict of str to float or None
@@ -391,12 +392,13 @@ def _described(search: _Search, result: Any, model: str, count: int) -> Fit:
     parameters = {}
     for key in search.keys[:count]:
         value = key.value(values[key.name])
-        u = key.uncertainty(value, deviations[key.name])
-        determined = u <= _UNDETERMINED * abs(value)
         of_key = {
             cause: None if changed_values is None else key.value(changed_values[key.name]) - value
             for cause, changed_values in shifts.items()
         }
+        # The error of the model is a bound of this program, that of the assumptions is one of the physics.
+        u = math.hypot(key.uncertainty(value, deviations[key.name]), of_key["model"] or 0.0)
+        determined = u <= _UNDETERMINED * abs(value)
         parameters[key.name] = FittedValue(value, u, key.unit, determined, of_key)
     scale = {"displacement": search._range, "load": search._load_range, "drift": search._range}
     zeros = {name: (values[name] * size, deviations[name] * size) for name, size in scale.items() if name in values}
@@ -420,8 +422,8 @@ def _shifts(search: _Search, result: Any, model: str, problem: Problem) -> dict[
     errors: dict[str, float | None] = {"model": 0.0, "assumptions": None}
     if model == "jkr":
         limit = evaluate("jkr", "pull_off_force", problem)
-        known = force.value is not None and limit.value is not None
-        errors["model"] = float(relative_difference(limit.value, force.value)) if known else None
+        is_known = force.value is not None and limit.value is not None
+        errors["model"] = float(relative_difference(limit.value, force.value)) if is_known else None
     assumed = assumptions(problem, force)
     if assumed is not None:
         errors["assumptions"] = assumed["total"]["error"]

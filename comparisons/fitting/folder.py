@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -29,6 +30,9 @@ from comparisons.runs.store import Form, Store
 from comparisons.runs.workers import processes
 
 __all__ = ["draw", "fit_files", "fit_table", "write_fits"]
+
+#: A smaller change in percent is that of rounding.
+_NOTHING = 1e-3
 
 #: What is stored of a file: its name and the digest of all that determines its fits, and these or why there are none.
 _FORM: Form[dict[str, Any]] = Form("fits", key=lambda item: [item["file"], item["digest"]], read=dict, write=dict)
@@ -77,6 +81,7 @@ def fit_files(
         For each file ``file``, ``fits`` as of `Fit.as_json`, and ``failure``, empty where there are fits.
     """
     tasks = [_Task(path, problem, free, options) for path in paths]
+    jobs = min(jobs, len(tasks))
     if folder is None:
         return [item or _lost(task) for task, item in processes(partial(_fitted, folder=None), tasks, jobs)]
     folder.mkdir(parents=True, exist_ok=True)
@@ -118,24 +123,26 @@ def fit_table(items: Sequence[Mapping[str, Any]]) -> Table:
 
     def shift(name: str, row: Record) -> str:
         size = row[f"shift_by_{name}"]
-        return "unknown" if size is None or np.isnan(size) else f"{100.0 * size / row['value']:+.2g}"
+        share = math.nan if size is None else 100.0 * size / row["value"]
+        return "unknown" if math.isnan(share) else f"{share:+.2g}" if abs(share) > _NOTHING else "+0"
 
     columns = [
-        Column("curve", lambda row: str(row["curve"])),
+        *([Column("curve", lambda row: str(row["curve"]))] if len({row["curve"] for row in rows}) > 1 else []),
         Column("model", lambda row: str(row["model"])),
         Column("mu", lambda row: "" if row["mu"] is None or np.isnan(row["mu"]) else f"{row['mu']:.3g}", "mu"),
         Column("key", lambda row: str(row["key"])),
         Column("value", _value_text, "value"),
-        Column("model %", lambda row: shift("model", row), "shift_by_model"),
-        Column("assumed %", lambda row: shift("assumptions", row), "shift_by_assumptions"),
+        Column("by model", lambda row: shift("model", row), "shift_by_model"),
+        Column("assumed", lambda row: shift("assumptions", row), "shift_by_assumptions"),
     ]
     return Table(
-        "fits", "Fitted values, and what the errors of model and assumptions change", columns, pd.DataFrame(rows)
+        "fits", "Fitted values, and what the errors of model and assumptions change (%)", columns, pd.DataFrame(rows)
     )
 
 
 def _value_text(row: Record) -> str:
-    return si_text(row["value"], row["u"], row["unit"]) if row["determined"] else "not determined"
+    text = si_text(row["value"], row["u"], row["unit"]) if row["determined"] else "not determined"
+    return text.replace("^2", "²")
 
 
 def write_fits(folder: Path, items: Sequence[Mapping[str, Any]]) -> None:

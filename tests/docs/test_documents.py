@@ -30,9 +30,6 @@ QUOTED = {
     "own_shape_and_law.py": ["paraboloid    9-3   pull-off force 1.78848171", "rounded cone  10-4"],
     "own_modulus.py": ["27.06620 nN", "25.96980 nN", "25.69680 nN", "27.08988 nN"],
     "errors_of_a_model.py": ["md-improved", "1.788482"],
-    "measured_curve.py": re.findall(
-        r"^```\n(pull-off force .*?)^```", (DOCS / "measured_curve.md").read_text(encoding="utf-8"), re.M | re.S
-    )[0].splitlines(),
     # The tables of docs/which_model.md, whose numbers are rounded to what any machine computes.
     "model_choice.py": [
         line

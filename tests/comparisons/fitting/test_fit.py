@@ -1,0 +1,215 @@
+"""Fits of records whose values are known: made by both solvers, with noise, unknown zeros and drift."""
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.stats import binom
+
+import fem_reference
+from comparisons import fit
+from comparisons.cli.main import main
+from comparisons.fitting.equilibria import by_fscm
+from comparisons.fitting.fit import fit_record
+from comparisons.fitting.machine import Machine
+from comparisons.fitting.parameters import free_keys
+from comparisons.fitting.record import Record
+from comparisons.problem import Problem
+from comparisons.problem.uncertain import Uncertainty
+
+from .synthetic import Instrument, contact, of_tabor_number, wrong
+
+FREE = ["law.work_of_adhesion", "solid.E0"]
+
+PROBE = """
+solid = {kind = "power-law", E0 = "3 GPa", c0 = "1 nm", k = 0, nu = 0.3}
+punch = {kind = "sphere", R = "200 nm"}
+law = {kind = "lennard-jones-9-3", work_of_adhesion = "20 mJ/m^2", z0 = "0.4 nm"}
+"""
+
+
+def deviations(problem, fitted):
+    """Distance from the true values in standard uncertainties."""
+    return [(row.value - problem[key]) / row.u for key, row in fitted.parameters.items()]
+
+
+def fitted(problem, record, start=None, free=FREE, **options):
+    start = start or wrong(problem, 3.0)
+    return fit_record(record, start, free_keys(start, free), **options)
+
+
+@pytest.mark.parametrize(("mu", "k"), [(0.1, 0.0), (0.6, 0.4), (3.0, 0.0), (3e3, 0.4)])
+def test_known_values_are_found_from_a_wrong_start(mu, k):
+    problem = of_tabor_number(mu, k)
+    record = Instrument(drift=0.01).record(problem, np.random.default_rng(1))
+    result = fitted(problem, record)
+    assert result.model == ("jkr" if mu > 100.0 else "fscm")
+    assert max(map(abs, deviations(problem, result))) < 3.5
+    assert all(row.determined and row.u < 0.1 * row.value for row in result.parameters.values())
+    assert result.residual == pytest.approx(result.noise, rel=0.2)
+
+
+@pytest.mark.heavy
+def test_a_record_of_the_finite_elements_gives_its_values():
+    problem = contact(5e8, 0.05)
+    path = fem_reference.trace(problem.build(fem_reference))
+    rising = Machine.of(by_fscm(problem, path.load.max(), True), math.inf)
+    x = np.linspace(rising.contact[0, 0], path.displacement.max(), 200)[1:]
+    branch = path.displacement[int(np.argmin(path.load)) :], path.load[int(np.argmin(path.load)) :]
+    load = np.interp(x, *branch)
+    record = Record("fem", x[::-1], load[::-1], np.zeros(x.size, bool))
+    result = fitted(problem, record)
+    assert result.parameters["solid.E0"].value == pytest.approx(5e8, rel=2e-3)
+    assert result.parameters["law.work_of_adhesion"].value == pytest.approx(0.05, rel=2e-3)
+
+
+def test_a_cantilever_jumps_where_its_stiffness_says():
+    """The tension ends at a higher load than of a held displacement: the softer, the nearer to pull-off."""
+    problem = contact(5e7, 0.05)
+    equilibria = by_fscm(problem, 1e-8, False)
+    held, soft = (Machine.of(equilibria, stiffness).contact[1, 0] for stiffness in (math.inf, 0.5))
+    assert equilibria.load.min() <= soft < held < 0.0
+    assert soft == pytest.approx(equilibria.load.min(), rel=0.02)
+
+
+def test_the_grid_of_tabor_numbers_is_as_good_as_a_path():
+    """Loads between the nodes differ by less than a thousandth of the pull-off force from those of their own path."""
+    for mu in (0.3, 2.2, 7.0):
+        problem = of_tabor_number(mu)
+        own, between = (Machine.of(by_fscm(problem, 1e-9, exact), math.inf) for exact in (True, False))
+        x = np.linspace(max(own.contact[0, 0], between.contact[0, 0]), own.contact[0, -1], 400)[4:-1]
+        loads = [np.interp(x, *machine.contact) for machine in (own, between)]
+        assert np.abs(loads[0] - loads[1]).max() < 1e-3 * -own.contact[1].min()
+
+
+def test_what_the_file_knows_counts_like_a_measurement():
+    """An uncertain radius widens the work of adhesion by as much, and a prior that is tight holds its key."""
+    problem = of_tabor_number(3.0)
+    record = Instrument().record(problem, np.random.default_rng(2))
+    plain = fitted(problem, record).parameters["law.work_of_adhesion"]
+    start = wrong(problem, 2.0)
+    uncertain = replace(start, punch=replace(start.punch, uncertain={"R": Uncertainty(0.05 * 200e-9, False, "5 %")}))
+    wide = fitted(problem, record, uncertain).parameters["law.work_of_adhesion"]
+    assert plain.u < 0.02 * plain.value
+    assert 0.02 * wide.value < wide.u < 0.08 * wide.value
+
+
+def test_what_a_curve_cannot_tell_is_said():
+    """The range of the forces has no part in the limit of large Tabor numbers."""
+    problem = of_tabor_number(2e3)
+    record = Instrument().record(problem, np.random.default_rng(4))
+    result = fitted(problem, record, free=[*FREE, "law.z0"])
+    assert not result.parameters["law.z0"].determined
+    assert any("law.z0" in remark for remark in result.remarks)
+
+
+def test_the_example_of_the_documentation_has_the_values_it_was_made_with():
+    examples = Path(__file__).parents[3] / "docs" / "examples"
+    problem = Problem.load(examples / "problems" / "probe.toml")
+    (result,) = fit(examples / "measured_curve.csv", problem, ["solid.E", "law.work_of_adhesion"])
+    for key, value in (("solid.E", 500e6), ("law.work_of_adhesion", 0.04)):
+        assert result.parameters[key].value == pytest.approx(value, abs=3.0 * result.parameters[key].u)
+    assert result.residual == pytest.approx(0.2e-9, rel=0.1)
+
+
+@pytest.fixture
+def files(tmp_path):
+    problem = of_tabor_number(2.0)
+    (tmp_path / "probe.toml").write_text(PROBE)
+    for number in (1, 2):
+        record = Instrument().record(problem, np.random.default_rng(number))
+        branch = np.where(record.approach, "approach", "retreat")
+        table = {"displacement [nm]": record.displacement * 1e9, "load [uN]": record.load * 1e6, "branch": branch}
+        pd.DataFrame(table).to_csv(tmp_path / f"curve{number}.csv", index=False)
+    return problem, tmp_path
+
+
+def test_the_command_writes_values_with_uncertainties(files, capsys):
+    problem, folder = files
+    arguments = ["fit", str(folder / "curve1.csv"), "--problem", str(folder / "probe.toml"), "--free", *FREE]
+    assert main([*arguments, "--format", "json"]) == 0
+    parameters = json.loads(capsys.readouterr().out)["parameters"]
+    assert set(parameters) == set(FREE)
+    assert parameters["solid.E0"]["unit"] == "Pa"
+    for key, row in parameters.items():
+        assert abs(row["value"] - problem[key]) < 4.0 * row["u"] < 0.2 * row["value"]
+
+
+def test_many_curves_share_a_folder_that_is_resumed(files, capsys):
+    _, folder = files
+    curves = [str(folder / f"curve{number}.csv") for number in (1, 2)]
+    arguments = ["--problem", str(folder / "probe.toml"), "--free", *FREE, "--out", str(folder / "fits"), "--jobs", "1"]
+    assert main(["fit", curves[0], *arguments]) == 0
+    assert main(["fit", *curves, *arguments]) == 0
+    assert "1 finished" not in capsys.readouterr().err
+    table = pd.read_csv(folder / "fits" / "fits.csv")
+    assert sorted(set(table["curve"])) == ["curve1.csv", "curve2.csv"]
+    assert {path.name for path in (folder / "fits").glob("*.png")} == {"curve1.png", "curve2.png"}
+    assert "\\toprule" in (folder / "fits" / "fits.tex").read_text()
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "sentence"),
+    [
+        ("displacement [nm],load [nN]\n1,2\n", [], "fewer than 20"),
+        ("displacement,load [nN]\n1,2\n", [], "has no unit"),
+        ("displacement [nm],load [nm]\n1,2\n", [], "load has the unit nm"),
+        ("displacement [nm],force [nN]\n1,2\n", [], "'force'"),
+        ("displacement [nm],load [nN]\n1,x\n", [], "'x' in row 1"),
+        ("height [nm],deflection [nm]\n1,2\n", [], "--stiffness"),
+        ("height [nm],deflection [V]\n1,2\n", ["--stiffness", "1 N/m"], "--sensitivity"),
+        ("displacement [nm],load [nN]\n1,2\n", ["--stiffness", "1 m"], "--stiffness 1 m"),
+        ("displacement [nm],load [nN]\n1,2\n", ["--free", "solid.G"], "'G'"),
+        ("displacement [nm],load [nN]\n1,2\n", ["--free", "solid"], "solid"),
+        ("displacement [nm],load [nN],branch\n1,2,up\n", [], "'up'"),
+    ],
+)
+def test_bad_input_is_one_sentence(tmp_path, capsys, text, options, sentence):
+    (tmp_path / "probe.toml").write_text(PROBE)
+    (tmp_path / "curve.csv").write_text(text)
+    arguments = ["--problem", str(tmp_path / "probe.toml"), "--free", "solid.E0"]
+    assert main(["fit", str(tmp_path / "curve.csv"), *arguments, *options]) == 2
+    error = capsys.readouterr().err
+    assert sentence in error
+    assert "Traceback" not in error
+
+
+def test_a_file_of_an_instrument_is_read(tmp_path):
+    """In the simplest form of the format of AFM workshop: height of the base in nm, deflection in V."""
+    pytest.importorskip("afmformats")
+    problem = of_tabor_number(2e3)
+    record = Instrument(noise=0.005).record(problem, np.random.default_rng(5))
+    stiffness, gain = 2.0, 1e-7
+    height, volts = -record.displacement - record.load / stiffness, record.load / stiffness / gain
+    half = record.approach.sum()
+    rows = zip(-height[:half] * 1e9, volts[:half], -height[half:] * 1e9, volts[half:], strict=True)
+    head = ["Force-Distance Curve", "File Format:\t3", "Date:\tWednesday, August 1, 2018", "Time:\t1:07:47 PM"]
+    head += ["Mode:\tSingle", "Point:\t1", "X, um:\t27.25", "Y, um:\t27.25", ""]
+    head += ["Extend Z-Sense(nm),Extend T-B(V),Retract Z-Sense(nm),Retract T-B(V)"]
+    lines = [",".join(f"{number:.9g}" for number in row) for row in rows]
+    path = tmp_path / "curve.csv"
+    path.write_text("\n".join([*head, *lines]) + "\n")
+    start = wrong(problem, 1.5)
+    (result,) = fit(path, start, FREE, branch="retreat", stiffness=stiffness, sensitivity=gain)
+    for key, row in result.parameters.items():
+        assert row.value == pytest.approx(problem[key], rel=0.05)
+
+
+@pytest.mark.heavy
+def test_stated_intervals_hold_as_often_as_they_say():
+    """500 curves, Tabor numbers from 0.05 to 1e4: 68 and 95 % within the error of sampling (four standard deviations)."""
+    rng = np.random.default_rng(31)
+    scores = []
+    for _ in range(500):
+        problem = of_tabor_number(10.0 ** rng.uniform(-1.3, 4.0), float(rng.choice([0.0, 0.2, 0.4, 0.6])))
+        noise, largest = 10.0 ** rng.uniform(-2.5, -1.3), 10.0 ** rng.uniform(0.0, 1.0)
+        instrument = Instrument(noise, int(rng.integers(100, 500)), rng.uniform(-0.02, 0.02), largest)
+        record = instrument.record(problem, rng)
+        scores += map(abs, deviations(problem, fitted(problem, record, wrong(problem, float(np.exp(rng.uniform(-1, 1)))))))
+    for level, limit in ((0.6827, 1.0), (0.9545, 2.0)):
+        share = np.mean(np.array(scores) < limit)
+        assert abs(share - level) < 4.0 * binom.std(500, level) / 500
