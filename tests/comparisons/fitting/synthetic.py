@@ -1,4 +1,4 @@
-"""Records that a machine would make of known contacts: equilibria by one of the solvers, noise, unknown zeros, drift."""
+"""Records that a machine would make of known contacts: noise, unknown zeros, drift; equilibria by a solver."""
 
 from dataclasses import dataclass, replace
 
@@ -80,5 +80,7 @@ def _at(x, curve):
 def wrong(problem, factor):
     """The file of a user who does not know the values: work of adhesion and modulus are wrong by a factor."""
     solid = replace(problem.solid, values={**problem.solid.values, "E0": factor * problem.solid["E0"]})
-    law = replace(problem.law, values={**problem.law.values, "work_of_adhesion": problem.law["work_of_adhesion"] / factor})
+    law = replace(
+        problem.law, values={**problem.law.values, "work_of_adhesion": problem.law["work_of_adhesion"] / factor}
+    )
     return Problem(solid, problem.punch, law)

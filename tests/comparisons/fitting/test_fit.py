@@ -179,7 +179,7 @@ def test_bad_input_is_one_sentence(tmp_path, capsys, text, options, sentence):
 
 
 def test_a_file_of_an_instrument_is_read(tmp_path):
-    """In the simplest form of the format of AFM workshop: height of the base in nm, deflection in V."""
+    """In the simplest text format that afmformats knows: height of the base in nm, deflection in V."""
     pytest.importorskip("afmformats")
     problem = of_tabor_number(2e3)
     record = Instrument(noise=0.005).record(problem, np.random.default_rng(5))
@@ -201,7 +201,7 @@ def test_a_file_of_an_instrument_is_read(tmp_path):
 
 @pytest.mark.heavy
 def test_stated_intervals_hold_as_often_as_they_say():
-    """500 curves, Tabor numbers from 0.05 to 1e4: 68 and 95 % within the error of sampling (four standard deviations)."""
+    """500 curves, Tabor numbers 0.05 to 1e4: 68 and 95 % within four standard deviations of sampling."""
     rng = np.random.default_rng(31)
     scores = []
     for _ in range(500):
@@ -209,7 +209,9 @@ def test_stated_intervals_hold_as_often_as_they_say():
         noise, largest = 10.0 ** rng.uniform(-2.5, -1.3), 10.0 ** rng.uniform(0.0, 1.0)
         instrument = Instrument(noise, int(rng.integers(100, 500)), rng.uniform(-0.02, 0.02), largest)
         record = instrument.record(problem, rng)
-        scores += map(abs, deviations(problem, fitted(problem, record, wrong(problem, float(np.exp(rng.uniform(-1, 1)))))))
+        scores += map(
+            abs, deviations(problem, fitted(problem, record, wrong(problem, float(np.exp(rng.uniform(-1, 1))))))
+        )
     for level, limit in ((0.6827, 1.0), (0.9545, 2.0)):
         share = np.mean(np.array(scores) < limit)
         assert abs(share - level) < 4.0 * binom.std(500, level) / 500
