@@ -39,6 +39,7 @@ def test_a_right_model_passes(capsys):
         (JKR + "return Result(value / 2, 0.0)", "", "is of the right size", "0.381 times the accurate one"),
         (JKR + "return Result(value + 1e-9 * time.perf_counter(), 0.0)", "", "gives the same result again", "clock"),
         (COUNTS, "", "gives the same result again", "kept between evaluations"),
+        (JKR + "return Result(value + 1e-9 * os.getpid(), 0.0)", "", "gives the same result again", "a new process"),
         (RIGHT, 'limits = ("rigid",)', "is right in the limit rigid", "-25 % off Bradley"),
         (TOO_MUCH, 'limits = ("jkr",)', "is right in the limit jkr", "it must come nearer"),
         (RIGHT, 'limits = ("dmt",)', "is right in the limit dmt", "known are rigid, jkr"),

@@ -67,7 +67,8 @@ def test_a_gate_that_the_domain_does_not_meet_or_of_a_single_case_has_no_fresh_c
     assert (fresh.parts, fresh.undrawn) == ((), ())
 
 
-def test_poissons_ratio_is_left_to_the_models():
+def test_without_a_domain_cases_are_between_the_standing_ones_and_poissons_ratio_is_left_to_the_models():
+    assert all(1 <= case.n <= 5 and case.k <= 0.4 and 0.1 <= case.mu <= 1 for case in cases_of(drawn(None)))
     fresh = cases_of(drawn(None, 5, grid=GRID.replace("mu = [0.1, 1]", "mu = [0.1, 1]\nnu = [0, 0.3]")))
     assert [*map(set, (case.parameters for case in fresh))] == [{"n", "k", "mu"}] * 5
 

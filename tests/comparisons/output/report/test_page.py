@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 
 import pandas as pd
 import pytest
@@ -44,6 +45,12 @@ def test_the_first_lines_are_the_largest_error_and_the_verdict(laid_out, stored)
     )
     assert laid_out.verdict == "ERROR"
     assert laid_out.lines[0].startswith("0 of 3 gates pass, 0 fail as declared, 3 unexpected: 1 ERROR, 1 FAIL, ")
+
+
+def test_a_model_that_verifies_a_reference_is_no_row_of_the_errors(stored):
+    verifying = stored.results[stored.results["model"] == "fscm"].assign(model="fem")
+    summary = replace(stored, results=pd.concat([stored.results, verifying])).error_summary()
+    assert set(summary["model"]) == {*stored.kappa["model"], "jkr"}
 
 
 def test_the_gates_are_worst_first_with_their_requirements(laid_out):
