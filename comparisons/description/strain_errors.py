@@ -29,7 +29,7 @@ from comparisons.problem import Problem, Section
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["FILE", "Change", "beyond", "forces_of_a_ball", "strain_change"]
+__all__ = ["FILE", "Change", "ball_on", "beyond", "forces_of_a_ball", "strain_change"]
 
 Array = NDArray[np.float64]
 
@@ -152,6 +152,18 @@ def _table() -> dict[tuple[float, float], dict[float, Change]]:
     return table
 
 
+def ball_on(softness: float, mu: float, nu: float) -> Problem:
+    """Return the problem of a ball on a homogeneous solid, in units of its radius and the work of adhesion.
+
+    Parameters
+    ----------
+    softness, mu, nu
+        As for `strain_change`.
+    """
+    law = Section("lennard-jones-9-3", {"work_of_adhesion": 1.0, "z0": float(np.cbrt(softness)) ** 2 / mu})
+    return Problem(Section("homogeneous", {"E": (1.0 - nu**2) / softness, "nu": nu}), Section("ball", {"R": 1.0}), law)
+
+
 def forces_of_a_ball(softness: float, mu: float, nu: float) -> tuple[Row, Row]:
     """Return the pull-off force of a ball with finite strain, by `fem-large-strain`, and with small strain, by `fscm`.
 
@@ -160,9 +172,7 @@ def forces_of_a_ball(softness: float, mu: float, nu: float) -> tuple[Row, Row]:
     softness, mu, nu
         As for `strain_change`.
     """
-    ball = Section("ball", {"R": 1.0})
-    law = Section("lennard-jones-9-3", {"work_of_adhesion": 1.0, "z0": float(np.cbrt(softness)) ** 2 / mu})
-    problem = Problem(Section("homogeneous", {"E": (1.0 - nu**2) / softness, "nu": nu}), ball, law)
+    problem = ball_on(softness, mu, nu)
     finite, small = (evaluate(model, "pull_off_force", problem) for model in ("fem-large-strain", "fscm"))
     return finite, small
 
