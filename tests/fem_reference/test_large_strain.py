@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from skfem import Basis, ElementQuadP, Functional, LinearForm
 
+import fscm
 from fem_reference import (
     Ball,
     LennardJones,
@@ -25,9 +26,12 @@ from fem_reference._elastic.mesh import graded_grid, uniform_grid
 from fem_reference._elastic.trace import trace_of
 from fem_reference._large_strain.core import core_of
 from fem_reference._large_strain.discretisation import linear_event
+from fem_reference._large_strain.equilibrium import Control, solve_state
 from fem_reference._large_strain.events import Family
 from fem_reference._large_strain.surface import Surface, local_slopes
+from fem_reference._large_strain.whole_path import path_states
 from fem_reference.large_strain import _discretisation
+from tests.fem_reference.triangles_of_finite_strain import Square
 
 #: Of derivatives by central differences.
 DIFFERENCE_TOLERANCE = 1e-7
@@ -215,19 +219,22 @@ def test_the_surface_force_is_the_derivative_of_its_energy():
 @pytest.mark.parametrize(("nu", "friction"), [(0.3, "frictionless"), (0.5, "frictionless"), (0.5, "bonded")])
 def test_the_work_of_the_load_is_the_energy(nu, friction):
     states = family(sphere(5e-3, 2.0, nu), friction=friction, order=6)
-    path = [states.state(x) for x in (0.0, 0.01, 0.02)]
-    delta = np.array([state.displacement for state in path])
-    parabola = np.polynomial.Polynomial.fit(delta, [state.load for state in path], 2).integ()
-    work = float(polynomial_difference(parabola, delta[0], delta[-1]))
-    assert path[-1].energy - path[0].energy == pytest.approx(work, rel=2e-5)
-    middle = path[1].load_slope
-    slopes = np.polynomial.Polynomial.fit(delta, [state.load for state in path], 2).deriv()
-    scale = abs(path[2].load - path[0].load) / abs(delta[2] - delta[0])
-    assert abs(middle - float(slopes(delta[1]))) < 0.02 * scale
-
-
-def polynomial_difference(polynomial, a, b):
-    return polynomial(b) - polynomial(a)
+    states.state(0.0)
+    parameters = np.linspace(-0.15, 0.15, 9)
+    path = [states.state(x) for x in parameters]
+    delta, load, energy = (
+        np.polynomial.Polynomial.fit(parameters, [getattr(state, name) for state in path], 8)
+        for name in ("displacement", "load", "energy")
+    )
+    # The area under the whole curve, and dU/d(delta) at each place.
+    area = (load * delta.deriv()).integ()
+    change = path[-1].energy - path[0].energy
+    assert area(parameters[-1]) - area(parameters[0]) == pytest.approx(change, rel=3e-6)
+    inside = parameters[2:-2]
+    assert np.abs(energy.deriv()(inside) / delta.deriv()(inside) / load(inside) - 1.0).max() < 1e-5
+    slopes = load.deriv()(inside) / delta.deriv()(inside)
+    scale = np.abs(slopes).max()
+    assert np.abs([state.load_slope for state in path[2:-2]] - slopes).max() < 2e-4 * scale
 
 
 def test_the_state_is_independent_of_where_the_iteration_began():
@@ -252,6 +259,22 @@ def test_a_sphere_pulls_off_as_the_first_trial_did():
     assert solution.value / math.pi == pytest.approx(1.525, abs=1e-3)
     assert solution.u_num == pytest.approx(sum(solution.parts.values()))
     assert solution.u_num < BOUND * solution.value
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("nu", [0.3, 0.5])
+def test_triangles_and_an_energy_without_integration_by_parts_give_the_same_force(nu):
+    """Measured: 4e-5 for nu = 0.3 and 2e-5 for nu = 0.5; the triangles are not finer than that."""
+    number, mu = 5e-3, 2.0
+    problem = sphere(number, mu, nu)
+    modulus, z0 = problem.solid.E0, problem.law.z0
+    # Stresses of an incompressible solid on its surface are those of this one, to begin with.
+    law = fscm.LennardJones(1.0, z0)
+    guess = fscm.profile(fscm.Problem(fscm.PowerLaw(0.91 / number, 1.0, 0.0, 0.3), fscm.Ball(1.0), law))
+    square = Square(z0, modulus, nu, 0.25, float(guess.radius[np.argmin(guess.pressure)]))
+    start = square.linear(lambda r: np.interp(r, guess.radius, guess.pressure))
+    force = square.pull_off(start, z0 + float(guess.gap[0]), 3e-4 * z0)
+    assert force == pytest.approx(solve_large_strain(problem, "pull_off_force").value / math.pi, rel=1e-4)
 
 
 @pytest.mark.heavy
@@ -337,13 +360,16 @@ def test_both_forms_agree_within_their_bounds():
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("quantity", ["pull_off_displacement", "jump_out_displacement", "hysteresis_energy"])
-def test_other_quantities_are_bounded(quantity):
+@pytest.mark.parametrize(
+    ("quantity", "bound"),
+    [("pull_off_displacement", 1e-4), ("jump_out_displacement", 1e-4), ("hysteresis_energy", 3e-4)],
+)
+def test_other_quantities_are_bounded(quantity, bound):
     problem = sphere(5e-3, 2.0, 0.5)
     solution = solve_large_strain(problem, quantity)
     finer = solve_large_strain(problem, quantity, accuracy="default")
     assert abs(solution.value - finer.value) <= solution.u_num + finer.u_num
-    assert solution.u_num < 1e-4 * abs(solution.value)
+    assert solution.u_num < bound * abs(solution.value)
 
 
 @pytest.mark.heavy
@@ -358,15 +384,33 @@ def test_the_path_has_one_minimum_of_the_load(number, mu, nu):
 
 
 @pytest.mark.heavy
+@pytest.mark.parametrize("nu", [0.3, 0.5])
+def test_the_branches_of_the_path_meet(nu):
+    """The first state whose mesh follows the contact edge is one of the branch that the central gap picks.
+
+    Measured: 1.4e-3 and 2e-5 of the load, by the meshes before contact, whose elements are those of a wider spot.
+    """
+    problem = sphere(5e-3, 2.0, nu)
+    path = path_states(
+        problem, "quick", "frictionless", lambda event: _discretisation(problem, event, "frictionless", "auto")
+    )
+    last = max(i for i, (radius, _) in enumerate(path) if math.isnan(radius))
+    after = path[last + 1][1]
+    same = solve_state(path[last][1], Control(0, after.gap_at(0)))
+    assert same.load == pytest.approx(after.load, rel=3e-3)
+    assert same.displacement == pytest.approx(after.displacement, abs=5e-3 * problem.law.z0)
+
+
+@pytest.mark.heavy
 def test_random_bounds_contain_a_finer_solution():
     random = np.random.default_rng(7)
-    for _ in range(12):
+    for _ in range(8):
         number, nu = 10 ** random.uniform(-4, -2.3), random.choice([0.0, 0.2, 0.3, 0.4, 0.5])
         # Below the tension at which a compressible surface is unstable.
         mu = random.uniform(0.3, min(3.0, 0.33 / number ** (1 / 3)))
         problem = sphere(number, mu, nu)
         solution = solve_large_strain(problem, "pull_off_force")
-        finer = solve_large_strain(problem, "pull_off_force", accuracy="fine")
+        finer = solve_large_strain(problem, "pull_off_force", accuracy="default")
         case = (number, mu, nu)
         assert abs(solution.value - finer.value) <= solution.u_num + finer.u_num, case
         assert solution.u_num < BOUND * solution.value, case

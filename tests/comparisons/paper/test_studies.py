@@ -3,10 +3,12 @@
 import math
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import fscm
 from comparisons.paper.studies.error_maps import errors_along
+from comparisons.paper.studies.finite_strain import meeting_points
 from comparisons.paper.studies.graded_solids import (
     SERIES,
     by_elements,
@@ -99,3 +101,15 @@ def test_a_coated_solid_approaches_its_own_limit(ratio, thickness):
     assert abs(value - derived(ratio, thickness)) <= bound < 1e-5
     # A coating that is one in a thousand thicker is told apart.
     assert ratio == 1.0 or abs(value - derived(ratio, 1.001 * thickness)) > bound
+
+
+def test_geometry_and_strain_cancel_where_their_parts_are_equal():
+    """kappa = 2 x^2 - 0.1 x of the root x vanishes at 0.05; the bound 1e-3 x moves it by 5e-4."""
+    x = np.linspace(0.01, 0.2, 8)
+    line = pd.DataFrame({"elasto_adhesion_number": x**3, "kappa": 2 * x**2 - 0.1 * x, "u_kappa": 1e-3 * x})
+    with_error = line.assign(nu=0.3, kappa=line["kappa"] + 0.2 * x)
+    table = pd.concat([line.assign(nu=0.5), with_error]).assign(model="fscm", mu=1.0)
+    never, once = meeting_points(table).itertuples()
+    roots = np.cbrt([once.elasto_adhesion_number, once.lowest, once.highest])
+    assert roots == pytest.approx([0.05, 0.0495, 0.0505])
+    assert math.isnan(never.elasto_adhesion_number)
