@@ -16,7 +16,7 @@ from skfem.mapping import MappingIsoparametric
 
 from fem_reference._elastic.assembly import HalfSpace
 from fem_reference._elastic.gauss import unit_gauss
-from fem_reference._linear.linear_solver import relative_residual
+from fem_reference._linear.linear_solver import LinearResult, relative_residual
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._typing import Array
 from fem_reference.laws import SurfaceLaw
@@ -107,11 +107,16 @@ class FullSystem:
         rise = rise - rate[-2] + rate[-1] * self.s * self.punch.slope(y[-1] * self.s)
         return self.vector(slope * rise)
 
-    def residuals(self, u: Array, deltas: Array, sizes: Array, factors: Array) -> Array:
-        """Residuals K u - factor F of whole nonlinear systems, one a column, relative in the norm of `solve_cg`."""
-        columns = zip(u.T, deltas, sizes, factors, strict=True)
-        loads = [factor * self.vector(self.law.traction(self.gap(w, delta, c))) for w, delta, c, factor in columns]
-        return relative_residual(self.half_space, np.stack(loads, axis=1), u, self.preconditioner)
+    def residuals(self, result: LinearResult, loads: Array, deltas: Array, sizes: Array, factors: Array) -> Array:
+        """Residuals of whole nonlinear systems, one for each of the first loads of `result`, relative to those loads.
+
+        The displacement leaves a residual of the load it was solved under, and makes another load.
+        """
+        columns = zip(result.solution.T, deltas, sizes, factors, strict=False)
+        made = [self.vector(self.law.traction(self.gap(factor * u, delta, c))) for u, delta, c, factor in columns]
+        count = deltas.size
+        left = np.stack(made, axis=1) - loads[:, :count] + result.remainder[:, :count]
+        return relative_residual(self.half_space, left, result.norm[:count], self.preconditioner)
 
     def steepness(self, u: Array, delta: float, c: float) -> float:
         """Size of the slope of the traction relative to the traction, per length, in the norm of `residuals`."""

@@ -121,7 +121,7 @@ def newton(contact: Contact, y: Array, fixed: Control, varied: Control) -> State
         G[m:] = fixed.value(contact, y), varied.value(contact, y)
         K[:m] = contact.tangent(y)
         K[m], K[m + 1] = fixed.gradient(contact, y), varied.gradient(contact, y)
-        growth = float(np.abs(K[:m, :m]).sum(axis=1).max())
+        growth = float(linalg.norm(K[:m, :m], np.inf, check_finite=False))
         # Not lu_factor, which warns of a singular matrix: Newton stops there.
         lu, pivots, singular = linalg.lapack.dgetrf(K, overwrite_a=True)
         size = float(np.abs(G[:m]).max()) / law.z0

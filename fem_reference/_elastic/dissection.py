@@ -64,18 +64,20 @@ def eliminated(K: Array, count: int, twice: bool = False) -> tuple[Array, Array]
     """
     D, C = K[count:, count:], K[count:, :count]
     if count == K.shape[0]:
-        return K, -C
+        return K.copy(), -C
     if twice:
         # LAPACK has the transpose of a matrix whose rows are contiguous.
         factors, pivots, failed = dgetrf(D.T)
         _refuse(failed)
         follow = -dgetrs(factors, pivots, K[:count, count:].T)[0]
-        return K[:count, :count] + follow.T @ C, follow
+        product = follow.T @ C
+        return np.add(K[:count, :count], product, out=product), follow
     # The upper triangle of a matrix whose rows are contiguous is the lower one of its transpose, as LAPACK has it.
     L, failed = dpotrf(D.T, lower=1)
     _refuse(failed)
     Y, _ = dtrtrs(L, K[:count, count:].T, lower=1)
-    return K[:count, :count] - Y.T @ Y, np.empty((0, count))
+    product = Y.T @ Y
+    return np.subtract(K[:count, :count], product, out=product), np.empty((0, count))
 
 
 def _refuse(failed: int) -> None:
@@ -150,14 +152,14 @@ class _Dissection:
     ) -> None:
         self._rows, self._places = elements.sides, places
         self._scale, self._eliminations = scale, eliminations
-        scaling = scale[elements.sides]
-        self._stiffness = scaling[:, :, None] * elements.stiffness * scaling[:, None, :]
+        self._stiffness = elements.stiffness
         self._counts = np.bincount(elements.sides.ravel(), minlength=elements.size)
         self._free = np.zeros(elements.size, bool)
         self._free[free] = True
         self._retained = np.zeros(elements.size, bool)
         self._retained[retained] = True
         self._place = np.full(elements.size, -1)
+        self._workspaces = np.empty(0), np.empty(0)
 
     def block(self, members: Index) -> _Block:
         """Condense some elements on the rows that others share, or that are kept."""
@@ -182,8 +184,9 @@ class _Dissection:
         position[order] = np.arange(rows.size)
         local = position[local].reshape(sides.shape)
         places = local[:, :, None] * rows.size + local[:, None, :]
-        values = self._stiffness[members].ravel()
-        K = np.bincount(places.ravel(), values, minlength=rows.size**2).reshape(rows.size, rows.size)
+        scaling = self._scale[sides]
+        values = scaling[:, :, None] * self._stiffness[members] * scaling[:, None, :]
+        K = np.bincount(places.ravel(), values.ravel(), minlength=rows.size**2).reshape(rows.size, rows.size)
         left, count = int(free.sum()), int(stays.sum())
         return self._reduced(rows[order[:left]], counts[order[:count]], np.asarray(K[:left, :left], float))
 
@@ -205,16 +208,24 @@ class _Dissection:
         of_right = np.concatenate([twin[both], np.flatnonzero(at < 0), twin[gone]])
         in_left, only_right = own.size + both.size, of_right[both.size : of_right.size - gone.size]
         count = in_left + only_right.size
-        K = np.zeros((count + gone.size, count + gone.size))
+        K, gathered = self._matrices(count + gone.size, max(of_left.size, of_right.size))
+        K[:] = 0.0
         stays = (left, of_left, slice(0, in_left)), (right, of_right, slice(own.size, count))
         for block, order, there in stays:
-            ordered, stay = block.K[np.ix_(order, order)], there.stop - there.start
+            stay = there.stop - there.start
+            ordered = block.K.take(order, 0, out=gathered[: order.size, : order.size], mode="clip").take(order, 1)
             K[there, there] += ordered[:stay, :stay]
             K[there, count:] += ordered[:stay, stay:]
             K[count:, there] += ordered[stay:, :stay]
             K[count:, count:] += ordered[stay:, stay:]
         rows = np.concatenate([left.rows[of_left[:in_left]], right.rows[only_right], left.rows[gone]])
         return self._reduced(rows, np.concatenate([counts[of_left[:in_left]], right.counts[only_right]]), K)
+
+    def _matrices(self, *sizes: int) -> list[Array]:
+        """Square matrices in memory that the next merge uses again: new memory costs more than the merge."""
+        if any(size**2 > space.size for size, space in zip(sizes, self._workspaces, strict=True)):
+            self._workspaces = np.empty(2 * sizes[0] ** 2), np.empty(2 * sizes[1] ** 2)
+        return [space[: size**2].reshape(size, size) for size, space in zip(sizes, self._workspaces, strict=True)]
 
     def _reduced(self, rows: Index, counts: Index, K: Array) -> _Block:
         """Eliminate the rows of a block beyond those with counts: no other element has them."""

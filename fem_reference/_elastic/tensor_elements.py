@@ -132,6 +132,8 @@ def tensor_stiffness(
 ) -> Iterator[tuple[Index, Index, Array]]:
     """Numbers, rows and stiffness of some elements at a time: shapes (e,), (e, 2 n) and (e, 2 n, 2 n).
 
+    The next ones take the memory of the stiffness.
+
     Parameters
     ----------
     grid : Grid
@@ -154,12 +156,14 @@ def tensor_stiffness(
     rows = both_components(np.asarray(dofs.element_dofs)).T
     size = rows.shape[1]
     order_of_layers = np.lexsort((layers, columns)).reshape(grid.r.size - 1, -1)
+    # New memory costs as much as what is written into it.
+    block, term = np.empty((2, order_of_layers.shape[1], size // 2, size // 2))
+    K = np.empty((order_of_layers.shape[1], size, size))
     for column, elements in enumerate(order_of_layers):
-        K = np.empty((elements.size, size, size))
         for (i, j), pairs in BLOCKS.items():
-            block = radial[pairs[0][0]][column] * depth[pairs[0][1]]
-            for name_r, name_z in pairs[1:]:
-                block += radial[name_r][column] * depth[name_z]
+            block[:] = 0.0
+            for name_r, name_z in pairs:
+                block += np.multiply(radial[name_r][column], depth[name_z], out=term)
             K[:, i::2, j::2] = block
         K[:, 1::2, 0::2] = np.swapaxes(K[:, 0::2, 1::2], 1, 2)
         yield elements, rows[elements], K

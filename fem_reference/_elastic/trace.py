@@ -71,7 +71,8 @@ class Trace:
     def projection(self, values: Array) -> Array:
         """Return the coefficients, shape (m,), closest in the mean square to values at the Gauss points."""
         root = np.sqrt(self.weight)
-        return np.asarray(linalg.lstsq(root[:, None] * self.phi, root * values, check_finite=False)[0])
+        weighted = root[:, None] * self.phi
+        return np.asarray(linalg.lstsq(weighted, root * values, check_finite=False, lapack_driver="gelsy")[0])
 
     def slopes(self, s: Array) -> Array:
         """Return the derivatives of the functions at any radii inside the mesh, on the outer side of a node."""

@@ -44,6 +44,11 @@ class LinearResult:
     error : ndarray, like `solution`
         Last step of conjugate gradients, several times the error that is left, plus the preconditioner applied to the
         last residual, which has that of rounding; zero for the direct solve.
+    remainder : ndarray, like `solution`
+        Load minus stiffness times displacement, recomputed at the end.
+    norm : ndarray, shape (q,)
+        Squares of the norms of the loads, in which the residual of conjugate gradients is measured; those of the
+        Euclidean one for the direct solve.
     iterations : int
         Krylov iterations (0 for the direct solve).
     residual : float
@@ -56,6 +61,8 @@ class LinearResult:
 
     solution: Array
     error: Array
+    remainder: Array
+    norm: Array
     iterations: int
     residual: float
     seconds: float
@@ -130,8 +137,9 @@ def solve_cg(
             before, product = product, _products(r, left)
             direction = left + _ratio(product, before) * direction
             count += 1
-        r = preconditioner.residual(b, x)
-        left = preconditioner(r)
+        if count:
+            r = preconditioner.residual(b, x)
+            left = preconditioner(r)
         # Of a residual far below the tolerance, rounding of the preconditioner may change the sign.
         residual = float(np.sqrt(np.abs(_ratio(_products(r, left), norm))).max())
     seconds = time.perf_counter() - begin
@@ -145,20 +153,18 @@ def solve_cg(
     return LinearResult(
         _expand(half_space, scale * x).reshape(load.shape),
         _expand(half_space, scale * (step + left)).reshape(load.shape),
+        _expand(half_space, r / scale).reshape(load.shape),
+        norm,
         count,
         residual,
         seconds,
     )
 
 
-def relative_residual(half_space: HalfSpace, load: Array, u: Array, preconditioner: ElasticPreconditioner) -> Array:
-    """Return the residual of A u = load as `solve_cg` measures it, for loads of shape (2 N, q): shape (q,)."""
-    free, scale = half_space.free, preconditioner.scale[:, None]
-    b = scale * load[free]
-    # Loads and residuals pass through the preconditioner together.
-    both = np.concatenate([b, preconditioner.residual(b, u[free] / scale)], axis=1)
-    norm, left = np.split(_products(both, preconditioner(both)), 2)
-    return np.asarray(np.sqrt(np.abs(left / norm)))
+def relative_residual(half_space: HalfSpace, left: Array, norm: Array, preconditioner: ElasticPreconditioner) -> Array:
+    """Return what is left of loads, shape (2 N, q), relative to a norm of `LinearResult`: shape (q,)."""
+    r = preconditioner.scale[:, None] * left[half_space.free]
+    return np.asarray(np.sqrt(np.abs(_products(r, preconditioner(r)) / norm)))
 
 
 def _products(a: Array, b: Array) -> Array:
@@ -203,15 +209,18 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
     except RuntimeError as error:
         raise NotConverged(f"the stiffness matrix is singular ({error}); check modulus, mesh and nu") from error
     seconds = time.perf_counter() - begin
-    norm = float(np.linalg.norm(b))
-    residual = float(np.linalg.norm(b - A @ x)) / norm if norm > 0 else 0.0
+    norm, r = float(np.linalg.norm(b)), b - A @ x
+    residual = float(np.linalg.norm(r)) / norm if norm > 0 else 0.0
     if not residual <= TOLERANCE:
         raise NotConverged(
             f"the factorisation leaves a residual of {residual:.1e}, not {TOLERANCE:.1e}: the stiffness matrix is "
             "nearly singular; check modulus, mesh and nu"
         )
     storage = 12 * factors.nnz
-    return LinearResult(_expand(half_space, scale * x), np.zeros_like(load), 0, residual, seconds, storage)
+    displacement, remainder = _expand(half_space, scale * x), _expand(half_space, r / scale)
+    return LinearResult(
+        displacement, np.zeros_like(load), remainder, np.array([norm**2]), 0, residual, seconds, storage
+    )
 
 
 def _expand(half_space: HalfSpace, x: Array) -> Array:

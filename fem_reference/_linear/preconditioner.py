@@ -68,7 +68,8 @@ class ElasticPreconditioner:
         free = half_space.free
         A = half_space.matrix[free][:, free].tocsr()
         self.scale: Array = unit_scaling(A.diagonal())
-        A.data *= np.repeat(self.scale, np.diff(A.indptr)) * self.scale[A.indices]
+        A.data *= np.repeat(self.scale, np.diff(A.indptr))
+        A.data *= self.scale[A.indices]
         self.matrix: sparse.csr_array = A
         columns, rows = _grid_positions(half_space)
         self._strips = strips_of(self.matrix, [np.repeat(index, 2)[free] for index in (columns, rows)])
