@@ -18,9 +18,7 @@ MODULES = sorted(
 #: the functions that users call are not among them.
 LONG = {
     "comparisons.paper.figures.gradient_effect",
-    "comparisons.paper.studies.error_maps",
     "comparisons.paper.values.printed_values",
-    "comparisons.paper.studies.graded_solids",
     "comparisons.problem.elastic_energy",
     "comparisons.description.equivalent_power_law",
     "fem_reference.verification.element_checks",

@@ -19,16 +19,13 @@ ALLOWED = {
     "comparisons.cli.commands.fem": ("fem_reference", "fscm.problem", "fscm.punch", "fscm.laws"),
     # Shows the functions inside the FSCM.
     "comparisons.paper.figures.functions": ("fscm",),
-    # A solid that is no power law has no dimensionless problem.
-    "comparisons.paper.studies.graded_solids": ("fscm", "fem_reference"),
     # The landing of a jump and the surface at pull-off are no quantities of a model; both jumps of one path, in half
     # the time of two computations.
     "comparisons.paper.tasks": ("fscm",),
     # Judges statements on the functions inside the FSCM and on the two Tabor numbers (Eqs. 18-22 and 30).
     "comparisons.paper.statements.formulas": ("fscm",),
-    # Measure a solver at every accuracy, the others beside it, and the linear solvers inside the finite elements.
+    # Measures a solver at every accuracy, and the scheme of the paper beside it.
     "comparisons.bench.pull_off": ("fscm", "fem_reference"),
-    "comparisons.bench.elements": ("fem_reference",),
     # Pose the problem of a file to each solver: any solid, punch and law.
     "comparisons.problem.problem": ("fscm",),
     # The pressure at the pull-off force and the surface compliance of a solid, which are no quantities of a model.
@@ -43,8 +40,6 @@ ALLOWED = {
     "comparisons.paper.values.scheme_forces": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
-    # The references of the error maps are those of the atlas.
-    "comparisons.paper.studies.error_maps": ("fscm.interpolation",),
     "comparisons.models.gibson_limit": ("fscm",),
     "comparisons.models.fem_model": (
         "fscm.problem",

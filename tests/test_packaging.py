@@ -61,7 +61,7 @@ def external(*folders: str) -> set[str]:
 
 def test_every_import_of_the_packages_is_declared_and_nothing_else():
     # An optional package is imported where it is used.
-    optional = [requirement for name in ("report", "bench", "pytest", "afm") for requirement in EXTRAS[name]]
+    optional = [requirement for name in ("report", "pytest", "afm") for requirement in EXTRAS[name]]
     assert external(*PACKAGES) == {canonical(requirement) for requirement in RUNTIME + optional}
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TypeVar
@@ -12,7 +11,7 @@ from typing import TypeVar
 from comparisons.bench.part import Measurement, Numbers, Part, Settings
 from comparisons.runs.workers import processes
 
-__all__ = ["cpu_seconds", "measured", "memory", "reset_peak"]
+__all__ = ["cpu_seconds", "measured", "peak_memory"]
 
 Output = TypeVar("Output")
 
@@ -68,21 +67,12 @@ def cpu_seconds(compute: Callable[[int], Output]) -> tuple[Output, float]:
     return outputs[0], min(times)
 
 
-def memory(name: str = "VmRSS") -> float | None:
-    """Return the resident memory of this process in MB (1e6 bytes), or its peak with "VmHWM".
-
-    None where the system does not report it.
-    """
+def peak_memory() -> float | None:
+    """Return the peak of the resident memory of this process in MB (1e6 bytes); None where no /proc tells it."""
     # Not getrusage: its maximum is inherited from the parent across exec.
     try:
         status = Path("/proc/self/status").read_text(encoding="ascii")
     except OSError:
         return None
     fields = dict(line.split(":", 1) for line in status.splitlines())
-    return 1024e-6 * float(fields[name].split()[0])
-
-
-def reset_peak() -> None:
-    """Begin a new peak of the resident memory; where the system does not allow it, the old one continues."""
-    with suppress(OSError):
-        Path("/proc/self/clear_refs").write_text("5", encoding="ascii")
+    return 1024e-6 * float(fields["VmHWM"].split()[0])

@@ -10,7 +10,7 @@ from typing import Any, TypedDict
 import pandas as pd
 from matplotlib.figure import Figure
 
-__all__ = ["Measurement", "Numbers", "Part", "Settings", "table_of"]
+__all__ = ["Measurement", "Numbers", "Part", "Settings", "key", "table_of"]
 
 #: What a measurement is made with: values that JSON holds, by name.
 Settings = dict[str, Any]
@@ -35,17 +35,17 @@ class Part:
     Attributes
     ----------
     name, title : str
-        Its name on the command line and in the names of its files; its line in the help.
+        Its name on the command line and in the names of its files; its line in the help and above its summary.
     plan : callable
-        Returns the settings of each measurement; with True also the sizes that take long.
+        Returns the settings of each measurement; with True also those that take long.
     measure : callable
         Makes one measurement; a function of a module, because it is called in another process.
     ratios : callable
         Adds errors and ratios to the table of measurements, of which one has no failure.
-    draw : callable
-        Draws the rows without failure.
     summary : callable
-        Returns what is printed of the rows without failure, ratios first.
+        Returns the rows and columns that are printed, of the rows without failure.
+    draw : callable or None
+        Draws the rows without failure; None for a part that is a table only.
     own_process : bool
         Whether each measurement is made in a process of its own; one that starts processes itself needs none.
     """
@@ -55,14 +55,14 @@ class Part:
     plan: Callable[[bool], Sequence[Settings]]
     measure: Callable[[Settings], Numbers]
     ratios: Callable[[pd.DataFrame], pd.DataFrame]
-    draw: Callable[[pd.DataFrame], Figure]
-    summary: Callable[[pd.DataFrame], list[str]]
+    summary: Callable[[pd.DataFrame], pd.DataFrame]
+    draw: Callable[[pd.DataFrame], Figure] | None = None
     own_process: bool = True
 
-    def files(self, folder: Path) -> tuple[Path, Path]:
-        """Return the paths of its table and of its figure."""
+    def files(self, folder: Path) -> list[Path]:
+        """Return the paths of its table and of its figure, if it has one."""
         stem = folder / self.name.replace("-", "_")
-        return stem.with_suffix(".csv"), stem.with_suffix(".png")
+        return [stem.with_suffix(suffix) for suffix in ((".csv", ".png") if self.draw else (".csv",))]
 
 
 def table_of(part: Part, measurements: Sequence[Measurement]) -> pd.DataFrame:

@@ -10,13 +10,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from comparisons.bench import adhesion_package
 from comparisons.bench.cold_starts import COLD_STARTS
-from comparisons.bench.elements import ELEMENTS
-from comparisons.bench.growth import GROWTH
 from comparisons.bench.measuring import measured
 from comparisons.bench.part import Measurement, Part, key, table_of
-from comparisons.bench.two_workers import WORKERS
 from comparisons.bench.work_precision import WORK_PRECISION
 from comparisons.console.progress import note
 from comparisons.data.file_names import BENCH, BENCH_SUMMARY
@@ -29,7 +25,7 @@ from comparisons.runs.store import Form, Store
 __all__ = ["FORM", "PARTS", "FinishedBench", "parts_of", "run_bench"]
 
 #: Parts by name, in the order in which they are measured: the shortest first.
-PARTS = {part.name: part for part in (GROWTH, COLD_STARTS, WORKERS, ELEMENTS, WORK_PRECISION)}
+PARTS = {part.name: part for part in (COLD_STARTS, WORK_PRECISION)}
 
 
 def parts_of(names: Iterable[str] | None) -> list[Part]:
@@ -42,8 +38,8 @@ def parts_of(names: Iterable[str] | None) -> list[Part]:
 
     Examples
     --------
-    >>> [part.name for part in parts_of(["growth"])]
-    ['growth']
+    >>> [part.name for part in parts_of(["cold-starts"])]
+    ['cold-starts']
     """
     requested = set(PARTS if names is None else names)
     if unknown := sorted(requested - set(PARTS)):
@@ -52,19 +48,13 @@ def parts_of(names: Iterable[str] | None) -> list[Part]:
 
 
 class FinishedBench(NamedTuple):
-    """What a run prints, ratios first, at most 45 lines of at most 80 columns; and its failures."""
+    """What a run prints, lines of at most 80 columns; and its failures."""
 
     summary: list[str]
     failures: list[Measurement]
 
 
-def run_bench(
-    folder: Path,
-    only: Sequence[str] | None = None,
-    *,
-    full: bool = False,
-    again: bool = False,
-) -> FinishedBench:
+def run_bench(folder: Path, only: Sequence[str] | None = None, *, full: bool = False) -> FinishedBench:
     """Measure what the folder does not have, or has as failures, and write tables, figures and record.
 
     Parameters
@@ -74,18 +64,16 @@ def run_bench(
     only : sequence of str, optional
         Names of parts (`PARTS`); all by default.
     full : bool
-        Whether the sizes that take long are measured, too.
-    again : bool
-        Whether stored measurements are dropped first, also those of another version of the code.
+        Whether the settings that take long are measured, too.
 
     Raises
     ------
     ValueError
-        For an unknown part, or a folder that cannot be used.
+        For an unknown part, or a folder that cannot be used, as one with measurements of other code.
     """
     parts = parts_of(only)
     prepare_folder(folder)
-    with Store(folder, FORM, anew=again) as store:
+    with Store(folder, FORM) as store:
         store.drop(lambda measurement: measurement["status"] != "ok")
         _measure(parts, full, store)
         return _written(folder, parts, store, {"only": only and list(only), "full": full})
@@ -123,22 +111,19 @@ def _written(
         rows = [row for row in store.items if row["part"] == part.name]
         failures += [row for row in rows if row["status"] != "ok"]
         table = table_of(part, rows)
-        table_file, figure_file = part.files(folder)
-        # Settings as short as they can be exactly: 1e-05, not 1.0000000000000001e-05.
-        settings = {name: table[name].map(_short) for name in {name for row in rows for name in row["settings"]}}
-        with atomic(table_file) as file:
-            file.write(csv_text(table.assign(**settings)).encode())
         finished = table[table["status"] == "ok"]
-        if len(finished):
-            save(part.draw(finished), figure_file)
-            summary += part.summary(finished)
-    content = {"arguments": arguments, **record, "optional": adhesion_package.versions(), "parts": store.parts()}
+        table_file, *figure_files = part.files(folder)
+        with atomic(table_file) as file:
+            file.write(csv_text(table).encode())
+        if finished.empty:
+            continue
+        for figure_file in figure_files:
+            save(part.draw(finished), figure_file)  # type: ignore[misc]
+        lines = part.summary(finished).to_string(index=False, float_format="%.3g", na_rep="")
+        summary += [f"{part.title}:", *lines.splitlines()]
+    content = {"arguments": arguments, **record, "parts": store.parts()}
     content["failures"] = sum(row["status"] != "ok" for row in store.items)
     write_json(content, folder / BENCH)
     with atomic(folder / BENCH_SUMMARY) as file:
         file.write("".join(f"{line}\n" for line in summary).encode())
     return FinishedBench(summary, failures)
-
-
-def _short(value: object) -> object:
-    return repr(value) if isinstance(value, float) and value == value else value

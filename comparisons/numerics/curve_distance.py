@@ -85,9 +85,9 @@ def curve_distance(
         raise ValueError("the reference is a point or a line along an axis: it has no range to scale by")
     curve, reference = curve[inside] / span, reference / span
     polyline = _dense(reference)
-    nearest = [polyline.nearest(point) for point in curve]
-    missing = polyline.longest_part(np.array([place for _, place in nearest]), low / span[0], high / span[0])
-    value = max([distance for distance, _ in nearest] + [missing] * (missing > _LONGEST_PART))
+    distances, segments = _nearest(curve, polyline)
+    missing = _longest_part(polyline, segments, low / span[0], high / span[0])
+    value = max(float(distances.max()), missing if missing > _LONGEST_PART else 0.0)
     return CurveDistance(value, _interpolation_error(reference, reference_inside) if interpolated else 0.0)
 
 
@@ -110,45 +110,41 @@ def _checked(x: Array, y: Array) -> Array:
     return points
 
 
-def _dense(points: Array) -> _Polyline:
+def _dense(points: Array) -> Array:
+    """Return points of the spline through some points, so near each other that chords between them are the spline."""
     steps = np.hypot(*np.diff(points / np.ptp(points, axis=0), axis=0).T)
-    kept = np.concatenate([[True], steps > _SAME])
-    points, length = points[kept], np.concatenate([[0.0], np.cumsum(steps[kept[1:]])])
+    distinct = np.concatenate([[True], steps > _SAME])
+    points, length = points[distinct], np.concatenate([[0.0], np.cumsum(steps[distinct[1:]])])
     between = np.linspace(0.0, 1.0, _SAMPLES, endpoint=False)
     samples = (length[:-1, None] + np.diff(length)[:, None] * between).ravel()
-    return _Polyline(np.vstack([scipy.interpolate.CubicSpline(length, points)(samples), points[-1]]))
+    return np.vstack([scipy.interpolate.CubicSpline(length, points)(samples), points[-1]])
 
 
-class _Polyline:
-    """Segments between neighbouring points, with what the distance of every point from them needs."""
+def _nearest(points: Array, polyline: Array) -> tuple[Array, NDArray[np.int_]]:
+    """Distance of every point from a polyline, and the number of its nearest segment."""
+    starts, steps = polyline[:-1], np.diff(polyline, axis=0)
+    squared = np.sum(steps**2, axis=1)
+    squared[squared == 0.0] = 1.0
+    distances, segments = np.empty(len(points)), np.empty(len(points), int)
+    for i, point in enumerate(points):
+        offsets = starts - point
+        along = np.clip(-np.sum(offsets * steps, axis=1) / squared, 0.0, 1.0)
+        apart = np.hypot(*(offsets + along[:, None] * steps).T)
+        segments[i] = apart.argmin()
+        distances[i] = apart[segments[i]]
+    return distances, segments
 
-    def __init__(self, points: Array) -> None:
-        self._x, self._y = points[:-1].T
-        self._dx, self._dy = np.diff(points, axis=0).T
-        squared = self._dx**2 + self._dy**2
-        self._squared = np.where(squared > 0.0, squared, 1.0)
-        #: Length from the first point to each point.
-        self.lengths = np.concatenate([[0.0], np.cumsum(np.sqrt(squared))])
-        self._abscissas = points[:, 0]
 
-    def nearest(self, point: Array) -> tuple[float, int]:
-        """Distance of a point, and the number of the segment that is nearest."""
-        x, y = self._x - point[0], self._y - point[1]
-        along = np.clip(-(x * self._dx + y * self._dy) / self._squared, 0.0, 1.0)
-        distances = np.hypot(x + along * self._dx, y + along * self._dy)
-        place = int(distances.argmin())
-        return float(distances[place]), place
-
-    def longest_part(self, places: NDArray[np.int_], low: float, high: float) -> float:
-        """Longest part between two abscissas, as a fraction of it, without a point at one of these segments."""
-        inside = np.flatnonzero((self._abscissas >= low) & (self._abscissas <= high))
-        first, last = inside[0], inside[-1]
-        stops = np.sort(np.concatenate([[first], places, [last]]))
-        return float(np.diff(self.lengths[stops]).max() / (self.lengths[last] - self.lengths[first]))
+def _longest_part(polyline: Array, segments: NDArray[np.int_], low: float, high: float) -> float:
+    """Longest part between two abscissas, as a fraction of it, without a point at one of these segments."""
+    lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(polyline, axis=0).T))])
+    inside = np.flatnonzero((polyline[:, 0] >= low) & (polyline[:, 0] <= high))
+    stops = np.sort([inside[0], *segments, inside[-1]])
+    return float(np.diff(lengths[stops]).max() / (lengths[inside[-1]] - lengths[inside[0]]))
 
 
 def _interpolation_error(points: Array, inside: NDArray[np.bool_]) -> float:
     omitted = np.zeros(len(points), bool)
     omitted[1:-1:2] = True
-    polyline = _dense(points[~omitted])
-    return max(polyline.nearest(point)[0] for point in points[omitted & inside]) / _HALVING_GAIN
+    distances, _ = _nearest(points[omitted & inside], _dense(points[~omitted]))
+    return float(distances.max()) / _HALVING_GAIN

@@ -1,4 +1,4 @@
-"""Figures and numbers of the paper, computed again, and studies beyond it.
+"""Figures, numbers and statements of the paper, computed again.
 
 A figure has tasks, tables made of their results, and the picture of the tables.  A cache on disk keeps the results of
 finished tasks, so that figures share them and each is computed once.

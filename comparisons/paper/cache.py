@@ -53,16 +53,12 @@ class Outcome(NamedTuple):
 
     call: CachedCall
     result: Any = None
-    failure: str | None = None
-    #: The failure is a refusal (`NotApplicable`), which another attempt does not change.
-    refused: bool = False
+    failure: str = ""
 
     @property
     def failed(self) -> bool:
-        """Whether the function raised `ComputationFailed`, or returned a dictionary with the status ``"failed"``."""
-        if self.failure is not None:
-            return not self.refused
-        return isinstance(self.result, dict) and self.result.get("status") == "failed"
+        """Whether the function raised an exception, or returned a dictionary with the status ``"failed"``."""
+        return bool(self.failure) or (isinstance(self.result, dict) and self.result.get("status") == "failed")
 
     def get(self) -> Any:
         """Return the result.
@@ -72,7 +68,7 @@ class Outcome(NamedTuple):
         ComputationFailed
             If the function raised an exception; the message is its reason.
         """
-        if self.failure is not None:
+        if self.failure:
             raise ComputationFailed(f"{self.call.name}({', '.join(map(str, self.call.arguments))}): {self.failure}")
         return self.result
 
@@ -82,7 +78,7 @@ def _make(call: CachedCall) -> Outcome:
     try:
         return Outcome(call, getattr(import_module(module), name)(*call.arguments))
     except (ComputationFailed, NotApplicable) as error:
-        return Outcome(call, failure=str(error), refused=isinstance(error, NotApplicable))
+        return Outcome(call, failure=str(error))
 
 
 _FORM: Form[Outcome] = Form(

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, LINES, MODEL_LINES, MODEL_NAMES, lettered
 
-__all__ = ["LABELS", "by_model", "crosses", "legend_below", "level", "lines_by", "panels"]
+__all__ = ["LABELS", "beside_fem", "by_model", "legend_below", "level", "lines_by", "panels"]
 
 #: Labels of axes, by what is on them.
 LABELS = {
@@ -37,7 +37,7 @@ def dashed(index: int) -> dict[str, Any]:
 
 def held(**values: float) -> str:
     """Return parameters that a panel holds, or a line, e.g. ``$n$ = 2, $k$ = 0.4``."""
-    return ", ".join(f"{_SYMBOLS[name]} = {value:g}" for name, value in values.items())
+    return ", ".join(f"{symbol} = {values[name]:g}" for name, symbol in _SYMBOLS.items() if name in values)
 
 
 def label_of(name: str, value: float) -> str:
@@ -88,10 +88,13 @@ def lines_by(
         axes.plot(rows[x], scale * rows[y], **{"label": label + label_of(name, value)} | dashed(index) | style)
 
 
-def crosses(axes: Axes, x: Any, y: Any, **style: Any) -> None:
-    """Mark points of the finite elements."""
-    marked: dict[str, Any] = {"ls": "none", "marker": "x", "ms": 8, "color": "0.2"}
-    axes.plot(x, y, **marked | style)
+def beside_fem(
+    axes: Axes, table: pd.DataFrame, x: str, y: str, scale: float = 1.0, column: str = "reference", **style: Any
+) -> None:
+    """Draw a line of the FSCM, and the finite elements as crosses."""
+    exact, fem = of_model(table, "fscm", "fem", column=column)
+    axes.plot(exact[x], scale * exact[y], **style)
+    axes.plot(fem[x], scale * fem[y], ls="none", marker="x", ms=8, color="0.2")
 
 
 def level(axes: Axes, y: float = 0.0, **style: Any) -> None:

@@ -1,4 +1,4 @@
-"""Registry of the figures of the paper and of the studies beyond it: a new module in one of the folders is enough."""
+"""Registry of the figures of the paper and of the findings: a new module in one of the folders is enough."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ def make_figures(names: Iterable[str] | None, folder: Path, *, jobs: int = 1) ->
     --------
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
-    ...     finished = make_figures(["1"], Path(folder))
+    ...     finished = make_figures(["12"], Path(folder))
     ...     sorted(path.name for path in Path(folder).glob("*.json"))
     ['run.json']
     >>> [figure.failure for figure in finished]

@@ -80,8 +80,6 @@ class Store(Generic[_Item]):
         Of the items.
     code : str, optional
         Identifies the code, by default `fingerprint()`.  A store of other code is refused: its items may differ.
-    anew : bool
-        Whether the items of the form are dropped unread.
 
     Raises
     ------
@@ -102,7 +100,7 @@ class Store(Generic[_Item]):
     ([{'n': 2}], [1])
     """
 
-    def __init__(self, folder: Path, form: Form[_Item], code: str | None = None, *, anew: bool = False) -> None:
+    def __init__(self, folder: Path, form: Form[_Item], code: str | None = None) -> None:
         self.path = folder / STORE
         self._form = form
         self._code = code or fingerprint()
@@ -113,9 +111,6 @@ class Store(Generic[_Item]):
         with _explained(self.path):
             self._connection = _connected(self.path)
             try:
-                if anew:
-                    with self._connection:
-                        self._connection.execute("DELETE FROM items WHERE form = ?", [form.name])
                 self._read()
             except BaseException:
                 self._connection.close()

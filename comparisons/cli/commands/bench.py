@@ -18,21 +18,20 @@ _PARTS = "; ".join(f"{part.name}, {part.title}" for part in PARTS.values())
 
 OPTIONS = (
     several("--only", metavar="PART", help=f"only these parts (default: all): {_PARTS}"),
-    option("--full", action="store_true", help="measure the largest sizes, too (half an hour)"),
+    option("--full", action="store_true", help="measure what takes long, too"),
     file(
         "--out",
         metavar="DIR",
         default=Path("results", "runs", "bench"),
         help="folder for the files (default: %(default)s); resumed if it has some measurements",
     ),
-    option("--again", action="store_true", help="drop stored measurements and measure everything again"),
     QUIET,
 )
 
 
 def call(args: argparse.Namespace) -> int:
     """Measure what is missing, write and print; return the exit status."""
-    finished = run_bench(args.out, args.only, full=args.full, again=args.again)
+    finished = run_bench(args.out, args.only, full=args.full)
     if not args.quiet:
         print_lines(finished.summary)
     for failure in finished.failures:

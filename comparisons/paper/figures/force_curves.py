@@ -3,17 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 from itertools import product
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered
+from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES
 from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import LABELS, by_model, crosses, held, label_of, legend_below, level, of_model, panels
+from comparisons.paper.drawing import (
+    LABELS,
+    beside_fem,
+    by_model,
+    held,
+    label_of,
+    legend_below,
+    level,
+    of_model,
+    panels,
+)
 from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, together
 from comparisons.paper.statements.paths import turning_points
 from comparisons.paper.tasks import GRADIENTS, curve, named_points, quantity
@@ -22,13 +32,11 @@ __all__ = ["curves", "loop"]
 
 Range = tuple[float, float]
 
-#: Fig. 3: the case.
+#: Fig. 3: the case, and the ranges of the axes: the approach continues beyond them.
 _CASE = (2.0, 0.4, 3.0)
-#: The points, and the offsets of their names in (b), in points of the page.
-_BESIDE = {"B'": (-3, 6), "A": (4, 5), "B": (-11, -9), "A'": (7, -3), "C": (-3, -12), "D": (-12, 3)}
-#: Ranges of the axes: the approach continues to the left of (b) and to the right of (a).
-_S_RANGES = {"displacement": (-7.2, 7.6), "load": (-2.05, 0.55)}
-#: In contact the central gap hardly moves; the scale is linear in the middle of (a) and logarithmic beyond.
+_S_RANGES = {"central_gap": (-0.04, 7.0), "displacement": (-7.2, 7.6), "load": (-2.05, 0.55)}
+_S_AXES = (("central_gap", "displacement"), ("central_gap", "load"), ("displacement", "load"))
+#: In contact the central gap hardly moves; its scale is linear below and logarithmic beyond.
 _LINEAR_GAP = 0.05
 
 #: Figs. 4, 6 and 13: ranges of displacement and load of each panel, by shape index.
@@ -56,40 +64,24 @@ _FOLDS = {(2.0, 0.4, 3.0): (-3.36, -3.22), (2.0, 0.6, 3.0): (-3.36, -3.32)}
 def _s_curve(figure: Figure, curves: pd.DataFrame, points: pd.DataFrame, hysteresis: pd.DataFrame) -> None:
     points = points.set_index("name")
     path, jkr = of_model(curves, "fscm", "jkr")
-    grid = figure.add_gridspec(2, 2, width_ratios=(1.0, 1.35))
-    above = figure.add_subplot(grid[0, 0])
-    below = figure.add_subplot(grid[1, 0], sharex=above)
-    lettered(above, "a")
-    above.tick_params(labelbottom=False)
-    for axes, name in ((above, "displacement"), (below, "load")):
-        _marked(axes, path, points, "central_gap", name)
-        axes.set_xscale("symlog", linthresh=_LINEAR_GAP)
-        axes.set(xlim=(-0.04, 7.0), ylabel=LABELS[name])
-    below.set_xlabel(LABELS["central_gap"])
-    below.set_xticks([0.0, 0.1, 1.0, 5.0], ["0", "0.1", "1", "5"])
-    right = figure.add_subplot(grid[:, 1])
-    lettered(right, "b", held(n=_CASE[0], k=_CASE[1], mu=_CASE[2]))
-    right.fill(*loop(path, points), color=COLOURS[6], alpha=0.35, lw=0)
-    _marked(right, path, points, "displacement", "load")
-    right.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label=MODEL_NAMES["jkr"])
-    for start, end in (("A", "A'"), ("B", "B'")):
-        head, tail = (points.loc[name, ["displacement", "load"]] for name in (end, start))
-        right.annotate("", head, tail, arrowprops={"arrowstyle": "-|>", "color": COLOURS[1], "lw": 1.2, "ls": ":"})
+    lattice = panels(figure, 1, 3, ("", "", held(**dict(zip(("n", "k", "mu"), _CASE, strict=True)))))
+    lattice[2].fill(*loop(path, points), color=COLOURS[6], alpha=0.35, lw=0)
+    for axes, (x, y) in zip(lattice, _S_AXES, strict=True):
+        level(axes)
+        axes.plot(path[x], path[y], color=COLOURS[0], label=MODEL_NAMES["fscm"])
+        axes.plot(points[x], points[y], ls="none", marker="o", ms=4, color=COLOURS[2])
+        for name, point in points.iterrows():
+            axes.annotate(str(name), (point[x], point[y]), (3, 4), textcoords="offset points", fontsize=8)
+        if x == "central_gap":
+            axes.set_xscale("symlog", linthresh=_LINEAR_GAP)
+        axes.set(xlabel=LABELS[x], ylabel=LABELS[y], xlim=_S_RANGES[x], ylim=_S_RANGES[y])
+    forces = lattice[2]
+    forces.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label=MODEL_NAMES["jkr"])
+    for name in ("A", "B"):
+        forces.plot(*points.loc[[name, f"{name}'"], ["displacement", "load"]].to_numpy().T, color=COLOURS[1], ls=":")
     energy = hysteresis["value"].item()
-    right.annotate(f"hysteresis loss\n$\\oint\\,\\bar P\\,d\\delta/z_0$ = {energy:.4f}", (-1.9, -0.62))
-    right.set(xlim=_S_RANGES["displacement"], xlabel=LABELS["displacement"], ylabel=LABELS["load"])
-    right.legend(loc="lower right")
-
-
-def _marked(axes: Axes, path: pd.DataFrame, points: pd.DataFrame, x: str, y: str) -> None:
-    """Draw the path and its named points."""
-    level(axes)
-    axes.plot(path[x], path[y], color=COLOURS[0], label=MODEL_NAMES["fscm"])
-    axes.plot(points[x], points[y], ls="none", marker="o", ms=4, color=COLOURS[2])
-    for name, point in points.iterrows():
-        offset = _BESIDE[str(name)] if x == "displacement" else (5, 3) if y == "displacement" else (6, -5)
-        axes.annotate(str(name), (point[x], point[y]), offset, textcoords="offset points", fontsize=8)
-    axes.set_ylim(_S_RANGES[y])
+    forces.plot([], [], " ", label=f"loss $\\oint\\,\\bar P\\,d\\delta/z_0$ = {energy:.4f}")
+    figure.legend(*forces.get_legend_handles_labels(), loc="outside lower center", ncols=3)
 
 
 def loop(path: pd.DataFrame, points: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
@@ -107,7 +99,7 @@ def _points() -> Plan[pd.DataFrame]:
     return pd.DataFrame([{"name": name} | point for name, point in points.items()])
 
 
-@paper_figure(_s_curve, size=(7.2, 4.8), follows_path=True)
+@paper_figure(_s_curve, size=(9.6, 3.8), follows_path=True)
 def fig03_s_curve() -> Plan[Tables]:
     """The S-shaped curve at n = 2, k = 0.4, mu = 3."""
     paths = [({"model": model}, CachedCall.of(curve, model, *_CASE)) for model in ("fscm", "jkr")]
@@ -123,39 +115,37 @@ def curves(cases: Iterable[tuple[float, float, float]]) -> Plan[pd.DataFrame]:
     return rows_of(calls, "status", *_COLUMNS)
 
 
-def _family(axes: Axes, table: pd.DataFrame, name: str, ranges: tuple[Range, Range]) -> None:
-    for index, (value, path) in enumerate(table.groupby(name)):
-        # Dashes would hide folds; markers at equal distances tell the curves apart in grey.
-        marked: Any = {"color": COLOURS[index], "marker": MARKERS[index], "markevery": (0.03 * (1 + index), 0.24)}
-        marked |= {"ms": 3.0, "mfc": "white", "lw": 1.0, "label": label_of(name, value)}
-        axes.plot(path["displacement"], path["load"], **marked)
-    level(axes)
-    axes.set(xlim=ranges[0], ylim=ranges[1])
-
-
-def _over_tabor_numbers(figure: Figure, table: pd.DataFrame) -> None:
-    words = [held(n=n, k=_K) for n in _SHAPES]
-    lattice = panels(figure, 2, 2, words, LABELS["displacement"], LABELS["load"])
-    for axes, (n, ranges) in zip(lattice, _SHAPES.items(), strict=True):
-        _family(axes, table[table["n"] == n], "mu", ranges)
+def _families(
+    figure: Figure,
+    table: pd.DataFrame,
+    ranges: dict[float, tuple[Range, Range]],
+    across: str,
+    along: str,
+    **fixed: float,
+) -> None:
+    """Draw a panel for each value of one parameter, with a curve for each of another."""
+    words = [held(**{across: value}, **fixed) for value in ranges]
+    lattice = panels(figure, len(ranges) // 2, 2, words, LABELS["displacement"], LABELS["load"])
+    for axes, (of_panel, limits) in zip(lattice, ranges.items(), strict=True):
+        for index, (value, path) in enumerate(table[table[across] == of_panel].groupby(along)):
+            # Dashes would hide folds; markers at equal distances tell the curves apart in grey.
+            marked: Any = {"color": COLOURS[index], "marker": MARKERS[index], "markevery": (0.03 * (1 + index), 0.24)}
+            marked |= {"ms": 3.0, "mfc": "white", "lw": 1.0, "label": label_of(along, value)}
+            axes.plot(path["displacement"], path["load"], **marked)
+        level(axes)
+        axes.set(xlim=limits[0], ylim=limits[1])
     legend_below(figure, len(_TABOR_NUMBERS))
 
 
-@paper_figure(_over_tabor_numbers, size=(7.2, 6.0), follows_path=True)
+@paper_figure(partial(_families, ranges=_SHAPES, across="n", along="mu", k=_K), size=(7.2, 6.0), follows_path=True)
 def fig04_force_curves_over_tabor_numbers() -> Plan[Tables]:
     """Force-displacement curves for k = 0.4 and four shapes, over the Tabor number."""
     return together({"": curves((n, _K, mu) for n in _SHAPES for mu in _TABOR_NUMBERS)})
 
 
-def _over_gradients(figure: Figure, table: pd.DataFrame) -> None:
-    words = [held(n=2, mu=mu) for mu in _TABOR_PANELS]
-    lattice = panels(figure, 1, 2, words, LABELS["displacement"], LABELS["load"])
-    for axes, (mu, ranges) in zip(lattice, _TABOR_PANELS.items(), strict=True):
-        _family(axes, table[table["mu"] == mu], "k", ranges)
-    legend_below(figure, 5)
-
-
-@paper_figure(_over_gradients, size=(7.2, 3.6), follows_path=True)
+@paper_figure(
+    partial(_families, ranges=_TABOR_PANELS, across="mu", along="k", n=2.0), size=(7.2, 3.6), follows_path=True
+)
 def fig06_force_curves_over_gradients() -> Plan[Tables]:
     """Force-displacement curves for n = 2, mu = 0.5 and 1, over the gradient exponent."""
     return together({"": curves((2.0, k, mu) for mu in _TABOR_PANELS for k in (*GRADIENTS, 1.0))})
@@ -191,12 +181,12 @@ def _draw_fold_pairs(figure: Figure, table: pd.DataFrame) -> None:
     words = [held(n=n, k=k, mu=mu) for n, k, mu in _FOLDS]
     lattice = panels(figure, 1, 2, words, LABELS["central_gap"], LABELS["displacement"])
     for axes, ((_, k, _), limits) in zip(lattice, _FOLDS.items(), strict=True):
-        exact, fem = of_model(table[table["k"] == k], "fscm", "fem")
-        turns = exact[exact["turning_point"]]
-        axes.plot(exact["central_gap"], exact["displacement"], color=COLOURS[0], label="fscm")
-        crosses(axes, fem["central_gap"], fem["displacement"], ms=4, color=COLOURS[1], label="fem")
-        open_circle = {"marker": "o", "mfc": "white", "color": COLOURS[2]}
-        crosses(axes, turns["central_gap"], turns["displacement"], ms=6, label="turning points", **open_circle)
+        rows = table[table["k"] == k]
+        style: Any = {"color": COLOURS[0], "label": "fscm, crosses: fem"}
+        beside_fem(axes, rows, "central_gap", "displacement", column="model", **style)
+        turns = rows[rows["turning_point"] & (rows["model"] == "fscm")]
+        open_circle: Any = {"ls": "none", "marker": "o", "ms": 6, "mfc": "white", "color": COLOURS[2]}
+        axes.plot(turns["central_gap"], turns["displacement"], label="turning points", **open_circle)
         axes.set(xlim=(0.0, 2.6), ylim=limits)
     legend_below(figure, 3)
 

@@ -6,14 +6,13 @@ import math
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import fscm
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
-from comparisons.output.style import COLOURS, MODEL_LINES
-from comparisons.paper.drawing import LABELS, legend_below, level, lines_by, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, together
+from comparisons.output.style import COLOURS
+from comparisons.paper.drawing import LABELS, by_model, held, legend_below, level, lines_by, panels
+from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, rows_of, together
 from comparisons.paper.tasks import SHAPES, TRACTION
 
 __all__ = ["RATIOS", "dugdale", "kernel_functions"]
@@ -73,12 +72,6 @@ def fig02_kernel_functions() -> Plan[Tables]:
     return together({"": rows_of(keyed(kernel_functions, k=k) for k in _GRADIENTS)})
 
 
-def stresses() -> dict[str, list[float]]:
-    """Return eta (Eq. 77) over n."""
-    shapes = np.unique(np.concatenate([np.geomspace(0.7, 100.0, 200), SHAPES])).tolist()
-    return {"n": shapes, "eta": [eta(n) for n in shapes]}
-
-
 def dugdale(stress: float) -> pd.DataFrame:
     """Return the corners of Dugdale's law: -stress up to the gap 1 / stress, so that its area is dgamma.
 
@@ -92,46 +85,30 @@ def dugdale(stress: float) -> pd.DataFrame:
 
 
 def _laws(figure: Figure, table: pd.DataFrame, laws: pd.DataFrame) -> None:
-    left, right = panels(figure, 1, 2, ("", ""))
-    _stresses(left, table[np.isfinite(table["n"])])
-    names = {
-        "fscm": "FSCM (9-3 law)",
-        "md-original": rf"original M-D: $\sigma_0$ = {THEORETICAL_STRENGTH:.3f}",
-        "md-improved": rf"improved M-D, $n$ = {_DRAWN:g}: $\sigma_0$ = {eta(_DRAWN):.3f}",
-    }
-    for model, law in zip(names, of_model(laws, *names), strict=True):
-        right.plot(law["gap"], law["pressure"], label=names[model], **MODEL_LINES[model])
+    left, right = panels(figure, 1, 2, ("", f"{held(n=_DRAWN)} (improved M-D)"))
+    left.plot("n", "eta", data=table[np.isfinite(table["n"])], color=COLOURS[0], label=r"$\eta(n)$")
+    strength = rf"theoretical strength $\sigma_{{\mathrm{{th}}}}$ = {THEORETICAL_STRENGTH:.3f}"
+    left.axhline(THEORETICAL_STRENGTH, color=COLOURS[2], ls=":", label=strength)
+    left.set(xscale="log", xlim=(0.7, 100), ylim=(0, 1.15))
+    left.set(xlabel=LABELS["n"], ylabel=r"cohesive stress $\sigma_0 z_0/\Delta\gamma$")
+    left.xaxis.set_major_formatter("{x:g}")
+    left.legend(loc="lower right")
+    by_model(right, laws, "gap", "pressure")
     level(right)
     right.set(xlabel=r"gap $H/z_0$", ylabel=r"pressure $p_s z_0/\Delta\gamma$", xlim=(-0.1, 4), ylim=(-1.15, 0.9))
     right.legend(loc="upper right")
 
 
-def _stresses(axes: Axes, table: pd.DataFrame) -> None:
-    axes.plot(table["n"], table["eta"], color=COLOURS[0], label=r"$\eta(n)$")
-    axes.axhline(THEORETICAL_STRENGTH, color=COLOURS[2], ls=":", label=r"theoretical strength $\sigma_{\mathrm{th}}$")
-    for n in SHAPES:
-        axes.plot(n, eta(n), "o", color=COLOURS[0], ms=4)
-        axes.annotate(f"({n:g}, {eta(n):.3f})", (n, eta(n)), (6, -9), textcoords="offset points", fontsize=8)
-    axes.annotate(f"{THEORETICAL_STRENGTH:.3f}", (1.0, THEORETICAL_STRENGTH), (0, 3), textcoords="offset points")
-    ticks = (1, 2, 5, 10, 20, 50, 100)
-    axes.set(xscale="log", xlim=(0.7, 100), ylim=(0, 1.15))
-    axes.set(xlabel=LABELS["n"], ylabel=r"cohesive stress $\sigma_0 z_0/\Delta\gamma$")
-    axes.set_xticks(ticks, [str(tick) for tick in ticks])
-    axes.minorticks_off()
-    axes.legend(loc="lower right")
-
-
 @paper_figure(_laws)
 def fig12_surface_laws() -> Plan[Tables]:
     """The cohesive stress eta(n), and the surface laws of the FSCM and both Maugis-Dugdale models."""
-    of_shape = yield from result_of(stresses)
+    yield {}
+    shapes = [*np.unique(np.concatenate([np.geomspace(0.7, 100.0, 200), SHAPES])).tolist(), math.inf]
     laws = {
         "fscm": pd.DataFrame({"gap": _GAPS, "pressure": TRACTION(_GAPS)}),
         "md-original": dugdale(THEORETICAL_STRENGTH),
         "md-improved": dugdale(eta(_DRAWN)),
     }
     parts = [law.assign(model=model)[["model", "gap", "pressure"]] for model, law in laws.items()]
-    return {
-        "": pd.DataFrame({"n": [*of_shape["n"], math.inf], "eta": [*of_shape["eta"], eta(math.inf)]}),
-        "laws": pd.concat(parts, ignore_index=True),
-    }
+    stresses = pd.DataFrame({"n": shapes, "eta": [eta(n) for n in shapes]})
+    return {"": stresses, "laws": pd.concat(parts, ignore_index=True)}

@@ -116,10 +116,10 @@ def _picture(figure: Figure, table: pd.DataFrame, largest: pd.DataFrame, regions
     left.legend()
     right.plot(largest["n"], 100 * largest["chi_max"], color=COLOURS[0])
     level(right, 100 * _LIMIT, ls="--")
-    for row, position in zip(regions.itertuples(), ((1.3, 2.0), (3.5, 17.0)), strict=True):
-        right.axvspan(row.n_from, row.n_to, color=COLOURS[1], alpha=0.2, lw=0)
-        ends, arrow = f"{row.n_from:.3f} ≤ $n$ ≤ {row.n_to:.3f}", {"arrowstyle": "-", "lw": 0.6, "color": "0.3"}
-        right.annotate(ends, (0.5 * (row.n_from + row.n_to), 100 * _LIMIT), position, fontsize=8, arrowprops=arrow)
+    for index, row in enumerate(regions.itertuples()):
+        words = f"{row.n_from:.3f} ≤ $n$ ≤ {row.n_to:.3f}"
+        right.axvspan(row.n_from, row.n_to, color=COLOURS[1 + index], alpha=0.2, lw=0, label=words)
+    right.legend()
     right.set(xlabel=LABELS["n"], ylabel=_CHI_MAX, ylim=(0, 50), xlim=(0.9, 8))
 
 

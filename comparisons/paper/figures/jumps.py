@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from comparisons.models.semi_rigid import jump_in_coefficient
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
-from comparisons.paper.drawing import LABELS, crosses, dashed, held, legend_below, level, lines_by, of_model, panels
+from comparisons.paper.drawing import LABELS, beside_fem, dashed, held, legend_below, level, lines_by, of_model, panels
 from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, table_of, together
 from comparisons.paper.statements.measures import named, table_of_terms
 from comparisons.paper.tasks import GRADIENTS, SHAPES, jumps, near_critical, quantity, values_of
@@ -22,11 +22,6 @@ _N, _K = 2.0, 0.4
 TABOR_NUMBERS = (0.85, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0)
 #: Quantity -> the model whose asymptote it has: Eqs. 47 and 54.
 _ASYMPTOTES = {"jump_in_displacement": "semi-rigid", "jump_out_displacement": "jkr"}
-#: Places of the insets and what they show; where the branches are named at `_NAMED_AT`, in points of the page.
-_INSETS = {"displacement": (0.13, 0.08, 0.38, 0.4), "gap": (0.52, 0.16, 0.45, 0.33)}
-_INSET_RANGES = {"displacement": (-1.7, -1.1), "gap": (0.0, 0.6)}
-_NAMED_AT = 3.5
-_OFFSETS = {"displacement": ((12, 10), (32, 2)), "gap": ((-28, 10), (-75, 6))}
 #: A Tabor number at which the gradient exponent decides whether there are jumps, and the cases shown.
 _ONSET = [(model, _N, k, 0.74) for model in ("fscm", "fem") for k in (0.0, 0.4)]
 #: Reference, n and mu at which the deformation is shown.
@@ -38,26 +33,20 @@ _DEFORMED = [
 
 def _branches(figure: Figure, table: pd.DataFrame, critical: pd.DataFrame) -> None:
     lattice = panels(figure, 1, 2, (held(n=_N),) * 2, LABELS["mu"])
-    for axes, (kind, position) in zip(lattice, _INSETS.items(), strict=True):
-        # Where the branches begin, enlarged.
-        inset = axes.inset_axes(position)
+    for axes, kind in zip(lattice, ("displacement", "gap"), strict=True):
         names = [f"jump_{name}_{kind}" for name in ("in", "out")]
-        for index, (k, mu) in enumerate(zip(GRADIENTS, critical["mu"], strict=True)):
+        for index, (onset, (k, branches)) in enumerate(zip(critical["mu"], table.groupby("k"), strict=True)):
             # Both branches begin in one point, at the critical Tabor number, between their first points.
-            rows_of_k = table[table["k"] == k]
-            meeting = rows_of_k[names].iloc[0].mean()
-            for panel in (axes, inset):
-                for name, label in zip(names, (rf"{held(k=k)}, $\mu_c$ = {mu:.5f}", "_"), strict=True):
-                    panel.plot([mu, *rows_of_k["mu"]], [meeting, *rows_of_k[name]], label=label, **dashed(index))
-                panel.plot(mu, meeting, marker="o", ms=4, color=COLOURS[index], mfc="white")
-        inset.set(xlim=(0.65, 0.95), ylim=_INSET_RANGES[kind])
-        inset.tick_params(labelsize=7, pad=2)
-        for name, text, offset in zip(names, ("jump in", "jump out"), _OFFSETS[kind], strict=True):
-            at = (_NAMED_AT, float(table.loc[table["mu"] == _NAMED_AT, name].mean()))
-            axes.annotate(text, at, offset, textcoords="offset points", ha="center")
-        axes.set_xlim(0.5, 5.0)
-    lattice[0].set_ylabel(r"displacement at the jumps $\delta/z_0$")
-    lattice[1].set_ylabel(r"central gap at the jumps $H_0/z_0$")
+            meeting = branches[names].iloc[0].mean()
+            label = rf"{held(k=k)}, $\mu_c$ = {onset:.5f}"
+            for name in names:
+                axes.plot([onset, *branches["mu"]], [meeting, *branches[name]], label=label, **dashed(index))
+                label = "_"
+        axes.set(xscale="log", xlim=(0.6, 5.0))
+        axes.set_xticks([0.7, 1, 2, 3, 5], ["0.7", "1", "2", "3", "5"])
+        axes.minorticks_off()
+    lattice[0].set_ylabel(r"displacement at the jumps $\delta/z_0$ (out: lower)")
+    lattice[1].set_ylabel(r"central gap at the jumps $H_0/z_0$ (out: lower)")
     legend_below(figure, 4)
 
 
@@ -117,19 +106,11 @@ def _beside_asymptotes(figure: Figure, displacements: pd.DataFrame, coefficients
         left.plot(closed["mu"], closed[column], label=words, color=COLOURS[index], ls=("-", "--")[index])
         broad = MODEL_LINES["fscm"] | {"color": COLOURS[index]}
         left.plot(fscm["mu"], fscm[column], label=words.partition(",")[0] + ", FSCM", **broad)
-    excess = closed["jump_in_displacement"].iloc[-1] / fscm["jump_in_displacement"].iloc[-1] - 1.0
-    words = f"Eq. 47 is {100.0 * excess:.0f} % farther\nthan the FSCM at $\\mu$ = {fscm['mu'].iloc[-1]:g}"
-    # Below both curves, where no line runs.
-    left.text(0.03, 0.03, words, transform=left.transAxes, fontsize=8)
     left.set(xlim=(0.0, 5.1), xlabel=LABELS["mu"], ylabel=r"displacement at the jumps $\delta/z_0$")
     left.legend()
     lines_by(right, coefficients, "n", "k", "C_in")
     lines_by(right, coefficients, "n", "k", "C_out", lw=0.8, label="_")
-    for limit, text in ((8.0 / 3.0, "8/3"), (2.0, "2")):
-        right.plot(1.0, limit, ls="none", marker="o", ms=4, color="0.2", clip_on=False)
-        right.annotate(text, (1.0, limit), (6, -3), textcoords="offset points", annotation_clip=False)
     right.set(xlim=(0.0, 1.0), xlabel=LABELS["k"], ylabel=r"$C^{\mathrm{in}}$ (thick), $C^{\mathrm{out}}$ (thin)")
-    # Between the two bundles of curves.
     right.legend(loc="center", bbox_to_anchor=(0.45, 0.7), ncols=2)
 
 
@@ -162,8 +143,8 @@ def _draw_onset(figure: Figure, table: pd.DataFrame, energies: pd.DataFrame) -> 
     (fem,) = of_model(energies, "fem")
     for status, face, label in (("ok", COLOURS[2], "jumps"), ("not-applicable", "white", "no jump")):
         squares = fem[fem["status"] == status]
-        square = {"marker": "s", "ms": 7, "color": COLOURS[2], "mfc": face}
-        crosses(axes, squares["k"], squares["mu"], label=f"{label} (both references)", **square)
+        square: Any = {"ls": "none", "marker": "s", "ms": 7, "color": COLOURS[2], "mfc": face}
+        axes.plot(squares["k"], squares["mu"], label=f"{label} (both references)", **square)
     axes.set(xlabel=LABELS["k"], ylabel=LABELS["mu"], ylim=(0.2, 1.1), xlim=(-0.03, 0.63))
     axes.legend(loc="lower left", fontsize=8)
 
@@ -182,12 +163,9 @@ def _draw_semi_rigid(figure: Figure, table: pd.DataFrame) -> None:
     lattice = panels(figure, 1, 2, (held(k=_K),) * 2, LABELS["mu"])
     for axes, column, scale in zip(lattice, ("deformation", "error"), (1.0, 100.0), strict=True):
         for index, (n, line) in enumerate(table.groupby("n")):
-            exact, fem = of_model(line, "fscm", "fem", column="reference")
-            style: Any = {"marker": MARKERS[index], "ms": 3.5, "label": f"fscm, {held(n=n)}"}
-            axes.plot(exact["mu"], scale * exact[column], **dashed(index), **style)
-            crosses(axes, fem["mu"], scale * fem[column])
+            style: Any = {"marker": MARKERS[index], "ms": 3.5, "label": f"{held(n=n)}, crosses: fem", **dashed(index)}
+            beside_fem(axes, line, "mu", column, scale, **style)
         axes.set(ylim=(0.0, None))
-    crosses(lattice[0], [], [], label="fem")
     lattice[0].set_ylabel(r"deformation over gap at jump-in, $|w(0)|/H_0$")
     lattice[1].set_ylabel("error of the asymptote of jump-in (%)")
     legend_below(figure, 5)

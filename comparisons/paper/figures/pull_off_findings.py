@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pandas as pd
 from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
-from comparisons.paper.drawing import LABELS, crosses, dashed, held, legend_below, level, lines_by, of_model, panels
+from comparisons.paper.drawing import LABELS, beside_fem, dashed, held, legend_below, level, panels
 from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, rows_of, together
 from comparisons.paper.statements.measures import named, table_of_terms
 from comparisons.paper.tasks import COHESIVE, GRADIENTS, SHAPES, quantity
@@ -35,12 +37,9 @@ def _draw_cohesive_errors(figure: Figure, table: pd.DataFrame) -> None:
     for axes, shapes in ((left, SHAPES), (right, (5.0,))):
         for (model, n), line in table.groupby(["model", "n"]):
             if n in shapes:
-                exact, fem = of_model(line, "fscm", "fem", column="reference")
                 index, label = SHAPES.index(n), f"{model.removeprefix('md-')}, {held(n=n)}"
-                style = {"color": COLOURS[index], "marker": MARKERS[index], "ls": MODEL_LINES[model]["ls"]}
-                axes.plot(exact["mu"], 100.0 * exact["error"], label=label, ms=3, **style)
-                crosses(axes, fem["mu"], 100.0 * fem["error"])
-    crosses(left, [], [], label="against fem")
+                style = {"color": COLOURS[index], "marker": MARKERS[index], "ls": MODEL_LINES[model]["ls"], "ms": 3}
+                beside_fem(axes, line, "mu", "error", 100.0, label=label, **style)
     level(left, 2.0, ls=":")
     left.set(xscale="log", yscale="log", ylabel="relative error of the pull-off force (%)", ylim=(0.05, 30.0))
     right.set(xlim=(1.4, 4.0), ylim=(0.0, 4.5))
@@ -57,10 +56,9 @@ def finding_cohesive_errors() -> Plan[Tables]:
 def _draw_falls_first(figure: Figure, table: pd.DataFrame) -> None:
     left, right = panels(figure, 1, 2, (held(n=_FALLING_N), held(n=_FALLING_N, k=0.4)), LABELS["mu"])
     for axes, name in ((left, _FORCE), (right, _PLACE)):
-        exact, fem = of_model(table[table["quantity"] == name], "fscm", "fem")
-        style = dashed(GRADIENTS.index(0.4)) if name == _PLACE else {}
-        lines_by(axes, exact, "k", "mu", "value", label="fscm, ", **style)
-        crosses(axes, fem["mu"], fem["value"], ms=6, zorder=3, label="fem")
+        for k, line in table[table["quantity"] == name].groupby("k"):
+            style: Any = {"label": f"{held(k=k)}, crosses: fem", **dashed(GRADIENTS.index(k))}
+            beside_fem(axes, line, "mu", "value", column="model", **style)
         axes.set(xscale="log")
     left.set(ylabel=LABELS["force"], ylim=(2.1, 2.3))
     right.set(ylabel=r"displacement at pull-off $\delta_c/z_0$")
@@ -76,13 +74,11 @@ def finding_falls_first() -> Plan[Tables]:
 
 def _draw_domain(figure: Figure, table: pd.DataFrame) -> None:
     axes = figure.subplots()
-    exact, fem = of_model(table, "fscm", "fem", column="reference")
-    at = range(len(exact))
-    axes.bar(at, 100.0 * exact["lacking"], 0.5, color=COLOURS[0], alpha=0.6, label="against fscm")
-    crosses(axes, range(len(fem)), 100.0 * fem["lacking"], label="against fem")
+    cases = [f"{held(n=n)}\n{held(mu=mu)}" for n, mu in table[["n", "mu"]].to_numpy()]
+    style: Any = {"ls": "none", "marker": "o", "mfc": "none", "label": "against fscm, crosses: fem"}
+    beside_fem(axes, table.assign(case=cases), "case", "lacking", 100.0, **style)
     axes.axhline(0.1, color=COLOURS[1], lw=1.0, ls="--", label="0.1 %")
     axes.set(yscale="log", ylim=(1e-3, 10.0), ylabel="pull-off force that the scheme lacks (%)")
-    axes.set_xticks(at, [f"{held(n=n)}\n{held(mu=mu)}" for n, mu in exact[["n", "mu"]].to_numpy()])
     axes.legend()
 
 

@@ -12,10 +12,10 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from scipy.interpolate import CubicSpline
+from matplotlib.ticker import LogLocator, MaxNLocator
 
 from comparisons.output.errors import relative_error
-from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered, model_styles
+from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, model_styles
 from comparisons.paper.drawing import LABELS, by_model, dashed, held, label_of, legend_below, level, of_model, panels
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure, together
 from comparisons.paper.tasks import GRADIENTS, values_of
@@ -27,30 +27,19 @@ _SHAPES = {1.0: (2.0, 80.0), 1.5: (1.5, 7.0), 2.0: (1.45, 2.05), 5.0: (0.25, 2.2
 _TRANSITION = (0.01, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)
 #: The closed forms are power laws of mu: two points are the line.  JKR is drawn where it is near the curves.
 _ENDS, _JKR_FROM = (_TRANSITION[0], _TRANSITION[-1]), 0.3
-#: A line of the FSCM is drawn through this many points of a spline: chords between the computed ones would show
-#: corners.  At k = 0.4 it passes the denser values of Fig. 14 within 6e-4 for every n, less than its own width.
-_SMOOTH = 121
 _K = 0.4
 #: Face of the markers of a model (None: the colour of its line), and the colour of what is common to every n.
 _FACES, _OF_ALL = {"md-original": "white", "md-improved": None}, "0.45"
 #: Ten a decade, the preferred numbers of the series R10 but for rounding.
 TABOR_NUMBERS = tuple(float(f"{mu:.3g}") for mu in np.geomspace(0.01, 10.0, 31))
-#: Ticks of a logarithmic axis of forces, by the greatest ratio of its ends.
-_TICKS = {
-    1.3: np.arange(0.0, 3.0, 0.05),
-    1.8: np.arange(0.0, 3.0, 0.1),
-    12.0: np.outer([0.1, 1.0, 10.0], [1, 1.5, 2, 3, 5, 7]).ravel(),
-    np.inf: np.outer([0.01, 0.1, 1.0, 10.0], [1, 2, 5]).ravel(),
-}
 
 
 def _log_forces(axes: Axes, low: float, high: float) -> None:
     """A logarithmic axis with plain numbers: 2, not 2 x 10^0."""
     axes.set(yscale="log", ylim=(low, high))
-    steps = next(ticks for ratio, ticks in _TICKS.items() if high / low < ratio)
-    ticks = [tick for tick in steps if low <= tick <= high]
-    axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
-    axes.set_yticks([], minor=True)
+    axes.yaxis.set_major_locator(LogLocator(subs=(1, 1.5, 2, 3, 5, 7)) if high > 3 * low else MaxNLocator(5))
+    axes.yaxis.set_major_formatter("{x:g}")
+    axes.yaxis.set_minor_formatter("")
 
 
 def _transition(figure: Figure, table: pd.DataFrame) -> None:
@@ -60,20 +49,13 @@ def _transition(figure: Figure, table: pd.DataFrame) -> None:
     for axes, (n, limits) in zip(lattice, _SHAPES.items(), strict=True):
         fscm, jkr, bradley = of_model(forces[forces["n"] == n], "fscm", "jkr", "bradley")
         for index, (k, line) in enumerate(fscm.groupby("k")):
-            axes.plot(*_smooth(line), label=f"FSCM, {label_of('k', k)}", **dashed(index))
+            axes.plot(line["mu"], line["value"], label=f"FSCM, {label_of('k', k)}", **dashed(index))
             axes.plot("mu", "value", data=jkr[jkr["k"] == k], color=COLOURS[index], label="_", **thin)
         axes.plot(bradley["mu"], bradley["value"], color="0.5", ls="--", lw=0.9, label=MODEL_NAMES["bradley"])
         axes.plot([], [], color=COLOURS[0], **thin, label=f"{MODEL_NAMES['jkr']}, colours as FSCM")
         axes.set(xscale="log", xlim=_ENDS)
         _log_forces(axes, *limits)
     legend_below(figure, 4)
-
-
-def _smooth(forces: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
-    """Tabor numbers and forces on the spline of log force over log mu."""
-    log_mu, log_force = np.log(forces[["mu", "value"]].to_numpy(float)).T
-    at = np.linspace(log_mu[0], log_mu[-1], _SMOOTH)
-    return np.exp(at), np.exp(CubicSpline(log_mu, log_force)(at))
 
 
 @paper_figure(_transition, size=(7.2, 6.0))
@@ -183,31 +165,20 @@ def _kappa_panels(complete: Axes, enlarged: Axes, kappa: pd.DataFrame) -> None:
 
 
 def _by_soft(figure: Figure, table: pd.DataFrame, kappa: pd.DataFrame) -> None:
-    above, below = np.ravel(figure.subfigures(2, 1, height_ratios=[1.0, 1.15], squeeze=False))
-    axes = above.subplots()
-    handles = [Line2D([], [], label=MODEL_NAMES[name], **MODEL_LINES[name] | {"color": "0.45"}) for name in MODEL_LINES]
-    for index, (n, of_shape) in enumerate(table.groupby("n")):
-        marked: Any = {"color": COLOURS[index], "marker": MARKERS[index], "ms": 3.5, "mfc": "white"}
-        handles.append(Line2D([], [], label=held(n=n), **marked))
+    words = (f"scaled by the soft limit, {held(k=_K)}", "relative error", "enlarged")
+    scaled, complete, enlarged = panels(figure, 1, 3, words, LABELS["mu"], r"$P_c/P_c^{\mathrm{JKR}}$")
+    for index, (_, of_shape) in enumerate(table.groupby("n")):
         for model, line in zip(MODEL_LINES, of_model(of_shape, *MODEL_LINES), strict=True):
-            places = {"markevery": (2 * index, 8)} if model == "md-improved" else {"marker": ""}
-            axes.plot(line["mu"], line["ratio"], **MODEL_LINES[model] | marked | places)
-    axes.axhline(1.0, color="0.55", lw=0.9, ls=":")
-    axes.set(xscale="log", xlim=(0.008, 12.0), xlabel=LABELS["mu"], ylabel=r"$P_c/P_c^{\mathrm{JKR}}$")
-    _log_forces(axes, table["ratio"].min() / 1.2, table["ratio"].max() * 1.2)
-    above.legend(handles=handles, loc="outside right center")
-    complete, enlarged = below.subplots(1, 2)
+            scaled.plot(line["mu"], line["ratio"], **MODEL_LINES[model] | {"color": COLOURS[index]})
+    level(scaled, 1.0, ls=":")
+    scaled.set(xscale="log")
+    _log_forces(scaled, table["ratio"].min() / 1.2, table["ratio"].max() * 1.2)
     _kappa_panels(complete, enlarged, kappa)
-    for panel, letter, words in (
-        (axes, "a", f"scaled by the soft limit, {held(k=_K)}"),
-        (complete, "b", f"relative error, {held(k=_K)}"),
-        (enlarged, "c", "enlarged"),
-    ):
-        lettered(panel, letter, words)
-    below.legend(handles=_kappa_handles(_SHAPES), loc="outside lower center", ncols=6, columnspacing=1.2)
+    fscm = Line2D([], [], label=f"{MODEL_NAMES['fscm']}, colours as $n$", **MODEL_LINES["fscm"])
+    figure.legend(handles=[fscm, *_kappa_handles(_SHAPES)], loc="outside lower center", ncols=7, columnspacing=1.2)
 
 
-@paper_figure(_by_soft, size=(7.2, 6.6))
+@paper_figure(_by_soft, size=(9.6, 3.8))
 def fig16_pull_off_by_soft_limit() -> Plan[Tables]:
     """Pull-off force scaled by the soft (JKR) limit, and the relative error kappa of both models, k = 0.4."""
     return by_limit("jkr")

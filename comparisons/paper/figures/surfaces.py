@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -21,13 +22,6 @@ _N, _K, _MU = 2.0, 0.4, 1.0
 #: Radii at which surfaces are subtracted.
 _RADII = np.linspace(0.02, 3.0, 150)
 _PUNCH: Any = {"lw": 0.6, "ls": (0, (6, 3)), "label": "_"}
-#: How a and c of each model are written: the side of the text that is at the line, and a height without other texts.
-_MARKS = {
-    ("md-original", "contact_radius"): (r"$a_\mathrm{orig}$", "left", 0.09),
-    ("md-original", "cohesive_radius"): (r"$c_\mathrm{orig}$", "right", 0.02),
-    ("md-improved", "contact_radius"): (r"$a_\mathrm{impr}$", "right", 0.02),
-    ("md-improved", "cohesive_radius"): (r"$c_\mathrm{impr}$", "left", 0.02),
-}
 
 
 def _surfaces(cases: Iterable[tuple[float, float]]) -> Plan[Tables]:
@@ -91,14 +85,10 @@ def _over_models(figure: Figure, table: pd.DataFrame, radii: pd.DataFrame) -> No
     level(right)
     left.set(xlim=(0.0, 3.0), ylim=(0.0, 1.75), ylabel=LABELS["height"])
     right.set(ylabel=LABELS["pressure"])
-    radii = radii.set_index("model")
-    for (model, name), (text, side, height) in _MARKS.items():
-        style = MODEL_LINES[model]
-        for axes, at in ((left, height), (right, 0.93 - height)):
-            axes.axvline(radii.loc[model, name], color=style["color"], ls=style["ls"], lw=0.6)
-            style_of_text: Any = {"color": style["color"], "fontsize": 8, "ha": side, "clip_on": True}
-            axes.text(radii.loc[model, name], at, f" {text} ", transform=axes.get_xaxis_transform(), **style_of_text)
-    legend_below(figure, 4)
+    for model, *edges in radii.itertuples(index=False):
+        for axes, edge in product((left, right), edges):
+            axes.axvline(edge, color=MODEL_LINES[model]["color"], ls=MODEL_LINES[model]["ls"], lw=0.6)
+    legend_below(figure, 4, title="vertical: contact radius $a$ and cohesive radius $c$", title_fontsize=8)
 
 
 @paper_figure(_over_models, size=(7.2, 3.7), follows_path=True)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import combinations, pairwise, product
 from typing import Any, NamedTuple
 
 from comparisons.data.paper_statements import PaperStatement
-from comparisons.paper.paper_figure import Plan, result_of, together
+from comparisons.paper.paper_figure import Plan, together
 from comparisons.paper.statements.evidence import READING, Evidence, Number, grouped
-from comparisons.paper.statements.measures import Case, label, measured, model_of
-from comparisons.paper.tasks import quantity
-from comparisons.quantities import title_of
+from comparisons.paper.statements.measures import Case, is_refused, label, measured, model_of
 
 __all__ = ["comparisons_of", "extrapolated", "vanishes"]
 
@@ -71,11 +70,24 @@ def _vanishing(test: Test, family: Family, values: list[Number], limits: list[Nu
     return vanishes(family.clause, values, _limit(test), family.model)
 
 
+def _alike(test: Test, family: Family, values: list[Number], limits: list[Number]) -> list[Evidence]:
+    """Every case along a parameter has a quantity, or none has: a model refuses the energy where nothing jumps."""
+    having = [value for value in values if not is_refused(value)]
+    lacking = [dict(case)[test["along"]] for case, value in zip(family.cases, values, strict=True) if is_refused(value)]
+    failed = [value for value in values if math.isnan(value.u)]
+    if failed or (lacking and having):
+        limit = Number(0.0, 0.0, f"no jump at k = {', '.join(f'{k:g}' for k in lacking)}")
+        return [Evidence(family.clause, family.model, [*failed, *having][0], "<", limit)]
+    title = f"gradient exponents unlike the others, {family.clause}: {len(having)} of {len(values)} have jumps"
+    return [Evidence(family.clause, family.model, Number(0.0, 0.0, title), "<", Number(1.0, 0.0, "one of them"))]
+
+
 #: Kind of a test -> the comparisons of the numbers of a family, and of those that they are compared with.
 _KINDS: dict[str, Callable[[Test, Family, list[Number], list[Number]], list[Evidence]]] = {
     "compare": _compared,
     "trend": _ordered,
     "vanish": _vanishing,
+    "alike": _alike,
 }
 
 
@@ -133,34 +145,8 @@ def vanishes(clause: str, values: Sequence[Number], limit: Number, model: str = 
     return [*rows, Evidence(clause, model, size(extrapolated(*values[-3:]), "the "), "<", limit)]
 
 
-def alike(test: Test) -> Plan[list[Evidence]]:
-    """Every case along a parameter has a quantity, or none has: a model refuses the energy where nothing jumps."""
-    name, along = test["value"], test["along"]
-    families = _families(test)
-    plans = {
-        (family.model, case): result_of(quantity, family.model, name, *dict(case).values())
-        for family in families
-        for case in family.cases
-    }
-    results = yield from together(plans)
-    rows = []
-    for model, clause, cases in families:
-        lacking = [case for case in cases if results[model, case]["status"] == "not-applicable"]
-        having = [case for case in cases if case not in lacking]
-        if lacking and having:
-            result, title = results[model, having[0]], f"{title_of(name)}, {label(having[0])}"
-            value = Number(result["value"], result["u_num"], title)
-            limit = Number(0.0, 0.0, f"no jump at k = {', '.join(f'{dict(case)[along]:g}' for case in lacking)}")
-        else:
-            title = f"gradient exponents unlike the others, {clause}: {len(having)} of {len(cases)} have jumps"
-            value, limit = Number(0.0, 0.0, title), Number(1.0, 0.0, "one of them")
-        rows.append(Evidence(clause, model, value, "<", limit))
-    return rows
-
-
 def comparisons_of(statement: PaperStatement) -> Plan[list[Evidence]]:
     """Plan the comparisons of a statement, in the order of its tests."""
     tests = [{**statement.arguments, **test} for test in statement.tests]
-    plans = {index: alike(test) if test["kind"] == "alike" else judged_by(test) for index, test in enumerate(tests)}
-    rows = yield from together(plans)
+    rows = yield from together({index: judged_by(test) for index, test in enumerate(tests)})
     return [row for of_test in rows.values() for row in of_test]

@@ -170,7 +170,8 @@ def quantity_of(at: Place, result: dict[str, Any]) -> Measured:
     if name in result:
         return result[name], result[f"u_{name}"], title
     if result["status"] != "ok":
-        return np.nan, np.nan, f"{title}: {result['reason']}"
+        # A refusal is certain, a failure is not.
+        return np.nan, 0.0 if result["status"] == "not-applicable" else np.nan, f"{title}: {result['reason']}"
     return result["value"], result["u_num"], title
 
 
@@ -201,6 +202,11 @@ def signed(value: Number, exact: Number) -> tuple[float, float]:
     """
     kappa = value.value / exact.value - 1.0
     return kappa, (value.u + (1.0 + abs(kappa)) * exact.u) / (abs(exact.value) - exact.u)
+
+
+def is_refused(number: Number) -> bool:
+    """Whether a model has no such quantity in the case."""
+    return bool(np.isnan(number.value) and number.u == 0.0)
 
 
 def _against(at: Place) -> str:

@@ -27,8 +27,8 @@ TINY = Part(
     lambda full: [{"size": size} for size in ((1, 2, 8) if full else (1, 2))],
     counted,
     lambda rows: rows.assign(ratio=rows["cpu_seconds"]),
+    lambda rows: rows[["size"]],
     drawn,
-    lambda table: [f"{len(table)} sizes"],
     own_process=False,
 )
 

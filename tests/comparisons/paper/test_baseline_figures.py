@@ -19,7 +19,7 @@ from comparisons.runs.csv_format import csv_text
 FOLDER = Path(__file__).parents[3] / PAPER_BASELINE
 FIGURES = {figure.name: figure for figure in paper_figures()}
 #: Figures of closed forms, which take seconds; the others take minutes.
-CHEAP = ("1", "2", "12")
+CHEAP = ("2", "12")
 #: Every so many pictures are drawn in every test run.
 LIGHT = 4
 

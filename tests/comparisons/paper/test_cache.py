@@ -33,15 +33,15 @@ def test_each_call_is_made_once_and_its_result_or_failure_is_read_again(tmp_path
     MADE.clear()
     calls = [CachedCall.of(double, 1), CachedCall.of(double, 2.5), CachedCall.of(fail, 3), CachedCall.of(refuse, 4)]
     assert (make_calls([*calls, calls[0]], tmp_path).made, MADE) == (4, [1, 2.5])
-    # A failure is made again, and a refusal is none.
+    # A failure and a refusal are made again.
     made = make_calls([*calls, CachedCall.of(double, 2)], tmp_path)
-    assert (made.made, MADE) == (2, [1, 2.5, 2])
+    assert (made.made, MADE) == (3, [1, 2.5, 2])
     outcomes = [made.outcomes[call] for call in calls]
     assert outcomes[1].get() == {"value": 5.0, "name": "double"}
     for outcome, reason in ((outcomes[2], r"fail\(3\): 3 does not converge"), (outcomes[3], r"refuse\(4\): 4 is re")):
         with pytest.raises(ComputationFailed, match=reason):
             outcome.get()
-    assert [outcome.failed for outcome in outcomes] == [False, False, True, False]
+    assert [outcome.failed for outcome in outcomes] == [False, False, True, True]
 
 
 def test_nan_and_results_of_other_code_are_refused(tmp_path, monkeypatch):

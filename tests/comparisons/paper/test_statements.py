@@ -144,7 +144,7 @@ def test_every_statement_that_does_not_hold_is_a_finding(table):
 
 
 def test_every_number_with_a_bound_is_in_the_evidence(committed):
-    columns = {"paper_statements_evidence": ("value", "limit"), "graded_solids": ("fscm", "fem")}
+    columns = {"paper_statements_evidence": ("value", "limit")}
     pairs = [committed(table)[[name, f"u_{name}"]] for table, names in columns.items() for name in names]
     texts = {value_text(*row) for pair in pairs for row in pair.dropna().to_numpy()}
     quoted = re.findall(r"\d+\.\d+\(\d+\)", FINDINGS)

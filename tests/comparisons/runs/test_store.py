@@ -52,8 +52,6 @@ def test_items_of_another_form_are_apart(folder):
     with Store(folder, Form("numbers", FORM.key, dict, dict), "x") as numbers:
         numbers.add({"id": 1, "value": "another"})
     assert stored(folder) == ENTRIES
-    with Store(folder, FORM, "y", anew=True) as store:
-        assert store.items == []
 
 
 def test_results_of_other_code_are_refused_and_the_difference_is_named(tmp_path):
