@@ -4,6 +4,7 @@ import re
 import shlex
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from comparisons.cli import main as cli
@@ -143,9 +144,16 @@ def test_every_statement_that_does_not_hold_is_a_finding(table):
     assert sorted(listed) == sorted(table["id"][table["verdict"] != "true"])
 
 
+#: Tables of the numbers that the findings quote: of the statements, and of finite strain in percent and in 1e-5.
+_EVIDENCE = ("paper_statements_evidence", "finite_strain", "finite_strain_cancel")
+
+
 def test_every_number_with_a_bound_is_in_the_evidence(committed):
-    columns = {"paper_statements_evidence": ("value", "limit")}
-    pairs = [committed(table)[[name, f"u_{name}"]] for table, names in columns.items() for name in names]
+    evidence, strain, zero = (committed(name) for name in _EVIDENCE)
+    pairs = [evidence[[name, f"u_{name}"]] for name in ("value", "limit")]
+    pairs += [100.0 * strain[["kappa", "u_kappa"]].abs()]
+    ends = zero[["lowest", "highest"]] * 1e5
+    pairs += [pd.concat([ends.mean(axis=1), (ends["highest"] - ends["lowest"]) / 2.0], axis=1)]
     texts = {value_text(*row) for pair in pairs for row in pair.dropna().to_numpy()}
     quoted = re.findall(r"\d+\.\d+\(\d+\)", FINDINGS)
     assert len(quoted) > 25
