@@ -8,7 +8,7 @@ from typing import Any
 
 import fscm
 from comparisons.problem import Problem
-from comparisons.problem.kinds import KINDS, limits_of
+from comparisons.problem.kinds import KINDS
 from comparisons.problem.uncertain import Uncertainty
 from comparisons.quantities import QUANTITIES
 
@@ -99,9 +99,11 @@ def _slopes(
     slopes = {}
     for (section, key), spread in uncertain.items():
         section_values = getattr(problem, section)
-        limits = limits_of(KINDS[section][section_values.kind].keys[key])
+        form = KINDS[section][section_values.kind].keys[key]
         size = max(abs(section_values[key]), spread.size)
-        slopes[section, key] = solved.derivative(_varied(problem, section, key), section_values[key], size, *limits)
+        slopes[section, key] = solved.derivative(
+            _varied(problem, section, key), section_values[key], size, form.low, form.high
+        )
     return solved.solution.value, solved.solution.u_num, slopes
 
 

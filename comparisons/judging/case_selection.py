@@ -33,7 +33,7 @@ def in_si_units(cases: Mapping[str, Any], where: str) -> dict[str, Any]:
     words = {f"{section}.kind": list(kinds) for section, kinds in KINDS.items()}
     of_kinds = ((section, kind.keys) for section, kinds in KINDS.items() for kind in kinds.values())
     forms = {f"{section}.{key}": form for section, keys in of_kinds for key, form in keys.items()}
-    units = {name: form.get("items", form).get("unit", "") for name, form in forms.items()}
+    units = {name: form.unit for name, form in forms.items()}
     values: dict[str, Any] = {}
     for name, value in cases.items():
         key = _ENTRY.sub("", name)

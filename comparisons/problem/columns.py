@@ -10,7 +10,7 @@ from pathlib import Path
 
 from comparisons.data.input_files import LARGEST_TABLE, read_text
 from comparisons.data.validation import known_name, shown
-from comparisons.problem.kinds import Form, is_admissible
+from comparisons.problem.kinds import Form
 from comparisons.problem.units import NotAValue, check_size, unit_factor
 
 __all__ = ["read_columns"]
@@ -75,11 +75,11 @@ def _factors(location: str, headings: Sequence[str], columns: Mapping[str, Form]
         if name in factors:
             raise ValueError(f"{location}: the column {name} stands twice; name each column once")
         try:
-            factors[name] = unit_factor(unit, columns[name]["unit"]) if unit and "unit" in columns[name] else 1.0
+            factors[name] = unit_factor(unit, columns[name].unit) if unit and columns[name].unit else 1.0
         except NotAValue as error:
-            raise ValueError(f"{location}: the column {name} {error}; write one of {columns[name]['unit']}") from None
+            raise ValueError(f"{location}: the column {name} {error}; write one of {columns[name].unit}") from None
     for name, form in columns.items():
-        if name not in factors and not form.get("optional"):
+        if name not in factors and not form.is_optional:
             raise ValueError(f"{location}: the column {name} is missing; the names are {', '.join(columns)}")
     return factors
 
@@ -92,10 +92,10 @@ def _value(cell: str, factor: float, form: Form, values_before: Sequence[float])
         raise NotAValue("is no number; write one there") from None
     if not math.isfinite(value):
         raise NotAValue("is not a finite number; write one or take out the row")
-    if "unit" in form:
-        check_size(value, form["unit"])
-    if not is_admissible(form, value):
-        raise NotAValue(f"must be {form['description']}")
-    if "rising" in form and values_before and not value > values_before[-1]:
-        raise NotAValue(f"is not above the value of the row before it; {form['rising']}")
+    if form.unit:
+        check_size(value, form.unit)
+    if not form.admits(value):
+        raise NotAValue(f"must be {form.description}")
+    if form.if_not_rising and values_before and not value > values_before[-1]:
+        raise NotAValue(f"is not above the value of the row before it; {form.if_not_rising}")
     return value

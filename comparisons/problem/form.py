@@ -1,17 +1,45 @@
-"""Values of a section of a problem file in SI, checked by the table of kinds."""
+"""Check of a section of a problem file by the table of kinds, and its values in SI."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
-from comparisons.data.validation import shown
-from comparisons.problem.kinds import KINDS, Form, is_admissible
+from comparisons.data.validation import known_name, shown
+from comparisons.problem.kinds import KINDS, Form, Kind
 from comparisons.problem.source import Source
 from comparisons.problem.uncertain import Uncertainty, is_uncertain, uncertain_in_si
 from comparisons.problem.units import NotAValue, in_si
 
-__all__ = ["values_in_si"]
+__all__ = ["kind_of", "values_in_si"]
+
+
+def kind_of(section: str, table: object, source: Source) -> Kind:
+    """Return the kind of a section as it is in the file, whose keys are those of the kind.
+
+    Raises
+    ------
+    ValueError
+        One sentence with file, line and remedy.
+    """
+    if not isinstance(table, Mapping):
+        form = f"one section, [{section}] in single brackets, with a kind and its keys"
+        raise source.refusal(f"{section} = {shown(table)} must be {form}", section)
+    if "kind" not in table:
+        raise source.refusal(f"{section}: kind missing; it is one of {', '.join(KINDS[section])}", section)
+    name = str(table["kind"])
+    known_name(f"{section}.kind", name, KINDS[section], source.place(section, "kind"))
+    kind = KINDS[section][name]
+    for key in table:
+        known_name("key", key, ["kind", *kind.keys], f"{source.place(section, key)}: {section}")
+    if missing := [key for key in kind.required if key not in table]:
+        has = f"a {section} of the kind {name} has {', '.join(kind.required)}"
+        raise source.refusal(f"{section}: {', '.join(missing)} missing; {has}", section)
+    stated = tuple(key for choice in kind.choices for key in choice if key in table)
+    if kind.choices and stated not in kind.choices:
+        choices = " or else ".join(" and ".join(choice) for choice in kind.choices)
+        raise source.refusal(f"{section} must be a {name} with {choices}", section)
+    return kind
 
 
 def values_in_si(
@@ -23,7 +51,7 @@ def values_in_si(
     ----------
     section : str
     table : mapping
-        As in the file, of a form that fits the schema.
+        As in the file, with the keys of its kind.
     source : Source
 
     Raises
@@ -38,36 +66,50 @@ def values_in_si(
             continue
         written = table[key]
         # The shape index stands before Q in the table of kinds.
-        power = values["n"] - 1.0 if form.get("unit") == "m^(n-1)" else 1.0
+        power = values["n"] - 1.0 if form.unit == "m^(n-1)" else 1.0
         try:
-            if form["type"] == "string":
-                values[key] = written
-            elif form["type"] == "array":
-                values[key] = tuple(_value(entry, form["items"], power)[0] for entry in written)
+            if form.is_file:
+                values[key] = _file_name(written)
+            elif form.is_list:
+                values[key] = tuple(_value(entry, form, power)[0] for entry in _entries(written))
             else:
                 values[key], spread = _value(written, form, power)
                 uncertain |= {key: spread} if spread else {}
         except NotAValue as error:
-            sentence = f"{section}.{key} = {shown(written)} {error}; it must be {form['description']}"
+            sentence = f"{section}.{key} = {shown(written)} {error}; it must be {form.description}"
             raise source.refusal(sentence, section, key) from None
     return values, uncertain
 
 
+def _file_name(written: object) -> str:
+    if not isinstance(written, str) or not written:
+        raise NotAValue("is no name")
+    return written
+
+
+def _entries(written: object) -> list[Any]:
+    if not isinstance(written, list) or not written:
+        raise NotAValue("is no list of values")
+    return written
+
+
 def _value(written: object, form: Form, power: float) -> tuple[float, Uncertainty | None]:
     """A value in SI, with its uncertainty if it has one; `NotAValue` if it is not admissible."""
-    unit = form.get("unit", "").removesuffix("^(n-1)")
+    unit = form.unit.removesuffix("^(n-1)")
     if not is_uncertain(written):
+        if isinstance(written, str) and not unit:
+            raise NotAValue("is a text")
         value, spread = in_si(written, unit, power), None
         ends = {value}
     else:
-        if not form.get("uncertain", True):
+        if not form.is_uncertain:
             raise NotAValue("has an uncertainty, which is not admissible here")
         value, spread = uncertain_in_si(str(written), unit, power)
         low, high = spread.limits(value)
         ends = {low, high} if spread.is_interval else {value}
-        if "exclusiveMinimum" in form:
+        if not form.admits(0.0):
             # A standard deviation may reach 0 where 0 is admissible.
             ends.add(low)
-    if not all(is_admissible(form, end) for end in ends):
+    if not all(map(form.admits, ends)):
         raise NotAValue("reaches outside its range" if spread else "is outside its range")
     return value, spread

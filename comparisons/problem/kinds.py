@@ -1,19 +1,15 @@
 """The one table of kinds: what a problem file may state, and what each solver makes of it.
 
 A row has a formula, the keys of a kind, and the class of that name in both solvers, which takes their values in this
-order, or a function that builds it.  A key has the JSON schema of its value; besides the words of JSON schema it has
-`unit` (in SI), `uncertain` (false where no uncertainty is admissible), and of a column `rising` (what to do with a
-value that is not above the one before it) and `optional`.  The schema of a file (`comparisons.problem.schema`), the
-check of a file, the variation of keys, the uncertainties, `fscm-bench list kinds` and the tables of the documentation
-follow from this table.
+order, or a function that builds it.  The check of a file, the variation of keys, the uncertainties, `fscm-bench list
+kinds` and the tables of the documentation follow from this table.
 """
 
 from __future__ import annotations
 
 import math
-import operator
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -22,64 +18,91 @@ from comparisons.problem.punch_shapes import RoundedFlat, SmoothedProfile
 if TYPE_CHECKING:
     from comparisons.problem.problem import Section
 
-__all__ = ["KINDS", "SECTIONS", "Form", "Kind", "is_admissible", "kind_rows", "limits_of"]
+__all__ = ["KINDS", "SECTIONS", "Form", "Kind", "kind_rows"]
 
-#: The sections of a file, all required, and what they describe.
-SECTIONS = {"solid": "the half-space", "punch": "the rigid punch", "law": "the surface law"}
-
-#: JSON schema of a value.
-Form = dict[str, Any]
-
-#: Limits in a JSON schema, in SI, and the comparison that holds.
-_LIMITS: dict[str, Callable[[float, float], bool]] = {
-    "exclusiveMinimum": operator.gt,
-    "minimum": operator.ge,
-    "maximum": operator.le,
-    "exclusiveMaximum": operator.lt,
-}
-
-_NUMBER = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
-#: A plain number with an uncertainty.
-_UNCERTAIN = rf"^\s*({_NUMBER}\s*(\+-|\+/-|±)\s*{_NUMBER}\s*%?|\[\s*{_NUMBER}\s*,\s*{_NUMBER}\s*\])\s*$"
+#: The sections of a file, all required.
+SECTIONS = ("solid", "punch", "law")
 
 
-def _quantity(description: str, unit: str, example: str, **more: Any) -> Form:
-    description = f'{description}, as "{example}" or a plain number in {unit}'
-    return {"type": ["number", "string"], "description": description, "unit": unit, **more}
+@dataclass(frozen=True)
+class Form:
+    """What the value of a key, or of each row of a column, may be.
+
+    Attributes
+    ----------
+    description : str
+        The end of a sentence that begins with "must be".
+    unit : str
+        In SI; empty for a plain number.
+    low, high : float
+        Limits in SI.
+    excluded : tuple of float
+        Limits that are not admissible themselves.
+    is_list, is_file : bool
+        Whether the value is a list with an entry for each layer, or the name of a file.
+    is_uncertain : bool
+        Whether an uncertainty is admissible.
+    is_optional : bool
+        Whether the column may be missing.
+    if_not_rising : str
+        What to do with a value of a column that is not above the one before it; empty if it need not be.
+
+    Examples
+    --------
+    >>> RATIO.admits(0.5), LENGTH.admits(0.0)
+    (True, False)
+    """
+
+    description: str
+    unit: str = ""
+    low: float = -math.inf
+    high: float = math.inf
+    excluded: tuple[float, ...] = ()
+    is_list: bool = False
+    is_file: bool = False
+    is_uncertain: bool = True
+    is_optional: bool = False
+    if_not_rising: str = ""
+
+    def admits(self, value: float) -> bool:
+        """Whether a value in SI is within the limits."""
+        return self.low <= value <= self.high and value not in self.excluded
+
+    def named(self, name: str) -> str:
+        """Return a name with the unit in brackets, as ``thickness [m]``."""
+        return f"{name} [{self.unit}]" if self.unit else name
 
 
-def _number(description: str, **more: Any) -> Form:
-    return {"type": ["number", "string"], "description": description, "pattern": _UNCERTAIN, **more}
+def _quantity(description: str, unit: str, example: str, **limits: Any) -> Form:
+    return Form(f'{description}, as "{example}" or a plain number in {unit}', unit, **limits)
 
 
 def _list(form: Form) -> Form:
-    description = f"a list with {form['description']}, for each layer"
-    return {"type": "array", "minItems": 1, "description": description, "items": {**form, "uncertain": False}}
+    description = f"a list with {form.description}, for each layer"
+    return replace(form, description=description, is_list=True, is_uncertain=False)
 
 
-MODULUS = _quantity("a positive modulus", "Pa", "2 GPa", exclusiveMinimum=0)
-LENGTH = _quantity("a positive length", "m", "100 nm", exclusiveMinimum=0)
-FROM_ZERO = _quantity("a length, 0 or more", "m", "20 nm", minimum=0)
+_POSITIVE: dict[str, Any] = {"low": 0.0, "excluded": (0.0,)}
+MODULUS = _quantity("a modulus of at least 1 Pa (megapascal is MPa)", "Pa", "2 GPa", low=1.0)
+LENGTH = _quantity("a positive length", "m", "100 nm", **_POSITIVE)
+FROM_ZERO = _quantity("a length, 0 or more", "m", "20 nm", low=0.0)
 ANGLE = _quantity(
     "an angle between axis and flank, above 0 and below 90 degrees",
     "rad",
     "70 deg",
-    exclusiveMinimum=0,
-    exclusiveMaximum=math.pi / 2.0,
+    low=0.0,
+    high=math.pi / 2.0,
+    excluded=(0.0, math.pi / 2.0),
 )
-ENERGY_PER_AREA = _quantity("a positive energy per area", "J/m^2", "50 mJ/m^2", exclusiveMinimum=0)
-SHAPE_PARAMETER = _quantity("positive, a length to the power n - 1", "m^(n-1)", "1 um^2", exclusiveMinimum=0)
-EXPONENT = _number("a plain number from 0 to 1", minimum=0, maximum=1)
-OFFSET_EXPONENT = _number("a plain number from 0 to below 1", minimum=0, exclusiveMaximum=1)
-RATIO = _number("a plain number from 0 to 0.5", minimum=0, maximum=0.5)
-SHAPE_INDEX = _number("a plain number above 0 and at most 300", exclusiveMinimum=0, maximum=300)
-POSITIVE = _number("a positive plain number", exclusiveMinimum=0)
-POWER = _number("a plain number above 1", exclusiveMinimum=1)
-FILE: Form = {
-    "type": "string",
-    "description": "the name of a CSV file in the folder of the problem file",
-    "minLength": 1,
-}
+ENERGY_PER_AREA = _quantity("a positive energy per area", "J/m^2", "50 mJ/m^2", **_POSITIVE)
+SHAPE_PARAMETER = _quantity("positive, a length to the power n - 1", "m^(n-1)", "1 um^2", **_POSITIVE)
+EXPONENT = Form("a plain number from 0 to 1", low=0.0, high=1.0)
+OFFSET_EXPONENT = Form("a plain number from 0 to below 1", low=0.0, high=1.0, excluded=(1.0,))
+RATIO = Form("a plain number from 0 to 0.5", low=0.0, high=0.5)
+SHAPE_INDEX = Form("a plain number above 0 and at most 300", high=300.0, **_POSITIVE)
+POSITIVE = Form("a positive plain number", **_POSITIVE)
+POWER = Form("a plain number above 1", low=1.0, excluded=(1.0,))
+FILE = Form("the name of a CSV file in the folder of the problem file", is_file=True)
 
 
 @dataclass(frozen=True)
@@ -195,9 +218,9 @@ _SOLIDS = {
         _tabulated_modulus,
         optional=("nu",),
         columns={
-            "z": {**FROM_ZERO, "rising": "sort the rows by z; a step of the modulus is the kind layers"},
+            "z": replace(FROM_ZERO, if_not_rising="sort the rows by z; a step of the modulus is the kind layers"),
             "E": MODULUS,
-            "nu": {**RATIO, "optional": True},
+            "nu": replace(RATIO, is_optional=True),
         },
     ),
 }
@@ -233,12 +256,12 @@ _PUNCHES = {
         {
             "file": FILE,
             "growth": POSITIVE,
-            "smoothing": _quantity("a positive length", "m", "1 nm", exclusiveMinimum=0, uncertain=False),
+            "smoothing": replace(LENGTH, is_uncertain=False),
         },
         _profile,
         optional=("growth", "smoothing"),
         columns={
-            "r": {**FROM_ZERO, "rising": "sort the rows by r"},
+            "r": replace(FROM_ZERO, if_not_rising="sort the rows by r"),
             "height": _quantity("a length", "m", "1 nm"),
         },
     ),
@@ -262,7 +285,7 @@ _LAWS = {
         _tabulated_law,
         optional=("z0", "tail_exponent"),
         columns={
-            "gap": {**_quantity("a length", "m", "1 nm"), "rising": "sort the rows by gap"},
+            "gap": _quantity("a length", "m", "1 nm", if_not_rising="sort the rows by gap"),
             "traction": _quantity("a traction", "Pa", "1 MPa"),
         },
     ),
@@ -270,30 +293,6 @@ _LAWS = {
 
 #: The kinds of each section, by name.
 KINDS: dict[str, dict[str, Kind]] = {"solid": _SOLIDS, "punch": _PUNCHES, "law": _LAWS}
-
-
-def is_admissible(form: Form, value: float) -> bool:
-    """Whether a value in SI is within the limits of a form.
-
-    Examples
-    --------
-    >>> is_admissible(RATIO, 0.5), is_admissible(MODULUS, 0.0)
-    (True, False)
-    """
-    return all(holds(value, form[limit]) for limit, holds in _LIMITS.items() if limit in form)
-
-
-def limits_of(form: Form) -> tuple[float, float]:
-    """Return both ends of the admissible values.
-
-    Examples
-    --------
-    >>> limits_of(MODULUS), limits_of(RATIO)
-    ((0.0, inf), (0.0, 0.5))
-    """
-    lows = [float(form[limit]) for limit in ("minimum", "exclusiveMinimum") if limit in form]
-    highs = [float(form[limit]) for limit in ("maximum", "exclusiveMaximum") if limit in form]
-    return max(lows, default=-math.inf), min(highs, default=math.inf)
 
 
 def kind_rows() -> Iterator[dict[str, str]]:
@@ -314,6 +313,5 @@ def kind_rows() -> Iterator[dict[str, str]]:
             yield row | {"columns": columns}
 
 
-def _named(forms: Mapping[str, Form], names: Any) -> list[str]:
-    units = {name: forms[name].get("items", forms[name]).get("unit") for name in names}
-    return [f"{name} [{unit}]" if unit else name for name, unit in units.items()]
+def _named(forms: Mapping[str, Form], names: Iterable[str]) -> list[str]:
+    return [forms[name].named(name) for name in names]

@@ -6,7 +6,6 @@ import os
 import re
 import sys
 from collections.abc import Mapping
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +13,11 @@ import fscm
 from comparisons.data.contained_paths import path_inside
 from comparisons.data.input_files import read_text
 from comparisons.data.toml_text import parse
-from comparisons.data.validation import shown, validated, validator_of
+from comparisons.data.validation import known_name, shown
 from comparisons.problem.columns import read_columns
-from comparisons.problem.form import values_in_si
-from comparisons.problem.kinds import KINDS, SECTIONS
+from comparisons.problem.form import kind_of, values_in_si
+from comparisons.problem.kinds import SECTIONS
 from comparisons.problem.problem import Problem, Section
-from comparisons.problem.schema import schema
 from comparisons.problem.source import Source
 from fscm.punch import unit_of_radii
 
@@ -31,8 +29,6 @@ _MANY_DIGITS = re.compile(rf"\d{{{sys.int_info.default_max_str_digits + 1},}}")
 #: Largest and smallest admissible ratio of the radius of the punch to the range of the law.  A lens of 10 m
 #: and a range of 0.2 nm give 5e10; a tip with a radius far below an atom has no meaning.
 _RATIOS = 1e-3, 1e12
-
-_validator = lru_cache(lambda: validator_of(schema()))
 
 
 def load_problem(path: str | os.PathLike[str]) -> Problem:
@@ -85,7 +81,10 @@ def problem_of(document: Mapping[str, Any], source: Source) -> Problem:
     ValueError
         As `load_problem`.
     """
-    validated(document, _validator(), str(source.path), source.place)
+    for name in document:
+        known_name("section", name, SECTIONS, source.place(name))
+    if missing := [name for name in SECTIONS if name not in document]:
+        raise ValueError(f"{source.path}: {', '.join(missing)} missing; a problem file has {', '.join(SECTIONS)}")
     solid, punch, law = (_section(name, document[name], source) for name in SECTIONS)
     problem = Problem(solid, punch, law, name=source.path.name, path=source.path)
     _check_scales(problem, source)
@@ -93,8 +92,8 @@ def problem_of(document: Mapping[str, Any], source: Source) -> Problem:
 
 
 def _section(name: str, table: Mapping[str, Any], source: Source) -> Section:
+    kind = kind_of(name, table, source)
     values, uncertain = values_in_si(name, table, source)
-    kind = KINDS[name][table["kind"]]
     columns: dict[str, tuple[float, ...]] = {}
     if kind.columns:
         try:

@@ -23,18 +23,17 @@ class Source:
     path: Path
     text: str
 
-    def place(self, section: str | int | None = None, key: str | int | None = None, *_: str | int) -> str:
+    def place(self, section: str, key: str | None = None) -> str:
         """File and line of a key, or else of its section; the file where neither is written on a line of its own."""
-        header = re.compile(
-            rf"\s*(\[{{1,2}}\s*[\"']?{re.escape(str(section))}[\"']?\s*\]|{re.escape(str(section))}\s*[.=])"
-        )
-        entry = re.compile(rf"\s*({re.escape(str(section))}\s*\.\s*)?[\"']?{re.escape(str(key))}[\"']?\s*[.=]")
+        table, name = re.escape(section), re.escape(key or "kind")
+        header = re.compile(rf"\s*(\[{{1,2}}\s*[\"']?{table}[\"']?\s*\]|{table}\s*[.=])")
+        entry = re.compile(rf"\s*({table}\s*\.\s*)?[\"']?{name}[\"']?\s*[.=]")
         line_of_section, inside = 0, False
         for number, line in enumerate(self.text.splitlines(), start=1):
             begins = bool(header.match(line))
             inside = begins or (inside and not line.lstrip().startswith("["))
             line_of_section = line_of_section or number * begins
-            if inside and entry.match(line):
+            if key and inside and entry.match(line):
                 return f"{self.path}, line {number}"
         return f"{self.path}, line {line_of_section}" if line_of_section else str(self.path)
 

@@ -184,5 +184,4 @@ def _change(section: dict[str, Any], variation: Variation, value: float | str) -
 
 def _column(problem: Problem, variation: Variation) -> str:
     form = KINDS[variation.section][getattr(problem, variation.section).kind].keys[variation.key.partition(".")[0]]
-    unit = form.get("items", form).get("unit")
-    return f"{variation.name} [{unit}]" if unit else variation.name
+    return form.named(variation.name)

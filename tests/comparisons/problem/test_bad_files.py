@@ -41,6 +41,9 @@ def layers(moduli, ratios, thicknesses):
     return f'[solid]\nkind = "layers"\nE = {moduli}\nnu = {ratios}\nthickness = {thicknesses}\n\n'
 
 
+#: A modulus in millipascals, which were to be megapascals.
+MILLI = ('"2 mPa"', "0.9")
+
 #: Values of keys of GOOD that are refused, and what the sentence says besides line and key.
 BAD_VALUES = [
     *[(3, "E0", value, "has no unit") for value in ('"2"', '"[1, 2]"', '"2 GPa +- 0.1"')],
@@ -53,7 +56,8 @@ BAD_VALUES = [
     *[(3, "E0", f'"2 GPa +- {size}"', "deviation") for size in ("0 %", "0 GPa", "-5 %", "0.1 +- 1 GPa")],
     *[(3, "E0", f'"{text}"', "outside its range") for text in ("2 GPa +- 3 GPa", "[0, 2] GPa", "-2 GPa")],
     (3, "E0", '"[2, 1] GPa"', "interval"),
-    *[(3, "E0", value, "positive modulus") for value in ("0", "true", "[1.0, 2.0]", "nan", f"1{'0' * 400}")],
+    *[(3, "E0", value, "modulus of at least") for value in ("0", "true", "[1.0, 2.0]", "nan", f"1{'0' * 400}")],
+    *[(3, "E0", value, "outside its range; it must be a modulus of at least 1 Pa (mega") for value in MILLI],
     *[(3, "E0", value, "finite") for value in ("inf", '"1e999 GPa"')],
     (3, "E0", f"1{'0' * 5000}", "digits"),
     (5, "k", '"0.4"', "plain number"),
@@ -81,7 +85,7 @@ BAD_TEXT = [
     # Scales that do not fit together.
     ('"2.5 um"', '"2.5e6 m"', ["line 11", "6.2e+15 times the range", "units"]),
     ('"0.4 nm"', "400.0", ["line 11", "6.3e-09 times the range", "units"]),
-    ('"2 GPa"', '"2e-25 GPa"', ["pad.toml", "Tabor number", "units"]),
+    ('"50 mJ/m^2"', '"1e15 J/m^2"', ["pad.toml", "Tabor number", "units"]),
     (LAW, mie(9, 1), ["law.n = 1"]),
     (LAW, mie(3, 6), ["line 13", "repulsion"]),
     (SOLID, f"{COATING}nu_coating = 0.3\n\n", ["line 1", "nu_coating and nu_substrate"]),
@@ -144,7 +148,7 @@ def refused(folder, *parts, **changes):
 def test_bad_values(line, key, value, reason, tmp_path):
     written = GOOD.splitlines()[line - 1]
     assert written.startswith(f"{key} = ")
-    name = [] if reason == "digits" else [f"{'solid' if line < 9 else 'punch'}.{key} = "]
+    name = [] if reason == "digits" or key == "kind" else [f"{'solid' if line < 9 else 'punch'}.{key} = "]
     sentence = refused(tmp_path, "pad.toml", f"line {line}", *name, reason, old=written, new=f"{key} = {value}")
     assert len(sentence) < 500
 
