@@ -31,8 +31,10 @@ _EDGE = 0.5
 _PARABOLOID, _BALL = "sphere", "ball"
 
 
-def _error(value: float | None, bound: float | None, reason: str = "") -> Json:
-    return {"error": value, "u_num": bound, "reason": reason}
+def _error(change: tuple[float, float] | None, reason: str = "") -> Json:
+    """A relative change with its bound, or the reason why it is unknown."""
+    error, bound = change or (None, None)
+    return {"error": error, "u_num": bound, "reason": "" if change else reason}
 
 
 def _product(changes: Sequence[Json]) -> Json:
@@ -40,10 +42,10 @@ def _product(changes: Sequence[Json]) -> Json:
     total, bound = 1.0, 0.0
     for change in changes:
         if change["error"] is None:
-            return _error(None, None, change["reason"])
+            return _error(None, change["reason"])
         factor = 1.0 + change["error"]
         total, bound = total * factor, bound * abs(factor) + abs(total) * change["u_num"]
-    return _error(total - 1.0, bound)
+    return _error((total - 1.0, bound))
 
 
 def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json | None:
@@ -76,9 +78,12 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
     is_sphere = problem.punch.kind in (_PARABOLOID, _BALL)
     is_too_large = is_sphere and measures["contact_radius"] > LARGEST_CONTACT * problem.punch["R"]
     if is_too_large:
-        geometry = strain = _error(None, None, "the contact is larger than the sphere")
+        geometry = strain = _error(None, "the contact is larger than the sphere")
     else:
-        geometry, strain = _geometry(problem, force), _strain(problem, by_solution)
+        geometry, strain = _error((0.0, 0.0)), _strain(problem, by_solution)
+        if problem.punch.kind == _PARABOLOID:
+            ball = evaluate("fscm", "pull_off_force", _exact(problem))
+            geometry = _error(change_of(force, ball), ball.reason)
     return {
         **measures,
         "geometry": geometry,
@@ -121,39 +126,28 @@ def _exact(problem: Problem) -> Problem:
     return replace(problem, punch=Section(_BALL, {"R": problem.punch["R"]}))
 
 
-def _geometry(problem: Problem, force: Row) -> Json:
-    """Relative error of the force for the paraboloid that stands for a sphere."""
-    if problem.punch.kind != _PARABOLOID:
-        return _error(0.0, 0.0)
-    ball = evaluate("fscm", "pull_off_force", _exact(problem))
-    change = change_of(force, ball)
-    return _error(None, None, ball.reason) if change is None else _error(*change)
-
-
 def _strain(problem: Problem, by_solution: bool) -> Json:
     """Relative error of the force for linear elasticity."""
     if not by_solution:
         return _tabulated(problem)
     exact = _exact(problem)
     finite = evaluate("fem-large-strain", "pull_off_force", exact)
-    change = change_of(evaluate("fscm", "pull_off_force", exact), finite)
-    if change is not None:
-        return _error(*change)
-    tabulated = _tabulated(problem)
-    return tabulated if tabulated["error"] is not None else _error(None, None, finite.reason)
+    solved = _error(change_of(evaluate("fscm", "pull_off_force", exact), finite), finite.reason)
+    tabulated = solved if solved["error"] is not None else _tabulated(problem)
+    return tabulated if tabulated["error"] is not None else solved
 
 
 def _tabulated(problem: Problem) -> Json:
     """The same where the table of forces of spheres has it."""
     if problem.punch.kind not in (_PARABOLOID, _BALL) or not problem.is_of_the_paper("law"):
-        return _error(None, None, "it was computed for spheres under the 9-3 law")
+        return _error(None, "it was computed for spheres under the 9-3 law")
     if not problem.is_of_the_paper("solid") or problem.posed.k != 0.0:
-        return _error(None, None, "it was computed for homogeneous solids")
+        return _error(None, "it was computed for homogeneous solids")
     softness = (problem.posed.mu * problem.units["displacement"] / problem.punch["R"]) ** 1.5
     change = strain_change(softness, problem.posed.mu, problem.solid["nu"])
     if change is None:
-        return _error(None, None, f"no solid as soft as w/(E* R) = {softness:.2g} was computed")
-    return _error(-change.value / (1.0 + change.value), change.bound / (1.0 + change.value) ** 2)
+        return _error(None, f"no solid as soft as w/(E* R) = {softness:.2g} was computed")
+    return _error((-change.value / (1.0 + change.value), change.bound / (1.0 + change.value) ** 2))
 
 
 def total_errors(problem: Problem, errors: Sequence[Json], assumed: Json | None) -> list[Json]:
@@ -174,6 +168,6 @@ def total_errors(problem: Problem, errors: Sequence[Json], assumed: Json | None)
     exact = _exact(problem)
     change = change_of(evaluate("jkr-sphere", "pull_off_force", exact), evaluate("fscm", "pull_off_force", exact))
     if change is not None:
-        total["jkr-sphere"] = _product((_error(*change), assumed["strain"]))
+        total["jkr-sphere"] = _product((_error(change), assumed["strain"]))
     rows = [{"model": name, "error": error["error"], "u_num": error["u_num"]} for name, error in total.items()]
     return sorted(rows, key=lambda row: abs(row["error"]))

@@ -2,7 +2,7 @@
 
 `fem_reference.solve_large_strain` gives the force of a neo-Hookean solid, `fscm` that of the linear one, both for the
 exact sphere without friction.  Their relative difference s depends on w/(E* R), mu and nu.  It grows as the contact
-radius: s / (w/(E* R))^(1/3) is smooth, and is what is interpolated.  `python -m comparisons.description.strain_errors`
+radius: s / (w/(E* R))^(1/3) is smooth, and is what is interpolated.  `python -m tests.comparisons.problem.strain_table`
 computes the table.
 
 At large Tabor numbers the tension makes the surface unstable, and the table has no force.  There s lies about where a
@@ -13,9 +13,7 @@ the largest value before.
 from __future__ import annotations
 
 import csv
-import itertools
 import math
-import sys
 from collections.abc import Sequence
 from functools import lru_cache
 from importlib.resources import files
@@ -26,23 +24,17 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from comparisons.problem import Problem, Section
-from comparisons.runs.rows import Row
-from comparisons.runs.tasks import evaluate
 
-__all__ = ["FILE", "Change", "ball_on", "beyond", "forces_of_a_ball", "strain_change"]
+__all__ = ["FILE", "Change", "ball_on", "beyond", "strain_change"]
 
 Array = NDArray[np.float64]
 
 #: Name of the table in `comparisons.data`.
 FILE = "strain_errors.csv"
 
-#: w/(E* R), Tabor numbers and Poisson's ratios of the table.
+#: w/(E* R) and Poisson's ratios of the table.
 SOFTNESS = (1e-5, 1e-4, 1e-3, 5e-3, 2e-2, 5e-2, 1e-1)
-TABOR_NUMBERS = (0.1, 0.3, 1.0, 2.0, 3.0, 5.0)
 POISSON_RATIOS = (0.0, 0.2, 0.35, 0.5)
-
-#: Largest tension w/z0 in E* that is tried: from about 0.4 the surface is unstable.
-LARGEST_TENSION = 0.5
 
 #: Share of the change that the bound has in the middle between two rows (measured: a row from its neighbours, twice as
 #: far apart, misses by up to 1 % beside the difference from a straight line).
@@ -162,36 +154,3 @@ def ball_on(softness: float, mu: float, nu: float) -> Problem:
     """
     law = Section("lennard-jones-9-3", {"work_of_adhesion": 1.0, "z0": float(np.cbrt(softness)) ** 2 / mu})
     return Problem(Section("homogeneous", {"E": (1.0 - nu**2) / softness, "nu": nu}), Section("ball", {"R": 1.0}), law)
-
-
-def forces_of_a_ball(softness: float, mu: float, nu: float) -> tuple[Row, Row]:
-    """Return the pull-off force of a ball with finite strain, by `fem-large-strain`, and with small strain, by `fscm`.
-
-    Parameters
-    ----------
-    softness, mu, nu
-        As for `strain_change`.
-    """
-    problem = ball_on(softness, mu, nu)
-    finite, small = (evaluate(model, "pull_off_force", problem) for model in ("fem-large-strain", "fscm"))
-    return finite, small
-
-
-def main() -> None:
-    """Write the table to the standard output."""
-    writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(("elasto_adhesion_number", "mu", "nu", "pull_off_force", "u_num", "linear_force", "linear_u_num"))
-    for softness, mu, nu in itertools.product(SOFTNESS, TABOR_NUMBERS, POISSON_RATIOS):
-        if math.sqrt(mu**3 * softness) <= LARGEST_TENSION:
-            numbers = [f"{softness:g}", f"{mu:g}", f"{nu:g}"]
-            for force in forces_of_a_ball(softness, mu, nu):
-                if force.value is None or force.u_num is None:
-                    numbers += ["", ""]
-                else:
-                    numbers += [repr(force.value / math.pi), f"{force.u_num / math.pi:.2g}"]
-            writer.writerow(numbers)
-            sys.stdout.flush()
-
-
-if __name__ == "__main__":
-    main()

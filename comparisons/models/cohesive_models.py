@@ -106,15 +106,8 @@ class CohesiveModel(ClosedForm):
         even, dense = np.linspace(start, end, POINTS // 2), np.linspace(bend, end, POINTS // 2)
         w = np.unique(np.concatenate(([-np.inf, pull_off.w], even, dense)))
         state = contact.at(w)
-        scale = GradedPunch.of(problem).scales(problem.mu)
-        return Curve(
-            displacement=scale.displacement * state.displacement,
-            load=scale.load * state.load,
-            columns={
-                "contact_radius": scale.radius * state.contact_radius,
-                "cohesive_radius": scale.radius * state.cohesive_radius,
-            },
-        )
+        radii = {"contact_radius": state.contact_radius, "cohesive_radius": state.cohesive_radius}
+        return GradedPunch.of(problem).scales(problem.mu).curve(state.displacement, state.load, **radii)
 
     def profiles(self, problem: Problem, points: int = 200) -> CohesiveProfiles:
         """Return contact radius, cohesive radius, pressure and gap at the pull-off, in barred variables.

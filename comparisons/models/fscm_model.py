@@ -119,18 +119,16 @@ class StieltjesModel(SolverModel):
         self._segments = segments
 
     def _result(self, problem: Problem, quantity: str) -> Result:
-        _check_gradient(problem)
-        return result_of(stieltjes_solution(problem.posed, quantity, self._segments))
+        return result_of(stieltjes_solution(self._posed(problem), quantity, self._segments))
 
     def _curve(self, problem: Problem) -> Curve:
-        _check_gradient(problem)
-        central_gap, displacement, load = StieltjesScheme(problem.posed, self._segments).curve()
+        central_gap, displacement, load = StieltjesScheme(self._posed(problem), self._segments).curve()
         return Curve(displacement=displacement, load=load, columns={"central_gap": central_gap})
 
-
-def _check_gradient(problem: Problem) -> None:
-    if problem.k >= 1.0:
-        raise NotApplicable(f"the Stieltjes scheme is for k < 1, not k = {problem.k:g}")
+    def _posed(self, problem: Problem) -> fscm.Problem:
+        if problem.k >= 1.0:
+            raise NotApplicable(f"the Stieltjes scheme is for k < 1, not k = {problem.k:g}")
+        return problem.posed
 
 
 class CoarseStieltjesModel(StieltjesModel):

@@ -19,11 +19,15 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import beta
 
+from comparisons.model import Curve
 from comparisons.problem import Problem
 
 __all__ = ["GradedPunch", "Scales"]
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +44,11 @@ class Scales:
     radius: float
     load: float
     pressure: float
+
+    def curve(self, displacement: Array, load: Array, **radii: Array) -> Curve:
+        """Return the curve of tilde variables, with columns of radii by their names."""
+        columns = {name: self.radius * values for name, values in radii.items()}
+        return Curve(self.displacement * displacement, self.load * load, columns)
 
 
 @dataclass(frozen=True, slots=True)

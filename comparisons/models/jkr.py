@@ -82,11 +82,7 @@ class JKR(ClosedForm):
         scale = punch.scales(problem.mu)
         displacement = punch.flattening * a**n - punch.adhesion * a**s
         load = punch.hertz_load * a ** (n + k + 1.0) - punch.stiffness * punch.adhesion / (1.0 + k) * a ** (s + k + 1.0)
-        return Curve(
-            displacement=scale.displacement * displacement,
-            load=scale.load * load,
-            columns={"contact_radius": scale.radius * a},
-        )
+        return scale.curve(displacement, load, contact_radius=a)
 
 
 def _radius_power(punch: GradedPunch, theta: float, power: float) -> tuple[tuple[float, float], ...]:

@@ -94,9 +94,8 @@ def _far_energy(problem: Problem, jump_out: float) -> tuple[float, float]:
     # At q = 1/(1 - delta_out) the displacement is below delta_out; it rises up to the fold.
     low, high = -math.log(1.0 - jump_out) - 1.0, math.log(fold)
     q = math.exp(scipy.optimize.brentq(distance, low, high, xtol=4.0 * EPS, rtol=4.0 * EPS))
-    rigid = _power_integral(q, fold, 2.0 - c)
-    lifted = (3.0 - b) * A * _power_integral(q, fold, 6.0 - b - c)
-    return -B * (rigid - lifted), B * (abs(rigid) + abs(lifted))
+    energy, scale = _sum([(1.0, 2.0 - c), (-(3.0 - b) * A, 6.0 - b - c)], q, fold)
+    return -B * energy, B * scale
 
 
 def _contact_energy(punch: GradedPunch, jump_in: float) -> tuple[float, float]:
@@ -114,16 +113,14 @@ def _contact_energy(punch: GradedPunch, jump_in: float) -> tuple[float, float]:
         upper *= 2.0
     a = float(scipy.optimize.brentq(distance, fold, upper, xtol=4.0 * EPS, rtol=4.0 * EPS))
     heavy, light = n + k + 1.0, s + k + 1.0
-    terms = [
-        sign * factor * _power_integral(fold, a, power)
-        for sign, factor, power in (
-            (1.0, punch.hertz_load * n * D, heavy + n),
-            (-1.0, punch.hertz_load * s * K, heavy + s),
-            (-1.0, pull * n * D, light + n),
-            (1.0, pull * s * K, light + s),
-        )
-    ]
-    return sum(terms), sum(abs(term) for term in terms)
+    hertz = [(punch.hertz_load * n * D, heavy + n), (-punch.hertz_load * s * K, heavy + s)]
+    return _sum([*hertz, (-pull * n * D, light + n), (pull * s * K, light + s)], fold, a)
+
+
+def _sum(terms: list[tuple[float, float]], low: float, high: float) -> tuple[float, float]:
+    """Integral from low to high of the sum of factor x^(power - 1), and the sum of the magnitudes."""
+    integrals = [factor * _power_integral(low, high, power) for factor, power in terms]
+    return sum(integrals), sum(map(abs, integrals))
 
 
 def _power_integral(low: float, high: float, power: float) -> float:

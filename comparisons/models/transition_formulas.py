@@ -263,11 +263,7 @@ class Schwarz(_HomogeneousSphere):
         end = float(JKR().curve(problem).columns["contact_radius"][-1]) / scale.radius
         a = end * np.linspace(0.0, 1.0, POINTS) ** 2
         load = punch.hertz_load * a**3 - punch.stiffness * punch.adhesion * np.sqrt(x * a**3) - 2.0 * (1.0 - x)
-        return Curve(
-            displacement=scale.displacement * (a**2 - punch.adhesion * np.sqrt(x * a)),
-            load=scale.load * load,
-            columns={"contact_radius": scale.radius * a},
-        )
+        return scale.curve(a**2 - punch.adhesion * np.sqrt(x * a), load, contact_radius=a)
 
 
 def _of_part(problem: Problem, of_all: Result) -> Result:

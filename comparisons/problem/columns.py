@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import math
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -11,7 +10,7 @@ from pathlib import Path
 from comparisons.data.input_files import LARGEST_TABLE, read_text
 from comparisons.data.validation import known_name, shown
 from comparisons.problem.kinds import Form
-from comparisons.problem.units import NotAValue, check_size, unit_factor
+from comparisons.problem.units import NotAValue, in_si, unit_factor
 
 __all__ = ["read_columns"]
 
@@ -39,7 +38,7 @@ def read_columns(path: Path, columns: Mapping[str, Form]) -> dict[str, tuple[flo
     if not lines:
         raise ValueError(f"{path}: the table is empty; its first row has the names of the columns {', '.join(columns)}")
     (number, heading), *rows = lines
-    factors = _factors(f"{path}, line {number}", _cells(f"{path}, line {number}", heading), columns)
+    factors = _factors(f"{path}, line {number}", heading, columns)
     values: dict[str, list[float]] = {name: [] for name in factors}
     for number, line in rows:
         location = f"{path}, line {number}"
@@ -58,19 +57,17 @@ def _cells(location: str, line: str) -> list[str]:
     try:
         return next(csv.reader([line]))
     except csv.Error as error:
-        raise ValueError(
-            f"{location}: {shown(line)} is no row of CSV ({error}); write numbers between commas"
-        ) from None
+        raise ValueError(f"{location}: {shown(line)} is no row of CSV ({error}); write numbers and commas") from None
 
 
-def _factors(location: str, headings: Sequence[str], columns: Mapping[str, Form]) -> dict[str, float]:
+def _factors(location: str, heading: str, columns: Mapping[str, Form]) -> dict[str, float]:
     """The factor of the unit of each column, by its name."""
     factors: dict[str, float] = {}
-    for heading in headings:
-        match = _HEADING.fullmatch(heading)
+    for cell in _cells(location, heading):
+        match = _HEADING.fullmatch(cell)
         if not match:
-            raise ValueError(f"{location}: {shown(heading)} is no name of a column; the names are {', '.join(columns)}")
-        name, unit = match[1], match[2]
+            raise ValueError(f"{location}: {shown(cell)} is no name of a column; the names are {', '.join(columns)}")
+        name, unit = match.groups()
         known_name("column", name, columns, location)
         if name in factors:
             raise ValueError(f"{location}: the column {name} stands twice; name each column once")
@@ -87,15 +84,11 @@ def _factors(location: str, headings: Sequence[str], columns: Mapping[str, Form]
 def _value(cell: str, factor: float, form: Form, values_before: Sequence[float]) -> float:
     """A cell in SI; `NotAValue` if it is not admissible."""
     try:
-        value = float(cell) * factor
+        value = in_si(float(cell) * factor, form.unit)
     except ValueError:
-        raise NotAValue("is no number; write one there") from None
-    if not math.isfinite(value):
-        raise NotAValue("is not a finite number; write one or take out the row")
-    if form.unit:
-        check_size(value, form.unit)
+        raise NotAValue("is no number") from None
     if not form.admits(value):
-        raise NotAValue(f"must be {form.description}")
+        raise NotAValue(f"is outside its range; it must be {form.text}")
     if form.if_not_rising and values_before and not value > values_before[-1]:
         raise NotAValue(f"is not above the value of the row before it; {form.if_not_rising}")
     return value

@@ -76,7 +76,7 @@ def values_in_si(
                 values[key], spread = _value(written, form, power)
                 uncertain |= {key: spread} if spread else {}
         except NotAValue as error:
-            sentence = f"{section}.{key} = {shown(written)} {error}; it must be {form.description}"
+            sentence = f"{section}.{key} = {shown(written)} {error}; it must be {form.text}"
             raise source.refusal(sentence, section, key) from None
     return values, uncertain
 
@@ -110,6 +110,8 @@ def _value(written: object, form: Form, power: float) -> tuple[float, Uncertaint
         if not form.admits(0.0):
             # A standard deviation may reach 0 where 0 is admissible.
             ends.add(low)
+    if form.unit == "Pa" and isinstance(written, str) and 0.0 < value < 1.0:
+        raise NotAValue("is below 1 Pa: mPa is millipascal, and MPa megapascal")
     if not all(map(form.admits, ends)):
         raise NotAValue("reaches outside its range" if spread else "is outside its range")
     return value, spread

@@ -1,15 +1,17 @@
 """The one table of kinds: what a problem file may state, and what each solver makes of it.
 
-A row has a formula, the keys of a kind, and the class of that name in both solvers, which takes their values in this
-order, or a function that builds it.  The check of a file, the variation of keys, the uncertainties, `fscm-bench list
-kinds` and the tables of the documentation follow from this table.
+The table is `comparisons/data/kinds.toml`.  The check of a file, the variation of keys, the uncertainties, `fscm-bench
+list kinds` and the tables of the documentation follow from it.  Here are the functions that build a kind whose values
+are not the arguments of a class in both solvers.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+import tomllib
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from importlib.resources import files
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -31,12 +33,12 @@ class Form:
     Attributes
     ----------
     description : str
-        The end of a sentence that begins with "must be".
-    unit : str
-        In SI; empty for a plain number.
+        What it is.
+    unit, example : str
+        In SI, and a value with a unit; empty for a plain number.
     low, high : float
         Limits in SI.
-    excluded : tuple of float
+    excluded : sequence of float
         Limits that are not admissible themselves.
     is_list, is_file : bool
         Whether the value is a list with an entry for each layer, or the name of a file.
@@ -49,20 +51,29 @@ class Form:
 
     Examples
     --------
-    >>> RATIO.admits(0.5), LENGTH.admits(0.0)
+    >>> ratio = Form("a plain number from 0 to below 1", low=0.0, high=1.0, excluded=(1.0,))
+    >>> ratio.admits(0.0), ratio.admits(1.0)
     (True, False)
     """
 
     description: str
     unit: str = ""
+    example: str = ""
     low: float = -math.inf
     high: float = math.inf
-    excluded: tuple[float, ...] = ()
+    excluded: Sequence[float] = ()
     is_list: bool = False
     is_file: bool = False
     is_uncertain: bool = True
     is_optional: bool = False
     if_not_rising: str = ""
+
+    @property
+    def text(self) -> str:
+        """The end of a sentence that begins with "must be"."""
+        unit = f', as "{self.example}" or a plain number in {self.unit}' if self.unit else ""
+        text = self.description + unit
+        return f"a list with {text}, for each layer" if self.is_list else text
 
     def admits(self, value: float) -> bool:
         """Whether a value in SI is within the limits."""
@@ -71,38 +82,6 @@ class Form:
     def named(self, name: str) -> str:
         """Return a name with the unit in brackets, as ``thickness [m]``."""
         return f"{name} [{self.unit}]" if self.unit else name
-
-
-def _quantity(description: str, unit: str, example: str, **limits: Any) -> Form:
-    return Form(f'{description}, as "{example}" or a plain number in {unit}', unit, **limits)
-
-
-def _list(form: Form) -> Form:
-    description = f"a list with {form.description}, for each layer"
-    return replace(form, description=description, is_list=True, is_uncertain=False)
-
-
-_POSITIVE: dict[str, Any] = {"low": 0.0, "excluded": (0.0,)}
-MODULUS = _quantity("a modulus of at least 1 Pa (megapascal is MPa)", "Pa", "2 GPa", low=1.0)
-LENGTH = _quantity("a positive length", "m", "100 nm", **_POSITIVE)
-FROM_ZERO = _quantity("a length, 0 or more", "m", "20 nm", low=0.0)
-ANGLE = _quantity(
-    "an angle between axis and flank, above 0 and below 90 degrees",
-    "rad",
-    "70 deg",
-    low=0.0,
-    high=math.pi / 2.0,
-    excluded=(0.0, math.pi / 2.0),
-)
-ENERGY_PER_AREA = _quantity("a positive energy per area", "J/m^2", "50 mJ/m^2", **_POSITIVE)
-SHAPE_PARAMETER = _quantity("positive, a length to the power n - 1", "m^(n-1)", "1 um^2", **_POSITIVE)
-EXPONENT = Form("a plain number from 0 to 1", low=0.0, high=1.0)
-OFFSET_EXPONENT = Form("a plain number from 0 to below 1", low=0.0, high=1.0, excluded=(1.0,))
-RATIO = Form("a plain number from 0 to 0.5", low=0.0, high=0.5)
-SHAPE_INDEX = Form("a plain number above 0 and at most 300", high=300.0, **_POSITIVE)
-POSITIVE = Form("a positive plain number", **_POSITIVE)
-POWER = Form("a plain number above 1", low=1.0, excluded=(1.0,))
-FILE = Form("the name of a CSV file in the folder of the problem file", is_file=True)
 
 
 @dataclass(frozen=True)
@@ -116,7 +95,7 @@ class Kind:
     keys : mapping of str to Form
     builds : str or callable
         Name of the class in `fscm` and in `fem_reference`, or (solver, section) -> solid, punch or law in SI.
-    optional : tuple of str
+    optional : sequence of str
         Keys that a file may leave out.
     choices : tuple of tuple of str
         Groups of keys of which a file has one.
@@ -129,7 +108,7 @@ class Kind:
     formula: str
     keys: Mapping[str, Form]
     builds: str | Callable[[ModuleType, Section], Any]
-    optional: tuple[str, ...] = ()
+    optional: Sequence[str] = ()
     choices: tuple[tuple[str, ...], ...] = ()
     columns: Mapping[str, Form] = field(default_factory=dict)
     is_of_the_paper: bool = False
@@ -175,124 +154,38 @@ def _tabulated_law(solver: ModuleType, law: Section) -> Any:
     return solver.TabulatedLaw(gaps, tractions, z0, exponent)
 
 
-_SOLIDS = {
-    "homogeneous": Kind("E", {"E": MODULUS, "nu": RATIO}, "Homogeneous", is_of_the_paper=True),
-    "power-law": Kind(
-        "E0 (z/c0)^k",
-        {"E0": MODULUS, "c0": LENGTH, "k": EXPONENT, "nu": RATIO},
-        "PowerLaw",
-        is_of_the_paper=True,
-    ),
-    "offset-power-law": Kind(
-        "E0 ((z + z_s)/c0)^k",
-        {"E0": MODULUS, "c0": LENGTH, "k": OFFSET_EXPONENT, "z_s": LENGTH, "nu": RATIO},
-        "OffsetPowerLaw",
-    ),
-    "exponential": Kind(
-        "E_depth + (E_surface - E_depth) exp(-z/length)",
-        {"E_surface": MODULUS, "E_depth": MODULUS, "length": LENGTH, "nu": RATIO},
-        "Exponential",
-    ),
-    "coating": Kind(
-        "E_substrate + (E_coating - E_substrate) (1 - tanh((z - thickness)/transition))/2; transition 0 is sharp",
-        {
-            "E_coating": MODULUS,
-            "E_substrate": MODULUS,
-            "thickness": LENGTH,
-            "transition": FROM_ZERO,
-            "nu": RATIO,
-            "nu_coating": RATIO,
-            "nu_substrate": RATIO,
-        },
-        _coating,
-        choices=(("nu",), ("nu_coating", "nu_substrate")),
-    ),
-    "layers": Kind(
-        "E of each layer, from the surface downwards, and of the substrate, which is one entry more; sharp interfaces",
-        {"E": _list(MODULUS), "nu": _list(RATIO), "thickness": _list(LENGTH)},
-        "Layers",
-    ),
-    "table": Kind(
-        "monotone interpolation of the rows, constant beyond them",
-        {"file": FILE, "nu": RATIO},
-        _tabulated_modulus,
-        optional=("nu",),
-        columns={
-            "z": replace(FROM_ZERO, if_not_rising="sort the rows by z; a step of the modulus is the kind layers"),
-            "E": MODULUS,
-            "nu": replace(RATIO, is_optional=True),
-        },
-    ),
+#: Kinds that are no class of the solvers, by section and name.
+_BUILDERS: dict[str, Callable[[ModuleType, Section], Any]] = {
+    "solid.coating": _coating,
+    "solid.table": _tabulated_modulus,
+    "punch.sphere": lambda solver, punch: solver.PowerPunch(2.0, punch["R"]),
+    "punch.cone": lambda solver, punch: solver.PowerPunch(1.0, math.tan(punch["half_angle"])),
+    "punch.rounded-cone": lambda solver, punch: solver.RoundedCone(punch["R"] * punch["slope"], punch["slope"]),
+    "punch.rounded-flat": lambda solver, punch: RoundedFlat(punch["flat_radius"], punch["R"]),
+    "punch.table": _profile,
+    "law.table": _tabulated_law,
 }
 
-_PUNCHES = {
-    "sphere": Kind(
-        "r^2/(2 R), the paraboloid",
-        {"R": LENGTH},
-        lambda solver, punch: solver.PowerPunch(2.0, punch["R"]),
-        is_of_the_paper=True,
-    ),
-    "ball": Kind("R - sqrt(R^2 - r^2), the true sphere", {"R": LENGTH}, "Ball"),
-    "cone": Kind(
-        "r/tan(half_angle)",
-        {"half_angle": ANGLE},
-        lambda solver, punch: solver.PowerPunch(1.0, math.tan(punch["half_angle"])),
-        is_of_the_paper=True,
-    ),
-    "power-law": Kind("r^n/(n Q)", {"n": SHAPE_INDEX, "Q": SHAPE_PARAMETER}, "PowerPunch", is_of_the_paper=True),
-    "rounded-cone": Kind(
-        "slope (sqrt(r^2 + c^2) - c), c = R slope, with the radius of curvature R of the tip",
-        {"R": LENGTH, "slope": POSITIVE},
-        lambda solver, punch: solver.RoundedCone(punch["R"] * punch["slope"], punch["slope"]),
-    ),
-    "rounded-flat": Kind(
-        "(r - flat_radius)^2/(2 R) outside of the flat end",
-        {"flat_radius": LENGTH, "R": LENGTH},
-        lambda solver, punch: RoundedFlat(punch["flat_radius"], punch["R"]),
-    ),
-    "table": Kind(
-        "straight lines between the rows, and beyond the last one its height times (r/r_last)^growth, growth 2 if not "
-        "stated",
-        {
-            "file": FILE,
-            "growth": POSITIVE,
-            "smoothing": replace(LENGTH, is_uncertain=False),
-        },
-        _profile,
-        optional=("growth", "smoothing"),
-        columns={
-            "r": replace(FROM_ZERO, if_not_rising="sort the rows by r"),
-            "height": _quantity("a length", "m", "1 nm"),
-        },
-    ),
-}
+_TABLES = tomllib.loads(files("comparisons.data").joinpath("kinds.toml").read_text(encoding="utf-8"))
 
-_LAWS = {
-    "lennard-jones-9-3": Kind(
-        "(8 w/(3 z0)) ((1 + H/z0)^-9 - (1 + H/z0)^-3), w = work_of_adhesion",
-        {"work_of_adhesion": ENERGY_PER_AREA, "z0": LENGTH},
-        "LennardJones",
-        is_of_the_paper=True,
-    ),
-    "mie": Kind(
-        "the same with the exponents m of the repulsion and n of the attraction, 1 < n < m",
-        {"work_of_adhesion": ENERGY_PER_AREA, "z0": LENGTH, "m": POWER, "n": POWER},
-        "Mie",
-    ),
-    "table": Kind(
-        "a smooth curve through ten rows or more, a wall below and a power beyond; compression is positive",
-        {"file": FILE, "z0": LENGTH, "tail_exponent": POWER},
-        _tabulated_law,
-        optional=("z0", "tail_exponent"),
-        columns={
-            "gap": _quantity("a length", "m", "1 nm", if_not_rising="sort the rows by gap"),
-            "traction": _quantity("a traction", "Pa", "1 MPa"),
-        },
-    ),
-}
+
+def _forms(names: Mapping[str, str]) -> dict[str, Form]:
+    """The forms of keys by their names, perhaps as "list of modulus"."""
+    forms = {}
+    for key, name in names.items():
+        form = Form(**_TABLES["form"][name.removeprefix("list of ")])
+        forms[key] = replace(form, is_list=True, is_uncertain=False) if name.startswith("list of ") else form
+    return forms
+
+
+def _kind(section: str, name: str, row: Mapping[str, Any]) -> Kind:
+    forms = {"keys": _forms(row["keys"]), "columns": _forms(row.get("columns", {}))}
+    choices = tuple(map(tuple, row.get("choices", ())))
+    return Kind(**{"builds": _BUILDERS.get(f"{section}.{name}"), **row, **forms, "choices": choices})
+
 
 #: The kinds of each section, by name.
-KINDS: dict[str, dict[str, Kind]] = {"solid": _SOLIDS, "punch": _PUNCHES, "law": _LAWS}
+KINDS = {section: {name: _kind(section, name, row) for name, row in _TABLES[section].items()} for section in SECTIONS}
 
 
 def kind_rows() -> Iterator[dict[str, str]]:

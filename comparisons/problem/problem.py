@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from hashlib import sha256
@@ -25,7 +25,7 @@ __all__ = ["PARAMETERS", "Problem", "Section", "split_name"]
 PARAMETERS = ("n", "k", "mu", "nu")
 
 #: Between the name of a problem file and the values of its keys.
-_BETWEEN = "; "
+BETWEEN = "; "
 
 
 @dataclass(frozen=True)
@@ -298,10 +298,6 @@ class Problem:
         changed: dict[str, Any] = {section: replace(changed_section, values={**changed_section.values, key: value})}
         return replace(self, **changed)
 
-    def varied(self, name: str, texts: Iterable[str], parameters: Mapping[str, float | str]) -> Problem:
-        """Return the problem with the name of its file and the values of its varied keys."""
-        return replace(self, name=_BETWEEN.join([name, *texts]), parameters=parameters)
-
 
 @lru_cache(maxsize=1024)
 def _of_fscm(problem: Problem) -> fscm.Problem:
@@ -319,4 +315,4 @@ def split_name(name: str) -> list[str]:
     >>> split_name("pad.toml; solid.thickness=12 nm")
     ['pad.toml', 'solid.thickness=12 nm']
     """
-    return name.split(_BETWEEN)
+    return name.split(BETWEEN)

@@ -1,13 +1,13 @@
 """Punch shapes that neither solver has: a flat end with a rounded edge, and a smooth curve through a measured profile.
 
-Both solvers take any shape with `height`, `slope` and `kinks`; the one of the FSCM has `growth`, `unit_of_radii` and
-`scaled` as well.
+Both solvers take any shape with `height`, `slope` and `kinks`; the FSCM reads `growth` and `unit_of_radii`, too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 import scipy
@@ -39,18 +39,12 @@ class RoundedFlat:
     flat_radius: float
     R: float
 
-    @property
-    def growth(self) -> float:
-        """A paraboloid at infinity."""
-        return 2.0
+    #: A paraboloid at infinity.
+    growth: ClassVar[float] = 2.0
 
     def unit_of_radii(self, z0: float) -> tuple[float, float]:
         """n and Q of the paraboloid of the edge, see `fscm.punch.unit_of_radii`."""
         return 2.0, self.R
-
-    def scaled(self, radius: float, height: float) -> RoundedFlat:
-        """The shape in a unit of radii and one of heights."""
-        return RoundedFlat(self.flat_radius / radius, self.R * height / radius**2)
 
     @property
     def kinks(self) -> tuple[float, ...]:
@@ -117,11 +111,6 @@ class SmoothedProfile:
         """n and Q of the power beyond the last point, see `fscm.punch.unit_of_radii`."""
         height = self.heights[-1] - self.heights[0]
         return self.growth, self.radii[-1] ** self.growth / (self.growth * height)
-
-    def scaled(self, radius: float, height: float) -> SmoothedProfile:
-        """The shape in a unit of radii and one of heights."""
-        radii, heights = tuple(r / radius for r in self.radii), tuple(f / height for f in self.heights)
-        return SmoothedProfile(radii, heights, self.smoothing / height, self.growth)
 
     @property
     def kinks(self) -> tuple[float, ...]:

@@ -10,7 +10,7 @@ from typing import Any
 from comparisons.data.validation import shown
 from comparisons.numerics.number_text import short
 
-__all__ = ["NUMBER", "NotAValue", "check_size", "in_si", "prefixed_unit", "si_text", "unit_factor"]
+__all__ = ["NUMBER", "NotAValue", "in_si", "prefixed_unit", "si_text", "unit_factor"]
 
 #: A decimal number in a text.
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
@@ -111,26 +111,9 @@ def in_si(value: object, target: str, power: float = 1.0) -> float:
         raise NotAValue("is no number")
     if not math.isfinite(scaled):
         raise NotAValue("is not a finite number")
-    if target and power == 1.0:
-        check_size(scaled, target)
+    if target and power == 1.0 and scaled and not 1.0 / LARGEST_SIZE <= abs(scaled) <= LARGEST_SIZE:
+        raise NotAValue(f"has a size outside {1.0 / LARGEST_SIZE:g} to {LARGEST_SIZE:g} {target}")
     return scaled
-
-
-def check_size(value: float, unit: str) -> None:
-    """Refuse a value with a unit that is too small or too large to be computed with; zero is left to its range.
-
-    Raises
-    ------
-    NotAValue
-
-    Examples
-    --------
-    >>> check_size(1e300, "Pa")
-    Traceback (most recent call last):
-    comparisons.problem.units.NotAValue: has a size outside 1e-20 to 1e+20 Pa
-    """
-    if value and not 1.0 / LARGEST_SIZE <= abs(value) <= LARGEST_SIZE:
-        raise NotAValue(f"has a size outside {1.0 / LARGEST_SIZE:g} to {LARGEST_SIZE:g} {unit}")
 
 
 def si_text(value: float, u_num: float, unit: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from copy import deepcopy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
 from pathlib import Path
@@ -15,7 +15,7 @@ import numpy as np
 
 from comparisons.data.validation import known_name, shown
 from comparisons.problem.kinds import KINDS, SECTIONS
-from comparisons.problem.problem import Problem
+from comparisons.problem.problem import BETWEEN, Problem
 from comparisons.problem.reading import document_of, problem_of
 from comparisons.problem.units import NUMBER
 
@@ -162,7 +162,7 @@ def problems_of(path: Path, variations: Sequence[Variation], name: str = "") -> 
         except ValueError as error:
             raise ValueError(f"{', '.join(texts)}: {error}" if texts else str(error)) from None
         parameters = {_column(problem, variation): problem[variation.name] for variation in variations}
-        yield problem.varied(name or path.name, texts, parameters)
+        yield replace(problem, name=BETWEEN.join([name or path.name, *texts]), parameters=parameters)
 
 
 def _change(section: dict[str, Any], variation: Variation, value: float | str) -> None:
@@ -172,13 +172,10 @@ def _change(section: dict[str, Any], variation: Variation, value: float | str) -
         section[name] = value
         return
     entries = section.get(name)
-    if not isinstance(entries, list):
-        raise ValueError(f"{shown(variation.name)}: {name} is no list of this file; leave out .{number}")
-    if not number.isdecimal() or not 1 <= int(number) <= len(entries):
-        raise ValueError(
-            f"{shown(variation.name)}: {name} has the entries {name}.1 to {name}.{len(entries)} in this file; "
-            "name one of these"
-        )
+    count = len(entries) if isinstance(entries, list) else 0
+    if not isinstance(entries, list) or number not in map(str, range(1, count + 1)):
+        form = f"a list with the entries {name}.1 to {name}.{count}" if count else f"no list; leave out .{number}"
+        raise ValueError(f"{shown(variation.name)}: {name} is {form} in this file")
     entries[int(number) - 1] = value
 
 

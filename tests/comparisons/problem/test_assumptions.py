@@ -15,6 +15,7 @@ from comparisons.description.forces import reference_force
 from comparisons.description.overview import overview
 from comparisons.description.strain_errors import Change, beyond, strain_change
 from comparisons.problem import Problem, Section
+from tests.comparisons.problem.strain_table import forces_of_a_ball
 
 #: A bead of glass on PDMS: w/(E* R) = 0.005.
 BEAD = Problem(
@@ -164,7 +165,7 @@ def test_the_limits_of_the_table():
 
 @pytest.mark.parametrize(("softness", "mu", "nu"), [(5e-3, 2.0, 0.5), (4e-2, 0.6, 0.45), (2e-3, 0.05, 0.3)])
 def test_rows_and_values_between_them_are_what_both_references_give(softness, mu, nu):
-    finite, small = strain_errors.forces_of_a_ball(softness, mu, nu)
+    finite, small = forces_of_a_ball(softness, mu, nu)
     change = strain_change(softness, mu, nu)
     bound = change.bound + (finite.u_num + small.u_num) / small.value
     assert finite.value / small.value - 1.0 == pytest.approx(change.value, abs=bound)

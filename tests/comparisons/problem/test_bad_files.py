@@ -41,9 +41,6 @@ def layers(moduli, ratios, thicknesses):
     return f'[solid]\nkind = "layers"\nE = {moduli}\nnu = {ratios}\nthickness = {thicknesses}\n\n'
 
 
-#: A modulus in millipascals, which were to be megapascals.
-MILLI = ('"2 mPa"', "0.9")
-
 #: Values of keys of GOOD that are refused, and what the sentence says besides line and key.
 BAD_VALUES = [
     *[(3, "E0", value, "has no unit") for value in ('"2"', '"[1, 2]"', '"2 GPa +- 0.1"')],
@@ -56,8 +53,8 @@ BAD_VALUES = [
     *[(3, "E0", f'"2 GPa +- {size}"', "deviation") for size in ("0 %", "0 GPa", "-5 %", "0.1 +- 1 GPa")],
     *[(3, "E0", f'"{text}"', "outside its range") for text in ("2 GPa +- 3 GPa", "[0, 2] GPa", "-2 GPa")],
     (3, "E0", '"[2, 1] GPa"', "interval"),
-    *[(3, "E0", value, "modulus of at least") for value in ("0", "true", "[1.0, 2.0]", "nan", f"1{'0' * 400}")],
-    *[(3, "E0", value, "outside its range; it must be a modulus of at least 1 Pa (mega") for value in MILLI],
+    *[(3, "E0", value, "positive modulus") for value in ("0", "true", "[1.0, 2.0]", "nan", f"1{'0' * 400}")],
+    *[(3, "E0", value, "MPa megapascal") for value in ('"2 mPa"', '"2 mPa +- 5 %"')],
     *[(3, "E0", value, "finite") for value in ("inf", '"1e999 GPa"')],
     (3, "E0", f"1{'0' * 5000}", "digits"),
     (5, "k", '"0.4"', "plain number"),
@@ -112,7 +109,7 @@ BAD_TABLES = [
     (MODULUS, "z,E\n0,1\n1,nan\n", ["line 3", "E = 'nan'"]),
     (MODULUS, "z,E\n0,1\n1,soft\n", ["line 3", "E = 'soft'"]),
     (MODULUS, "z,E\n0,1\n1,-2\n", ["line 3", "E = '-2'"]),
-    (MODULUS, "z,E\n0,1\n1,1e300\n", ["line 3", "E = '1e300'", "1e+20 Pa"]),
+    (MODULUS, "z,E\n0,1\n1,1e30\n", ["line 3", "E = '1e30'", "1e+20 Pa"]),
     (MODULUS, "z,E\n0,1\n1\n", ["line 3", "1 values for 2 columns"]),
     (MODULUS, "z,Emod\n0,1\n", ["line 1", "'Emod'"]),
     (MODULUS, "z\n0\n", ["line 1", "column E is missing"]),

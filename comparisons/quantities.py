@@ -1,18 +1,23 @@
-"""The classes of a row of the registry: scalar quantities, and curves with their two axes."""
+"""The registry of quantities: numbers, curves and fields, the rows of `comparisons/data/quantities.toml`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from comparisons.model import HasCurve, HasProfile, Model, NotApplicable, Result
 
 if TYPE_CHECKING:
     from comparisons.problem.problem import Problem
 
-__all__ = ["Axis", "CurveQuantity", "Kind", "Points", "Quantity", "ScalarQuantity"]
+__all__ = ["ALL_QUANTITIES", "CURVES", "QUANTITIES", "CurveQuantity", "Kind", "Points", "ScalarQuantity", "title_of"]
+
+_TABLES = tomllib.loads(files("comparisons.data").joinpath("quantities.toml").read_text(encoding="utf-8"))
 
 
 class Kind(StrEnum):
@@ -23,25 +28,28 @@ class Kind(StrEnum):
     FIELD = "field"
 
 
-#: The scales of `fscm.Problem.units`: unit of a dimensionless number, and unit in SI.
-_UNITS = {
-    "displacement": ("z0", "m"),
-    "gap": ("z0", "m"),
-    "radius": ("(Q z0)^(1/n)", "m"),
-    "load": ("pi Q^(2/n) dgamma z0^(2/n-1)", "N"),
-    "energy": ("pi Q^(2/n) dgamma z0^(2/n)", "J"),
-    "traction": ("dgamma / z0", "Pa"),
-    "number": ("1", "1"),
-}
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """A scale of `fscm.Problem.units`.
 
-#: Sign rule of a scalar by its scale, and that rule as a test of a value.
-_SIGNS: dict[str, tuple[str, Callable[[float], bool]]] = {
-    "load": ("positive, though the load is a tension", lambda value: value > 0.0),
-    "energy": ("never negative", lambda value: value >= 0.0),
-    "displacement": ("positive towards the half-space, zero where the undeformed gap at r = 0 is zero", lambda _: True),
-    "gap": ("zero at the equilibrium distance of two flat surfaces, above -1", lambda value: value > -1.0),
-    "number": ("positive", lambda value: value > 0.0),
-}
+    Attributes
+    ----------
+    unit, si_unit : str
+        Of a dimensionless number, and in SI.
+    sign : str
+        The positive direction of a scalar, and the place of zero.
+    lowest : float
+        The smallest value of a scalar; it is not admitted itself if `above` is true.
+    """
+
+    unit: str
+    si_unit: str
+    sign: str = ""
+    lowest: float = -math.inf
+    above: bool = False
+
+
+_SCALES = {name: Scale(**row) for name, row in _TABLES["scale"].items()}
 
 #: Scales of the columns that a curve may have.
 _COLUMNS = {"central_gap": "gap", "edge_radius": "radius", "contact_radius": "radius", "cohesive_radius": "radius"}
@@ -71,30 +79,27 @@ class ScalarQuantity(Quantity):
     """
 
     scale: str
-
-    @property
-    def kind(self) -> Kind:
-        """Always a scalar."""
-        return Kind.SCALAR
+    kind: ClassVar[Kind] = Kind.SCALAR
 
     @property
     def unit(self) -> str:
         """The scale of the dimensionless value."""
-        return _UNITS[self.scale][0]
+        return _SCALES[self.scale].unit
 
     @property
     def si_unit(self) -> str:
         """The unit in SI."""
-        return _UNITS[self.scale][1]
+        return _SCALES[self.scale].si_unit
 
     @property
     def sign(self) -> str:
         """The positive direction, and the place of zero."""
-        return _SIGNS[self.scale][0]
+        return _SCALES[self.scale].sign
 
     def admits(self, value: float) -> bool:
         """Whether a value keeps the sign rule."""
-        return _SIGNS[self.scale][1](value)
+        scale = _SCALES[self.scale]
+        return value > scale.lowest if scale.above else value >= scale.lowest
 
     @property
     def relative(self) -> bool:
@@ -129,8 +134,7 @@ class Axis:
         The dimensionless variable in Unicode, and as mathematics of Matplotlib, which begins with the symbol.
     sign : str
         Meaning of a negative value, where it needs one.
-    system : int
-        0 for a dimensionless axis, 1 for SI.
+    is_in_si : bool
     """
 
     name: str
@@ -140,18 +144,18 @@ class Axis:
     formula: str
     mathtext: str
     sign: str = ""
-    system: int = 0
+    is_in_si: bool = False
 
     @property
     def unit(self) -> str:
         """The unit as in texts."""
-        return _UNITS[self.scale][self.system]
+        return _SCALES[self.scale].si_unit if self.is_in_si else _SCALES[self.scale].unit
 
     @property
     def in_si(self) -> Axis:
         """The same axis in SI."""
         symbol = self.mathtext.partition(" ")[0]
-        return replace(self, mathtext=rf"{symbol}\ \mathrm{{({_UNITS[self.scale][1]})}}", system=1)
+        return replace(self, mathtext=rf"{symbol}\ \mathrm{{({_SCALES[self.scale].si_unit})}}", is_in_si=True)
 
     @property
     def label(self) -> str:
@@ -226,7 +230,7 @@ class CurveQuantity(Quantity):
     def columns_in_si(self) -> dict[str, str]:
         """The columns of points in SI, with their units: ``displacement [m]``."""
         scales = {self.x.name: self.x.scale, self.y.name: self.y.scale, **_COLUMNS}
-        return {name: f"{name} [{_UNITS[scale][1]}]" for name, scale in scales.items()}
+        return {name: f"{name} [{_SCALES[scale].si_unit}]" for name, scale in scales.items()}
 
     def in_units(self, points: Points, units: Mapping[str, float]) -> Points:
         """Return dimensionless points in the units of a problem."""
@@ -264,3 +268,32 @@ class CurveQuantity(Quantity):
             x, y, u_distance = model.pull_off_profile(problem).shown(self.y.name)
             columns = {}
         return Points(list(map(float, x)), list(map(float, y)), float(u_distance), columns)
+
+
+_AXES = {name: Axis(name, **row) for name, row in _TABLES["axis"].items()}
+
+#: Every scalar, by name.
+QUANTITIES = {name: ScalarQuantity(name, **row) for name, row in _TABLES["scalar"].items()}
+
+
+def _curve(name: str, x: str, y: str, kind: str, **texts: str) -> CurveQuantity:
+    return CurveQuantity(name, kind=Kind(kind), x=_AXES[x], y=_AXES[y], **texts)
+
+
+#: Curves and fields, by name.
+CURVES = {name: _curve(name, **row) for name, row in _TABLES["curve"].items()}
+
+#: Every scalar and every curve, by name.
+ALL_QUANTITIES: dict[str, ScalarQuantity | CurveQuantity] = {**QUANTITIES, **CURVES}
+
+
+def title_of(quantity: str) -> str:
+    """Return the name of a quantity in a sentence; one that is not in the registry keeps its words.
+
+    Examples
+    --------
+    >>> title_of("pull_off_force"), title_of("force_curve"), title_of("work_of_adhesion")
+    ('pull-off force', 'force-displacement curve', 'work of adhesion')
+    """
+    row = ALL_QUANTITIES.get(quantity)
+    return row.title if row else quantity.replace("_", " ")
