@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from comparisons.data.validation import known_name, shown
 from comparisons.problem import Problem
-from comparisons.problem.kinds import KINDS, SECTIONS, limits_of
+from comparisons.problem.kinds import KINDS, SECTIONS
 from comparisons.problem.uncertain import Uncertainty
 
 __all__ = ["Key", "changed", "free_keys", "uncertain_keys"]
@@ -104,17 +103,18 @@ def _key(problem: Problem, name: str) -> Key:
     where = f"--free {shown(name)}"
     known_name("section", section, SECTIONS, where)
     of_problem = getattr(problem, section)
-    forms: Mapping[str, Any] = KINDS[section][of_problem.kind].keys
+    forms = KINDS[section][of_problem.kind].keys
     known_name("key", key, [name for name in forms if name in of_problem.values], where)
     start = problem[name]
     if not isinstance(start, float | int):
         raise ValueError(f"{where}: it is no single number of the file; a fit changes numbers")
-    limits = limits_of(forms[key])
+    form = forms[key]
+    limits = form.low, form.high
     prior = of_problem.uncertain.get(key)
     if prior is not None and prior.is_interval:
         limits = prior.limits(start)
-    logarithmic = start > 0.0 and math.isinf(limits_of(forms[key])[1])
-    return Key(name, forms[key].get("unit", "1"), float(start), logarithmic, limits, prior)
+    logarithmic = start > 0.0 and math.isinf(form.high)
+    return Key(name, form.unit or "1", float(start), logarithmic, limits, prior)
 
 
 def changed(problem: Problem, keys: Sequence[Key], numbers: Mapping[str, float]) -> Problem:
