@@ -36,8 +36,6 @@ def column(table: str, name: str) -> Column | None:
     Column(unit='1', description='generalised Tabor number (Eq. 29 of the paper)')
     >>> column("largest_kappa", "mu").description
     'generalised Tabor number at which abs(kappa) is largest'
-    >>> column("growth", "cpu_seconds").unit
-    's'
     >>> column("results", "depth_of_my_own") is None
     True
     """

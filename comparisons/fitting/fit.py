@@ -55,6 +55,9 @@ _REFUSED = 1e9
 #: A value is called undetermined where its standard deviation is a larger share of it.
 _UNDETERMINED = 0.5
 
+#: A contact is called wide where its radius is a larger share of that of the sphere: the force of a ball is 1 % less.
+_WIDE = 0.3
+
 #: Two values are called coupled where their correlation is larger.
 _COUPLED = 0.99
 
@@ -410,7 +413,7 @@ def _described(search: _Search, result: Any, model: str, count: int) -> Fit:
         zeros=zeros,
         residual=float(np.sqrt(np.mean(errors**2))),
         noise=search.noise,
-        remarks=_remarks(parameters, result),
+        remarks=[*_remarks(parameters, result), *_deep(problem, position)],
         position=position,
         load=load,
     )
@@ -442,3 +445,13 @@ def _remarks(parameters: dict[str, FittedValue], result: Any) -> list[str]:
             if abs(correlations.get(_plain(other), 0.0)) > _COUPLED:
                 remarks.append(f"{name} and {other} are coupled: only their combination is determined well")
     return remarks
+
+
+def _deep(problem: Problem, position: Array) -> list[str]:
+    """Say where a sphere is pressed in so deep that its paraboloid is another punch."""
+    if problem.punch.kind not in ("sphere", "ball"):
+        return []
+    share = math.sqrt(max(float(position.max()), 0.0) / problem.punch["R"])
+    if share < _WIDE:
+        return []
+    return [f"at the largest load the contact is about {share:.2g} R wide; the error of the assumptions is of pull-off"]

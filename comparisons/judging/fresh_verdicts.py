@@ -27,8 +27,8 @@ def judge_undrawn(undrawn: Iterable[Mapping[str, str]]) -> pd.DataFrame:
     --------
     >>> gate = {"gate": "A", "candidate": "mine", "quantity": "pull_off_force", "reason": "its domain is points"}
     >>> table = judge_undrawn([gate])
-    >>> table[["gate", "verdict"]].astype(str).values.tolist()
-    [['A-RANDOM', 'INCONCLUSIVE']]
+    >>> table["gate"].item(), str(table["verdict"].item())
+    ('A-RANDOM', 'INCONCLUSIVE')
     """
     verdict, names = Verdict.INCONCLUSIVE, ("candidate", "reason", "quantity")
     entries = ((f"{entry['gate']}{RANDOM}", *(entry[name] for name in names)) for entry in undrawn)

@@ -141,6 +141,8 @@ def newton(contact: Contact, y: Array, fixed: Control, varied: Control) -> State
         if not np.all(np.isfinite(step)):
             break
         y = y - _damping(contact, y, step) * step
+        if contact.gap(y).min() <= law.singular_gap:
+            break
     raise NotConverged(f"Newton stopped at a residual of {size:.1e} lengths of the law")
 
 

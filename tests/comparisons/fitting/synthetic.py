@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 import fscm
 from comparisons.fitting.record import Record
@@ -63,12 +64,22 @@ class Instrument:
             return loading * units, unloading * units, force * units[1, 0], begin * units[0, 0]
         posed = problem.build(fscm)
         force = fscm.solve(posed, "pull_off_force", "quick").value
-        path = fscm.trace(posed, "quick", max_load=self.largest * force, longest_step=0.1)
+        path = smooth(fscm.trace(posed, "quick", max_load=self.largest * force, longest_step=0.1))
         cycle = fscm.displacement_cycle(path)
         loading, unloading = cycle.loading, cycle.unloading[:, ::-1]
         left = unloading[0, np.argmin(unloading[1])] if cycle.jump_out is None else cycle.jump_out[0, 0]
         reach = 10.0 * problem.law["z0"] + 0.3 * (loading[0].max() - left)
         return loading, unloading, force, max(left - reach, path.displacement.min())
+
+
+def smooth(path):
+    """The path with points between its states by a spline: a polygon is a thousandth of the force inside the curve."""
+    curve = np.array([path.displacement, path.load])
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(*(np.diff(curve) / np.ptp(curve, axis=1)[:, None])))])
+    kept = np.concatenate([[True], np.diff(length) > 1e-9])
+    between = np.interp(np.arange(0.0, kept.sum() - 0.95, 0.1), np.arange(kept.sum()), length[kept])
+    displacement, load = CubicSpline(length[kept], curve[:, kept].T)(between).T
+    return replace(path, displacement=displacement, load=load, stable_under_displacement=np.ones(load.size, bool))
 
 
 def _at(x, curve):
