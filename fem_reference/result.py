@@ -47,6 +47,15 @@ class Solution:
     values: tuple[float, float, float]
     parts: Mapping[str, float] = field(default_factory=dict, hash=False)
 
+    def __float__(self) -> float:
+        return float(self.value)
+
+    def __str__(self) -> str:
+        digits = 17
+        if self.u_num > 0.0 and self.value:
+            digits = min(max(1 + math.floor(math.log10(abs(self.value))) - math.floor(math.log10(self.u_num)), 1), 17)
+        return f"{self.value:#.{digits}g} +- {self.u_num:.0e}"
+
     def with_part(self, name: str, error: float) -> Solution:
         """Return the solution with an error added to a part, and to the bound.
 

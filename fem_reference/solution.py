@@ -115,6 +115,10 @@ def solve_together(
     >>> found["jump_in_gap"]
     NoSuchEvent('the displacement rises all along the path: this solid is too stiff for jumps')
     """
+    if isinstance(quantities, str):
+        raise ValueError(f"quantities = {quantities!r} is one name: give several as a list, or call solve for one")
+    if not isinstance(problem, Problem):
+        raise ValueError(f"problem = {problem!r} is no Problem: write Problem(solid, punch, law)")
     rows = {name: quantity_named(name) for name in quantities}
     if not rows:
         raise ValueError(f"no quantity is named; choose at least one of {', '.join(TABLE)}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -109,6 +110,13 @@ class Solution:
     (True, True)
     >>> list(solution.parts), sum(solution.parts.values()) == solution.u_num
     (['mesh', 'tail', 'domain', 'rounding', 'law', 'kernel'], True)
+
+    It prints as value and bound, and is a number where one is asked:
+
+    >>> print(Solution(1.788481710, Parts(mesh=2e-9), size=9, iterations=3, residual=0.0, seconds=0.1))
+    1.788481710 +- 2e-09
+    >>> float(Solution(1.5, Parts(), size=9, iterations=3, residual=0.0, seconds=0.1))
+    1.5
     """
 
     value: float
@@ -122,6 +130,15 @@ class Solution:
     def u_num(self) -> float:
         """Bound on the error of the value: the sum of the parts."""
         return self.parts.total
+
+    def __float__(self) -> float:
+        return float(self.value)
+
+    def __str__(self) -> str:
+        digits = 17
+        if self.u_num > 0.0 and self.value:
+            digits = min(max(1 + math.floor(math.log10(abs(self.value))) - math.floor(math.log10(self.u_num)), 1), 17)
+        return f"{self.value:#.{digits}g} +- {self.u_num:.0e}"
 
     def times(self, unit: float) -> Solution:
         """The solution multiplied by the unit of a dimensionless value.

@@ -63,8 +63,17 @@ def solve(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> So
     >>> round(solve(Problem(pad, PowerPunch(n=2, Q=100e-9), law), "pull_off_force").value * 1e9, 6)
     27.066203
     """
-    unit = problem.units[quantity_named(quantity).kind]
+    unit = _posed(problem).units[quantity_named(quantity).kind]
     return _model(problem.dimensionless, accuracy).solution(quantity).times(unit)
+
+
+def _posed(problem: object) -> Problem:
+    """The argument, if it is a problem."""
+    if not isinstance(problem, Problem):
+        raise ValueError(
+            f"problem = {problem!r} is no Problem: write Problem(n=2, k=0.4, mu=1), or a solid, punch and law"
+        )
+    return problem
 
 
 @one_thread()
@@ -97,7 +106,9 @@ def solve_together(
     >>> round(found["pull_off_force"].value, 8), type(found["jump_in_gap"]).__name__
     (1.78748293, 'NoSuchEvent')
     """
-    units = {name: problem.units[quantity_named(name).kind] for name in quantities}
+    if isinstance(quantities, str):
+        raise ValueError(f"quantities = {quantities!r} is one name: give several as a list, or call solve for one")
+    units = {name: _posed(problem).units[quantity_named(name).kind] for name in quantities}
     model = _model(problem.dimensionless, accuracy)
     solutions: dict[str, Solution | NoSuchEvent] = {}
     for name, unit in units.items():
