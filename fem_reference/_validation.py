@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from numbers import Real
 
 __all__ = ["check_positive"]
 
 
 def check_positive(name: str, value: float) -> None:
     """Raise ValueError with the value and the admissible range unless a number is positive and finite."""
-    if not (math.isfinite(value) and value > 0):
-        raise ValueError(f"{name} = {value} is outside (0, infinity)")
+    is_number = isinstance(value, Real) and not isinstance(value, bool)
+    if not (is_number and math.isfinite(value) and value > 0):
+        shown = value if is_number else repr(value)
+        raise ValueError(f"{name} = {shown} is outside (0, infinity): it is a real number")

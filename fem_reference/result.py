@@ -5,8 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 from fem_reference._contact.uncondensed import UncondensedValue
+from fem_reference._presentation import with_bound
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
 
 __all__ = ["Solution"]
 
@@ -51,10 +56,13 @@ class Solution:
         return float(self.value)
 
     def __str__(self) -> str:
-        digits = 17
-        if self.u_num > 0.0 and self.value:
-            digits = min(max(1 + math.floor(math.log10(abs(self.value))) - math.floor(math.log10(self.u_num)), 1), 17)
-        return f"{self.value:#.{digits}g} +- {self.u_num:.0e}"
+        return with_bound(self.value, self.u_num)
+
+    def as_ufloat(self) -> UFloat:
+        """Return value and bound as a number of the package `uncertainties`, which propagates the bound."""
+        from uncertainties import ufloat
+
+        return ufloat(self.value, self.u_num)
 
     def with_part(self, name: str, error: float) -> Solution:
         """Return the solution with an error added to a part, and to the bound.

@@ -6,6 +6,7 @@ The path is that of the condensed system.  An event and the surface there are th
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from fem_reference._contact.path import Point
 from fem_reference._contact.turning import turning_slowly
 from fem_reference._contact.uncondensed import uncondensed_events
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._presentation import Columns
 from fem_reference._threads import one_thread
 from fem_reference._typing import Array
 from fem_reference.problem import Problem
@@ -23,7 +25,7 @@ __all__ = ["EVENTS", "EquilibriumPath", "RadialField", "event_state", "profile",
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class EquilibriumPath:
+class EquilibriumPath(Columns):
     """The equilibrium path, one entry a point.
 
     Attributes
@@ -38,6 +40,8 @@ class EquilibriumPath:
         Radius of the largest tension; nan while the central gap is above the gap of largest tension.
     """
 
+    _drawn: ClassVar[tuple[str, ...]] = ("displacement", "load")
+
     displacement: Array
     load: Array
     central_gap: Array
@@ -45,7 +49,7 @@ class EquilibriumPath:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class RadialField:
+class RadialField(Columns):
     """The surface at a point of the path.
 
     Attributes
@@ -57,6 +61,8 @@ class RadialField:
     displacement, load : float
         Approach delta and load P (tension negative) of the point.
     """
+
+    _drawn: ClassVar[tuple[str, ...]] = ("radius", "gap", "pressure")
 
     radius: Array
     gap: Array

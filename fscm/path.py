@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import TypeAlias
+from typing import ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from fscm._bounds import EventErrors
 from fscm._curve_density import turning_slowly
 from fscm._equilibrium import State
 from fscm._meshes import Accuracy, Meshes
+from fscm._presentation import Columns
 from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm._validation import real_number
@@ -39,7 +40,7 @@ _LARGEST_TURN = 5.0
 
 
 @dataclass(frozen=True)
-class EquilibriumPath:
+class EquilibriumPath(Columns):
     """The equilibrium path from far separation into contact; all arrays have shape (m,).
 
     In the units of the problem.  Folds of load and displacement and the zero of the load are among the points.
@@ -67,6 +68,8 @@ class EquilibriumPath:
     >>> bool(abs(work - (path.energy[-1] - path.energy[0])) < 1e-2)
     True
     """
+
+    _drawn: ClassVar[tuple[str, ...]] = ("displacement", "load")
 
     central_gap: Array
     displacement: Array

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from fscm._equilibrium import State
+from fscm._presentation import with_bound
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
 
 __all__ = ["FLOOR", "SAFETY", "EventPair", "Parts", "Solution", "State", "solution_of"]
 
@@ -117,6 +121,8 @@ class Solution:
     1.788481710 +- 2e-09
     >>> float(Solution(1.5, Parts(), size=9, iterations=3, residual=0.0, seconds=0.1))
     1.5
+    >>> solution.as_ufloat().std_dev == solution.u_num
+    True
     """
 
     value: float
@@ -135,10 +141,13 @@ class Solution:
         return float(self.value)
 
     def __str__(self) -> str:
-        digits = 17
-        if self.u_num > 0.0 and self.value:
-            digits = min(max(1 + math.floor(math.log10(abs(self.value))) - math.floor(math.log10(self.u_num)), 1), 17)
-        return f"{self.value:#.{digits}g} +- {self.u_num:.0e}"
+        return with_bound(self.value, self.u_num)
+
+    def as_ufloat(self) -> UFloat:
+        """Return value and bound as a number of the package `uncertainties`, which propagates the bound."""
+        from uncertainties import ufloat
+
+        return ufloat(self.value, self.u_num)
 
     def times(self, unit: float) -> Solution:
         """The solution multiplied by the unit of a dimensionless value.

@@ -7,12 +7,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
+from typing import ClassVar
 
 from fscm import _events as events
 from fscm._arc_length import Point, parameter_of, rates_of
 from fscm._bounds import EventErrors
 from fscm._equilibrium import State
 from fscm._meshes import Accuracy, Meshes
+from fscm._presentation import Columns
 from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm._whole_path import path_by_any_mesh, path_end
@@ -44,7 +46,7 @@ _SPACING = 1e-4
 
 
 @dataclass(frozen=True)
-class RadialField:
+class RadialField(Columns):
     """Gap, pressure and deformation over the radius at one state; arrays of shape (m,), in the units of the problem.
 
     Examples
@@ -57,6 +59,8 @@ class RadialField:
     >>> bool(np.allclose(at_zero_load.gap, undeformed + at_zero_load.deformation))
     True
     """
+
+    _drawn: ClassVar[tuple[str, ...]] = ("radius", "gap", "pressure")
 
     radius: Array
     gap: Array

@@ -52,7 +52,7 @@ ALLOWED = {
 #: First layer to last: the modules and folders of each package.  A module imports from its own layer and those before.
 LAYERS = {
     "fscm": (
-        ("errors", "_typing", "_threads", "_validation", "_response_factor", "_smoothed_table"),
+        ("errors", "_typing", "_threads", "_validation", "_presentation", "_response_factor", "_smoothed_table"),
         ("laws", "tabulated_law", "punch", "custom_punch", "measured_punch"),
         ("solids", "layers", "tabulated_modulus", "custom_solid"),
         ("_units",),
@@ -79,7 +79,7 @@ LAYERS = {
         ("experiment", "states", "solver", "_event_adjoint", "_sensitivity"),
     ),
     "fem_reference": (
-        ("_typing", "_threads", "_validation", "errors"),
+        ("_typing", "_threads", "_validation", "_presentation", "errors"),
         (
             "modulus",
             "coating",

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from comparisons.numerics.number_text import case_text
+from comparisons.numerics.number_text import case_text, short
 from comparisons.problem import PARAMETERS
 
 __all__ = ["CASE", "DIMENSIONLESS", "Key", "Row", "none_if_nan"]
@@ -75,6 +75,15 @@ class Row:
     dimensionless_value: float | None = None
     dimensionless_u_num: float | None = None
     dimensionless_unit: str = ""
+
+    def __float__(self) -> float:
+        if self.value is None:
+            raise ValueError(f"{self.model} has no {self.quantity}: {self.reason}")
+        return self.value
+
+    def __str__(self) -> str:
+        value = self.reason if self.value is None else f"{short(self.value, self.u_num)} {self.unit}"
+        return f"{self.model}, {self.quantity}: {value}"
 
     @property
     def numbers(self) -> dict[str, Any]:

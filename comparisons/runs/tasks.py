@@ -116,6 +116,8 @@ def evaluate(model: str | Model, quantity: str, problem: Problem) -> Row:
     """
     if quantity not in ALL_QUANTITIES:
         raise ValueError(f"unknown quantity {quantity!r}; the quantities are {', '.join(ALL_QUANTITIES)}")
+    if not isinstance(problem, Problem):
+        raise ValueError(f"problem = {problem!r} is no Problem: write Problem.dimensionless(n, k, mu), or Problem.load")
     if isinstance(model, str):
         # Some need Poisson's ratio.
         model = create(model, problem.nu)

@@ -1,9 +1,14 @@
 """What both solvers say of a result, and of an argument that is none."""
 
+from fractions import Fraction
 from math import isclose
 
+import numpy as np
+import pandas as pd
 import pytest
+from matplotlib.figure import Figure
 
+import comparisons
 import fem_reference
 import fscm
 
@@ -28,3 +33,49 @@ def test_a_wrong_argument_is_one_sentence(solver, problem):
         solver.solve_together(problem, "pull_off_force")
     with pytest.raises(ValueError, match="is no Problem"):
         solver.solve((2, 0.4, 1), "pull_off_force")
+
+
+@pytest.mark.parametrize(("solver", "problem"), [(fscm, FSCM), (fem_reference, FEM)], ids=["fscm", "fem"])
+def test_paths_and_surfaces_are_tables_and_pictures(solver, problem):
+    path, surface = solver.trace(problem, "quick"), solver.profile(problem, "pull_off", "quick")
+    frame = path.to_frame()
+    assert {"displacement", "load", "central_gap", "edge_radius"} <= {*frame}
+    assert len(frame) == len(path.load)
+    axes = Figure().add_subplot()
+    (line,) = path.plot(axes).lines
+    assert line.get_ydata().min() == path.load.min()
+    assert surface.to_frame()["gap"].equals(pd.Series(surface.gap, name="gap"))
+    drawn = {line.get_label(): line.get_ydata().min() for line in surface.plot(Figure().add_subplot()).lines}
+    assert drawn == {"gap": surface.gap.min(), "pressure": surface.pressure.min()}
+
+
+def test_an_uncertain_number_propagates_the_bound():
+    solution = fscm.solve(FSCM, "pull_off_force", "quick")
+    doubled = 2.0 * solution.as_ufloat()
+    assert (doubled.nominal_value, doubled.std_dev) == (2.0 * solution.value, 2.0 * solution.u_num)
+
+
+@pytest.mark.parametrize("number", ["50", np.ma.masked, np.array([1.0, 2.0]), None, True, 1j], ids=repr)
+def test_what_is_no_real_number_is_named(number):
+    with pytest.raises(ValueError, match="modulus E"):
+        fem_reference.Homogeneous(number, 0.3)
+    with pytest.raises(ValueError, match="Tabor number"):
+        fscm.Problem(2, 0.4, number)
+
+
+def test_a_fraction_is_a_real_number():
+    number = fscm.Problem(Fraction(2), Fraction(2, 5), 1)
+    assert fscm.solve(number, "pull_off_force", "quick").value == fscm.solve(FSCM, "pull_off_force", "quick").value
+    solid = fem_reference.Homogeneous(Fraction(50), 0.3)
+    exact = fem_reference.solve(fem_reference.Problem(solid, FEM.punch, FEM.law), "pull_off_force", "quick")
+    assert exact.value == fem_reference.solve(FEM, "pull_off_force", "quick").value
+
+
+def test_a_row_is_a_number_with_its_unit():
+    problem = comparisons.Problem.dimensionless(n=2, k=0.4, mu=1)
+    assert float(comparisons.evaluate("jkr", "pull_off_force", problem)) == 1.7
+    assert "1.7" in str(comparisons.evaluate("jkr", "pull_off_force", problem))
+    with pytest.raises(ValueError, match="jkr has no jump_in_gap"):
+        float(comparisons.evaluate("jkr", "jump_in_gap", problem))
+    with pytest.raises(ValueError, match="is no Problem"):
+        comparisons.evaluate("jkr", "pull_off_force", (2, 0.4, 1))

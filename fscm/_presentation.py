@@ -1,0 +1,55 @@
+"""Numbers with bounds as text, paths and surfaces as tables and pictures."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+
+__all__ = ["Columns", "with_bound"]
+
+# Significant digits of a number without a bound: all of them.
+_ALL_DIGITS = 17
+
+
+def with_bound(value: float, u_num: float) -> str:
+    """A value down to the first digit of its bound, and the bound."""
+    digits = _ALL_DIGITS
+    if u_num > 0.0 and value:
+        digits = 1 + math.floor(math.log10(abs(value))) - math.floor(math.log10(u_num))
+    return f"{value:#.{min(max(digits, 1), _ALL_DIGITS)}g} +- {u_num:.0e}"
+
+
+class Columns:
+    """A dataclass whose arrays have one length: the columns of a table."""
+
+    __slots__ = ()
+    # Columns of the picture: over the first one, one plot of each other.
+    _drawn: ClassVar[tuple[str, ...]] = ()
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return the arrays as columns, one row a point, in the units of the problem."""
+        import pandas as pd
+
+        arrays: dict[str, Any] = {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
+        return pd.DataFrame({name: array for name, array in arrays.items() if isinstance(array, np.ndarray)})
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draw into axes of matplotlib, new ones by default, and return them."""
+        if axes is None:
+            from matplotlib import pyplot
+
+            axes = pyplot.subplots(layout="constrained")[1]
+        over, *names = self._drawn
+        for name in names:
+            axes.plot(getattr(self, over), getattr(self, name), label=name.replace("_", " "))
+        axes.set(xlabel=over.replace("_", " "), ylabel=names[0].replace("_", " ") if len(names) == 1 else "")
+        if len(names) > 1:
+            axes.legend()
+        return axes
