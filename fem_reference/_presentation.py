@@ -27,11 +27,13 @@ def with_bound(value: float, u_num: float) -> str:
 
 
 class Columns:
-    """A dataclass whose arrays have one length: the columns of a table."""
+    """A dataclass whose arrays have one length: the columns of a table, and a picture of one over another."""
 
     __slots__ = ()
-    # Columns of the picture: over the first one, one plot of each other.
-    _drawn: ClassVar[tuple[str, ...]] = ()
+    _over: ClassVar[str]
+    _drawn: ClassVar[str]
+    # Points whose drawn size is a smaller share of the largest are left out at the end of the picture.
+    _least_share: ClassVar[float] = 0.0
 
     def to_frame(self) -> pd.DataFrame:
         """Return the arrays as columns, one row a point, in the units of the problem."""
@@ -41,15 +43,17 @@ class Columns:
         return pd.DataFrame({name: array for name, array in arrays.items() if isinstance(array, np.ndarray)})
 
     def plot(self, axes: Axes | None = None) -> Axes:
-        """Draw into axes of matplotlib, new ones by default, and return them."""
+        """Draw into axes of matplotlib, new ones by default, and return them.
+
+        The load of a path over its displacement; the pressure of a surface over the radius, out to where it has fallen
+        to a thousandth.
+        """
         if axes is None:
             from matplotlib import pyplot
 
             axes = pyplot.subplots(layout="constrained")[1]
-        over, *names = self._drawn
-        for name in names:
-            axes.plot(getattr(self, over), getattr(self, name), label=name.replace("_", " "))
-        axes.set(xlabel=over.replace("_", " "), ylabel=names[0].replace("_", " ") if len(names) == 1 else "")
-        if len(names) > 1:
-            axes.legend()
+        x, y = getattr(self, self._over), getattr(self, self._drawn)
+        end = int(np.flatnonzero(np.abs(y) >= self._least_share * np.abs(y).max())[-1]) + 1
+        axes.plot(x[:end], y[:end])
+        axes.set(xlabel=self._over.replace("_", " "), ylabel=self._drawn)
         return axes

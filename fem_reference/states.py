@@ -6,7 +6,6 @@ The path is that of the condensed system.  An event and the surface there are th
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -40,7 +39,7 @@ class EquilibriumPath(Columns):
         Radius of the largest tension; nan while the central gap is above the gap of largest tension.
     """
 
-    _drawn: ClassVar[tuple[str, ...]] = ("displacement", "load")
+    _over, _drawn = "displacement", "load"
 
     displacement: Array
     load: Array
@@ -62,7 +61,7 @@ class RadialField(Columns):
         Approach delta and load P (tension negative) of the point.
     """
 
-    _drawn: ClassVar[tuple[str, ...]] = ("radius", "gap", "pressure")
+    _over, _drawn, _least_share = "radius", "pressure", 1e-3
 
     radius: Array
     gap: Array

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import ClassVar, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,7 +69,7 @@ class EquilibriumPath(Columns):
     True
     """
 
-    _drawn: ClassVar[tuple[str, ...]] = ("displacement", "load")
+    _over, _drawn = "displacement", "load"
 
     central_gap: Array
     displacement: Array

@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import ClassVar
 
 from fscm import _events as events
 from fscm._arc_length import Point, parameter_of, rates_of
@@ -60,7 +59,7 @@ class RadialField(Columns):
     True
     """
 
-    _drawn: ClassVar[tuple[str, ...]] = ("radius", "gap", "pressure")
+    _over, _drawn, _least_share = "radius", "pressure", 1e-3
 
     radius: Array
     gap: Array

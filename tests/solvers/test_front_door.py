@@ -45,8 +45,9 @@ def test_paths_and_surfaces_are_tables_and_pictures(solver, problem):
     (line,) = path.plot(axes).lines
     assert line.get_ydata().min() == path.load.min()
     assert surface.to_frame()["gap"].equals(pd.Series(surface.gap, name="gap"))
-    drawn = {line.get_label(): line.get_ydata().min() for line in surface.plot(Figure().add_subplot()).lines}
-    assert drawn == {"gap": surface.gap.min(), "pressure": surface.pressure.min()}
+    (line,) = surface.plot(Figure().add_subplot()).lines
+    assert line.get_ydata().min() == surface.pressure.min()
+    assert 1e-3 <= abs(line.get_ydata()[-1]) / np.abs(surface.pressure).max() < 2e-2
 
 
 def test_an_uncertain_number_propagates_the_bound():
