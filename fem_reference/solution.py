@@ -12,6 +12,7 @@ from functools import partial
 
 from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
+from fem_reference._contact.events import JUMP_IN
 from fem_reference._contact.mesh_choice import MeshChoice, chosen, path_over_meshes
 from fem_reference._contact.mesh_lengths import scales
 from fem_reference._contact.path import edge_is_resolved
@@ -91,8 +92,8 @@ def solve_together(
         As for `solve`.
     quantities : iterable of str
         Of `QUANTITIES`, `LOSSES` and `CRITICAL_MODULUS`; all of `QUANTITIES` by default.  The mesh suits the first of
-        them that exists: in a solid that is no power law, others whose contact edge that mesh does not resolve get a
-        mesh of their own, as the critical modulus does.
+        them that exists, other than the jump into contact: in a solid that is no power law, others whose contact edge
+        that mesh does not resolve get a mesh of their own, as the critical modulus does.
 
     Returns
     -------
@@ -178,6 +179,8 @@ def _summed(problem: Problem, rows: Mapping[str, Quantity], accuracy: float | st
     single: dict[str, Quantity] = {}
     for name, row in rows.items():
         single |= {term: quantity_named(term) for term in row.parts} or {name: row}
+    # A jump into contact before there is an edge gets a path without contact, on which no other event is.
+    single = dict(sorted(single.items(), key=lambda item: item[1].events[0] == JUMP_IN))
     solved = _solved_together(problem, single, accuracy)
     sums = {name: _sum(solved[term] for term in row.parts or (name,)) for name, row in rows.items()}
     for name, solution in sums.items():

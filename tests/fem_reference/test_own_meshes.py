@@ -7,7 +7,17 @@ from types import SimpleNamespace
 import pytest
 
 import fem_reference.solution as solution_module
-from fem_reference import Exponential, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve, solve_together
+from fem_reference import (
+    Exponential,
+    LennardJones,
+    NotConverged,
+    OffsetPowerLaw,
+    PowerLaw,
+    PowerPunch,
+    Problem,
+    solve,
+    solve_together,
+)
 from fem_reference.quantities import TABLE
 from tests.fem_reference.solved_together import sphere_on
 
@@ -41,6 +51,17 @@ def test_a_quantity_whose_edge_is_not_resolved_or_that_is_missed_gets_its_own_me
 def test_one_mesh_serves_every_event_of_a_solid_that_scales(monkeypatch):
     scaling = replace(GRADED, solid=PowerLaw(1.0, 1.0, 0.4, 0.3))
     assert _own(scaling, {"jump_in": False, "jump_out": False}, monkeypatch=monkeypatch) == []
+
+
+def test_every_order_of_quantities_finds_the_events_after_a_jump_before_contact():
+    """The path of that jump ends before contact."""
+    offset = sphere_on(OffsetPowerLaw(0.91, 1.0, 0.4, 1.0, 0.3))
+    orders = ("jump_in_gap", FORCE), (FORCE, "jump_in_gap")
+    results = [solve_together(offset, names, "quick") for names in orders]
+    assert [tuple(together) for together in results] == list(orders)
+    assert [together[FORCE].value for together in results] == [solve(offset, FORCE, "quick").value] * 2
+    gap, other_gap = (together["jump_in_gap"] for together in results)
+    assert 0.0 < gap.value == pytest.approx(other_gap.value, abs=gap.u_num + other_gap.u_num)
 
 
 def test_the_bound_of_a_second_event_holds():
