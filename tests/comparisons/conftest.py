@@ -14,12 +14,14 @@ import numpy as np
 import pytest
 
 import comparisons
+from comparisons.cli.main import main
 from comparisons.judging.gates import gates_text
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.registry import MODELS
 from comparisons.runs import environment, record
 from comparisons.runs.cases import load_grids
 from comparisons.runs.environment import code_digest as code
+from tests.comparisons.grid_text import grid_text
 
 
 class Toy:
@@ -74,18 +76,8 @@ def toys(monkeypatch):
     return SimpleNamespace(names=list(VALUES))
 
 
-GRID = """
-[[grid]]
-id = "toys"
-title = "Four cases"
-tier = "quick"
-reference = "exact"
-models = ["ten-percent", "refuses"]
-quantities = ["pull_off_force"]
-n = [2]
-k = [0, 0.4]
-mu = [0.1, 1]
-"""
+#: Four cases.
+GRID = grid_text(["ten-percent", "refuses"], "exact", id="toys", tier="quick", n=[2], k=[0, 0.4], mu=[0.1, 1])
 
 
 GATES = """
@@ -138,6 +130,20 @@ def code_read_once():
         patch.setattr(environment, "code_digest", code_of)
         patch.setattr(record, "environment", of_record)
         yield
+
+
+@pytest.fixture
+def refused(capsys):
+    """A function that gives the program arguments which it refuses in one sentence with some words; returns that."""
+
+    def call(arguments, *words):
+        capsys.readouterr()
+        assert main([*map(str, arguments)]) == 2
+        out, err = capsys.readouterr()
+        assert (out, err.count("\n"), [word for word in words if word not in err]) == ("", 1, [])
+        return err
+
+    return call
 
 
 @pytest.fixture

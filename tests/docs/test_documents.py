@@ -61,10 +61,8 @@ def solved_once():
         yield
 
 
-#: Their finite elements take twenty seconds to half a minute.
-PAD_BY_ELEMENTS, LONG = "gecko_pad.py", "own_modulus.py"
-#: Closed forms of five shapes at many Tabor numbers.
-MODEL_CHOICE = "model_choice.py"
+#: They take twenty seconds and more.
+LONG = {"gecko_pad.py", "own_modulus.py", "model_choice.py"}
 
 #: The pad in the units of the finite elements, and its pull-off force (N) with its bound, which a heavy test computes.
 PAD = fem_reference.Problem(
@@ -81,36 +79,12 @@ def solved_pad(problem, quantity, accuracy):
     return PAD_FORCE
 
 
-def prints(name, folder, old="", new=""):
-    """What an example prints, in one of its texts changed."""
-    path = DOCS / "examples" / name
-    text = path.read_text(encoding="utf-8")
-    assert old in text
-    return printed_by(text.replace(old, new) if old else text, folder, path)
-
-
 @pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(path.name, marks=[pytest.mark.heavy] if path.name in (PAD_BY_ELEMENTS, LONG, MODEL_CHOICE) else [])
-        for path in EXAMPLES
-    ],
+    "path", [pytest.param(path, marks=[pytest.mark.heavy] * (path.name in LONG), id=path.name) for path in EXAMPLES]
 )
-def test_an_example_runs_and_prints_the_quoted_numbers(name, tmp_path):
-    printed = "\n".join(prints(name, tmp_path))
-    assert [text for text in QUOTED[name] if text not in printed] == []
-
-
-def test_the_examples_that_take_long_print_the_quoted_numbers_of_their_first_part(tmp_path, monkeypatch):
-    """The choice of a model for a paraboloid alone; the pad with the stored force."""
-    shapes = "SHAPES, GRADIENTS = (1, 1.5, 2, 3, 5), "
-    printed = prints(MODEL_CHOICE, tmp_path, shapes, shapes.replace("(1, 1.5, 2, 3, 5)", "(2,)"))
-    quoted = [line for line in QUOTED[MODEL_CHOICE] if line.startswith(("| n |", "| 2 |"))]
-    assert (len(quoted), len(QUOTED[MODEL_CHOICE])) == (8, 32)
-    assert [line for line in quoted if line not in printed] == []
-    monkeypatch.setattr(fem_reference, "solve", solved_pad)
-    printed = "\n".join(prints(PAD_BY_ELEMENTS, tmp_path))
-    assert [text for text in QUOTED[PAD_BY_ELEMENTS] if text not in printed] == []
+def test_an_example_runs_and_prints_the_quoted_numbers(path, tmp_path):
+    printed = "\n".join(printed_by(path.read_text(encoding="utf-8"), tmp_path, path))
+    assert [text for text in QUOTED[path.name] if text not in printed] == []
 
 
 @pytest.mark.heavy

@@ -85,23 +85,6 @@ def test_every_name_of_the_reference_has_a_text(api, reference):
     assert [name for module, _, name in objects if not getattr(import_module(module), name).__doc__] == []
 
 
-def test_every_page_is_in_one_table_of_contents():
-    text = (DOCS / "index.md").read_text(encoding="utf-8")
-    tables = "".join(re.findall(r"^```\{toctree\}\n(.*?)^```", text, re.M | re.S))
-    pages = {path.stem for path in DOCS.glob("*.md")} - {"index"}
-    pages |= {f"notebooks/{path.stem}" for path in (DOCS / "notebooks").glob("*.ipynb")}
-    generated = {f"_generated/{Path(name).stem}" for name in extension("repository_pages").pages()}
-    generated |= {"_generated/gallery/index", "_generated/api/index"}
-    assert sorted(re.findall(r"^[^:\n].*", tables, re.M)) == sorted(pages | generated)
-
-
-def test_links_of_the_pages_from_other_files_resolve():
-    pages = extension("repository_pages").pages()
-    for name, text in pages.items():
-        for link in re.findall(r"\]\(([^)#\s]+)", text):
-            assert "://" in link or (DOCS / "_generated" / link).resolve().exists() or link in pages, (name, link)
-
-
 def test_the_page_of_problem_files_has_a_table_of_every_kind():
     text = extension("kind_tables").with_tables((DOCS / "problem_files.md").read_text(encoding="utf-8"))
     for section, kinds in KINDS.items():

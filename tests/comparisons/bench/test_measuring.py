@@ -1,10 +1,6 @@
 """Measurements of tiny sizes, their processes, CPU time and memory; never a time of another machine."""
 
 import os
-import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +9,6 @@ import pytest
 from comparisons.bench import cold_starts, pull_off
 from comparisons.bench.measuring import ENDED, cpu_seconds, measured, peak_memory
 from comparisons.bench.part import Part
-from comparisons.bench.run import FORM
-from comparisons.runs.store import Store
 
 #: The pull-off force for n = 2, k = 0, mu = 1.
 FORCE = 1.67066478
@@ -87,29 +81,3 @@ def test_the_peak_of_the_memory_includes_what_is_free_again():
     large = np.ones(30_000_000)
     del large
     assert peak_memory() >= max(before, 240.0)
-
-
-def test_an_interrupted_run_keeps_what_is_finished_and_leaves_no_process(tmp_path):
-    command = [
-        sys.executable,
-        "-m",
-        "comparisons",
-        "bench",
-        "--only",
-        "work-precision",
-        "--out",
-        str(tmp_path),
-        "--quiet",
-    ]
-    # A group of its own, as a shell makes it: Ctrl-C goes to all its processes.
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, process_group=0)
-    log = tmp_path / "store.sqlite-wal"
-    while process.poll() is None and (not log.exists() or log.stat().st_size < 25_000):
-        time.sleep(0.05)
-    os.killpg(process.pid, signal.SIGINT)
-    # The end of the pipe: no process of the run is left that could write to it.
-    _, messages = process.communicate(timeout=120)
-    assert process.returncode == 130
-    assert f"--out {tmp_path}" in messages
-    with Store(tmp_path, FORM) as store:
-        assert 1 <= len(store.items) < 33

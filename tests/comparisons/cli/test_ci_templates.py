@@ -108,16 +108,21 @@ def test_nothing_is_installed_by_its_bare_name(job, tmp_path):
     assert "git+https://" in done.stderr
     done = shell(script, tmp_path, job["variables"] | {"FSCM_BENCH_PACKAGE": "git+https://a/b/c@v1"}, program.parent)
     assert done.stdout.splitlines()[0] == "-m pip install git+https://a/b/c@v1"
+    program = stub(tmp_path, "pip", 'echo "$@"')
+    install, folder, variables = of_new_model(tmp_path, "pip install")
+    done = shell(install, folder, variables, program.parent)
+    assert (done.returncode != 0, done.stdout) == (True, "")
+    done = shell(install, folder, {"FSCM_BENCH": "a.whl"}, program.parent)
+    assert done.stdout.splitlines() == ["install a.whl", "install fscm-bench[report] .[test]"]
+
+
+def of_new_model(tmp_path, words):
+    """The script with these words in the workflow of a new model, a folder, and the variables of the workflow."""
     assert main(["new-model", str(tmp_path / "my-model")]) == 0
     workflow = yaml.safe_load((tmp_path / "my-model" / ".github" / "workflows" / "judge.yml").read_text())
-    (install,) = [
-        ci_step["run"] for ci_step in workflow["jobs"]["judge"]["steps"] if "pip install" in ci_step.get("run", "")
-    ]
-    program = stub(tmp_path, "pip", 'echo "$@"')
-    done = shell(install, tmp_path, workflow["env"], program.parent)
-    assert (done.returncode != 0, done.stdout) == (True, "")
-    done = shell(install, tmp_path, {"FSCM_BENCH": "a.whl"}, program.parent)
-    assert done.stdout.splitlines() == ["install a.whl", "install fscm-bench[report] .[test]"]
+    scripts = [ci_step.get("run", "") for ci_step in workflow["jobs"]["judge"]["steps"]]
+    (script,) = [script for script in scripts if words in script]
+    return script, tmp_path, workflow["env"]
 
 
 def stub(tmp_path, name, script):
@@ -139,6 +144,8 @@ def test_the_job_ends_with_the_status_of_the_run(action, job, tmp_path, status):
     assert ("::error::inconclusive" in done.stdout) == (status == INCONCLUSIVE)
     variables = job["variables"] | {"FSCM_BENCH_MODEL": "a b"}
     assert shell("\n".join(job["script"]), tmp_path, variables, program.parent).returncode == status
+    done = shell(*of_new_model(tmp_path, "status=0"), program.parent)
+    assert (done.returncode, "::error::inconclusive" in done.stdout) == (status, status == INCONCLUSIVE)
     calls = (tmp_path / "calls.txt").read_text().splitlines()
     for call in calls:
         _parser(call.split()[:1]).parse_args(call.replace("my gates", "gates").split())
@@ -147,4 +154,5 @@ def test_the_job_ends_with_the_status_of_the_run(action, job, tmp_path, status):
         "check-model a",
         "check-model b",
         "run --tier quick --model a b --random 20 --seed 18 --out fscm-bench-results",
+        "run --model my-model --gates gates.toml --random 20 --seed 17 --out results",
     ]

@@ -29,7 +29,6 @@ def test_without_a_folder_it_has_the_commit_that_the_version_has(form, capsys):
     assert f"version {version}" in capsys.readouterr().out
 
 
-def test_a_changed_table_is_refused(folder, capsys):
+def test_a_changed_table_is_refused(folder, refused):
     (folder / "results.csv").write_text("model\n")
-    assert main(["cite", str(folder)]) == 2
-    assert "results.csv" in capsys.readouterr().err
+    refused(["cite", folder], "results.csv")

@@ -35,14 +35,11 @@ def swept(tmp_path_factory):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_refuses_a_device_in_one_sentence(command, swept, tmp_path, monkeypatch, capsys):
+def test_every_command_refuses_a_device_in_one_sentence(command, swept, tmp_path, monkeypatch, refused):
     monkeypatch.chdir(tmp_path)
     file = tmp_path / "input.toml"
     file.symlink_to("/dev/null")
-    assert main(command.replace("FILE", str(file)).replace("SWEPT", str(swept)).split()) == 2
-    error = capsys.readouterr().err
-    assert f"{file} is a device" in error
-    assert error.count("\n") == 1
+    refused(command.replace("FILE", str(file)).replace("SWEPT", str(swept)).split(), f"{file} is a device")
     assert not (tmp_path / "out").exists()
 
 

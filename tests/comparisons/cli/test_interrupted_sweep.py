@@ -111,16 +111,3 @@ def test_the_command_is_killed(grid, undisturbed, tmp_path, kills):
         stored, before = len(rows(tmp_path)), stored
         assert stored >= max(before, 1)
     complete(grid, tmp_path, undisturbed)
-
-
-def test_a_task_whose_process_ended_twice_is_computed_by_the_next_command(grid, undisturbed, tmp_path, monkeypatch):
-    def processes(function, items, jobs):
-        for number, item in enumerate(items):
-            yield item, None if number in (3, 0) else function(item)
-
-    with monkeypatch.context() as patch:
-        patch.setattr("comparisons.runs.workers.processes", processes)
-        assert sweep(grid, tmp_path) == 4
-    assert tables(tmp_path) != undisturbed
-    assert sweep(grid, tmp_path) == 0
-    assert tables(tmp_path) == undisturbed

@@ -102,14 +102,9 @@ def with_case(**changed):
         ([], "COMMAND"),
     ],
 )
-def test_wrong_input_gets_one_sentence_and_status_2(capsys, tmp_path, monkeypatch, arguments, word):
+def test_wrong_input_gets_one_sentence_and_status_2(refused, tmp_path, monkeypatch, arguments, word):
     monkeypatch.chdir(tmp_path)
-    assert main(arguments) == 2
-    captured = capsys.readouterr()
-    assert captured.out == ""
-    assert captured.err.startswith("fscm-bench: ")
-    assert captured.err.count("\n") == 1
-    assert word in captured.err
+    assert refused(arguments, word).startswith("fscm-bench: ")
     assert list(tmp_path.rglob("*.*")) == []
 
 

@@ -4,7 +4,6 @@ import os
 
 import pytest
 
-from comparisons.cli.main import main
 from comparisons.external import data_model
 from comparisons.external.data_model import DataModel
 from comparisons.model import Model
@@ -61,17 +60,13 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
         ({"header": "quantity,k,n,mu,value,u_num"}, "the first line must be"),
     ],
 )
-def test_what_is_wrong_is_refused_with_its_place(write_data, capsys, monkeypatch, wrong, sentence):
+def test_what_is_wrong_is_refused_with_its_place(write_data, refused, monkeypatch, wrong, sentence):
     folder = write_data(**wrong)
     built, real = [], data_model.Problem.dimensionless
     monkeypatch.setattr(
         data_model.Problem, "dimensionless", lambda *case, **numbers: built.append(case) or real(*case, **numbers)
     )
-    assert main(["solve", "--model", str(folder), *FORCE]) == 2
-    printed = capsys.readouterr()
-    assert sentence in printed.err
-    assert printed.err.count("\n") == 1
-    assert printed.out == ""
+    refused(["solve", "--model", folder, *FORCE], sentence)
     # A file of 1 kB must not cost a minute and 400 MB.
     assert len(built) <= 1 + len(ROWS)
 

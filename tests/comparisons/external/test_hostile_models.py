@@ -86,10 +86,9 @@ def test_one_that_allocates_without_bound_runs_into_its_limit(write_model, monke
 
 @pytest.mark.parametrize("limit", ["0", "inf", "much"])
 @pytest.mark.parametrize("name", ["FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"])
-def test_a_limit_that_is_none_is_wrong_input(write_model, monkeypatch, capsys, name, limit):
+def test_a_limit_that_is_none_is_wrong_input(write_model, monkeypatch, refused, name, limit):
     monkeypatch.setenv(name, limit)
-    assert main(["solve", "--model", write_model(), *FORCE]) == 2
-    assert name in capsys.readouterr().err
+    refused(["solve", "--model", write_model(), *FORCE], name)
 
 
 def test_what_it_starts_ends_with_it(write_model):
@@ -150,14 +149,10 @@ LOADED = "class Model: name = version = citation = domain = 'x'; evaluate = max;
         ("class Model:\n    def __init__(self):\n        raise ValueError('no such table')", "no such table"),
     ],
 )
-def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, capsys, text, sentence):
+def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, refused, text, sentence):
     (tmp_path / "stranger.py").write_text(text)
-    assert main(["solve", "--model", f"{tmp_path / 'stranger.py'}:Model", *FORCE]) == 2
-    printed = capsys.readouterr()
-    assert sentence in printed.err
-    assert "NotApplicable" not in printed.err
-    assert printed.err.count("\n") == 1
-    assert printed.out == ""
+    message = refused(["solve", "--model", f"{tmp_path / 'stranger.py'}:Model", *FORCE], sentence)
+    assert "NotApplicable" not in message
 
 
 def test_a_run_completes_the_others_and_its_files_are_its_own(write_model, few_cases, tmp_path, monkeypatch):

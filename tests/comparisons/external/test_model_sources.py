@@ -63,9 +63,8 @@ def test_the_installed_example_keeps_the_contract_is_listed_and_has_a_curve(inst
     assert -least == pytest.approx(row_of(model).value, rel=1e-3)
 
 
-def test_two_models_of_one_name_are_refused(data_source, capsys):
-    assert main(["run", "--model", FILE_SOURCE, data_source]) == 2
-    assert "two models have the name double-hertz" in capsys.readouterr().err
+def test_two_models_of_one_name_are_refused(data_source, refused):
+    refused(["run", "--model", FILE_SOURCE, data_source], "two models have the name double-hertz")
 
 
 def test_a_folder_and_an_installed_model_of_its_name_are_told_apart(
@@ -94,14 +93,13 @@ def test_a_bare_table_is_told_how_to_be_data(tmp_path, monkeypatch, mode, spec):
 
 
 @pytest.mark.parametrize("spec", ["", " \t", "./nothing", "nothing.py:Model", "model.py:2", "./model.py"])
-def test_what_names_no_model_is_refused_in_one_sentence(tmp_path, monkeypatch, capsys, spec):
+def test_what_names_no_model_is_refused_in_one_sentence(tmp_path, monkeypatch, refused, spec):
     """The working folder may hold predictions, which an empty path would name."""
     (tmp_path / "model.toml").touch()
     (tmp_path / "model.py").touch()
     monkeypatch.chdir(tmp_path)
     for command in (["run", "--model", spec], ["check-model", spec]):
-        assert main(command) == 2
-        assert capsys.readouterr().err.count("\n") == 1
+        refused(command)
 
 
 PROGRAM = ROOT / "tests" / "examples" / "program" / "jkr.sh"

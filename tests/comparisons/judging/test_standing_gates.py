@@ -7,7 +7,6 @@ row lost, a NaN.
 """
 
 import math
-import shlex
 from functools import cache
 from itertools import product
 from pathlib import Path
@@ -17,13 +16,10 @@ import pandas as pd
 import pytest
 
 from comparisons.baseline import BASELINE, drift, read_baseline
-from comparisons.cli.main import main
-from comparisons.cli.options import problem_of
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, gates_text, load_gates
 from comparisons.judging.judge import judge
 from comparisons.judging.selection import cases_of, key_of, relevant
-from comparisons.output.verdicts import command
 from comparisons.quantities import CURVES
 from comparisons.runs.case_columns import keys_in
 from comparisons.runs.cases import VERIFICATION, grids
@@ -240,31 +236,6 @@ def test_what_a_gate_of_the_full_tier_states_is_that_of_the_committed_agreement(
     assert gate.worst_measured == pytest.approx(table["en"][table["en"].abs().idxmax()], rel=0.05)
     # 1e-6 of the value is small enough for |E_n|, whose limits are in units of the bounds.
     assert gate.max_reference_uncertainty <= max(ROOM * u_reference.max(), 1e-6)
-
-
-def test_the_command_that_is_shown_computes_the_case_of_the_gate(monkeypatch):
-    """Of every gate of every tier, in the first and last case of each of its grids."""
-    called = []
-    for name in ("solve", "curve"):
-        monkeypatch.setattr(
-            f"comparisons.cli.commands.{name}.call", lambda args, name=name: called.append((name, args)) or 0
-        )
-    for gate, grid in product(EVERY, grids("full")):
-        cases = [
-            case
-            for case in grid.cases
-            if not case.name and gate.selects(grid, case) and gate.quantity in grid.quantities
-        ]
-        for case in {*cases[:1], *cases[-1:]}:
-            candidate = "jkr" if gate.candidate == GIVEN else gate.candidate
-            shown = pd.Series({"candidate": candidate, "quantity": gate.quantity, "nu": None, **case.parameters})
-            assert main(shlex.split(command(shown, {}))[1:]) == 0
-            name, args = called[-1]
-            assert name == ("curve" if gate.quantity in CURVES else "solve")
-            assert (args.model, args.quantity) == ([candidate] if name == "curve" else candidate, gate.quantity)
-            assert problem_of(args) == case
-    assert {args.quantity for name, args in called if name == "curve"} == set(CURVES)
-    assert any(args.nu is not None for _, args in called)
 
 
 def test_the_gate_for_given_models_judges_them_and_counts_what_they_leave_out():

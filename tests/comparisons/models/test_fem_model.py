@@ -22,16 +22,29 @@ PROBLEM = Problem.dimensionless(n=2, k=0.4, mu=0.5)
 GAP, PRESSURE = 2e-6, 1e-4
 
 
-def test_the_uncertainty_of_a_curve_is_the_distance_of_two_levels_and_its_points_are_of_the_finer(monkeypatch):
-    def trace(body, level):
-        load = np.linspace(-1.0, 2.0, 40) * {"quick": 1.01, "default": 1.0}[level]
-        return SimpleNamespace(displacement=np.linspace(0, 1, 40), load=load, central_gap=load, edge_radius=load)
+def test_curves_and_surfaces_are_in_units_of_the_problem_with_the_distance_of_two_meshes_as_their_bound(monkeypatch):
+    units, x = FiniteElements()._scaled(PROBLEM).units, np.linspace(0.0, 1.0, 60)
 
-    monkeypatch.setattr(fem_reference, "trace", trace)
-    curve = FiniteElements().curve(PROBLEM)
-    assert curve.load[0] * FiniteElements()._scaled(PROBLEM).units["load"] == pytest.approx(-1.0, rel=1e-12)
+    def of_level(body, accuracy):
+        scale = {"quick": 1.01, "default": 1.0}[accuracy]
+        return SimpleNamespace(
+            displacement=x * units["displacement"],
+            load=scale * (3.0 * x - 1.0) * units["load"],
+            central_gap=x,
+            edge_radius=x,
+            radius=3.0 * x * units["radius"],
+            pressure=-x * units["traction"],
+            gap=scale * 12.0 * x * units["gap"],
+        )
+
+    monkeypatch.setattr(fem_reference, "trace", of_level)
+    monkeypatch.setattr(fem_reference, "profile", of_level)
+    curve, surface = FiniteElements().curve(PROBLEM), FiniteElements().pull_off_profile(PROBLEM)
+    ends = curve.displacement[-1], curve.load[0], surface.radius[-1], surface.pressure[-1], surface.gap[-1]
+    assert ends == pytest.approx((1.0, -1.0, 3.0, -1.0, 12.0), rel=1e-13)
     coarse = curve.displacement, 1.01 * curve.load
     assert curve.u_distance == pytest.approx(mesh_difference(*coarse, curve.displacement, curve.load), rel=1e-9)
+    assert surface.u_gap_distance > 1e-3 > 1e-12 > surface.u_distance
 
 
 @pytest.mark.parametrize("quantity", fem_reference.QUANTITIES)
@@ -73,23 +86,6 @@ def test_the_critical_tabor_number_is_that_of_the_modulus_and_has_the_bound_of_i
     assert result.value + result.u_num == pytest.approx(tabor_number(11.4), rel=1e-14)
     # mu is ignored.
     assert FiniteElements().evaluate(PROBLEM.at({"mu": 1e-9}), "critical_tabor_number") == result
-
-
-def test_the_surface_is_in_the_units_of_the_problem_and_its_bounds_are_the_distance_of_two_levels(monkeypatch):
-    problem = PROBLEM.at({"mu": 0.6})
-    units, x = FiniteElements()._scaled(problem).units, np.linspace(0.0, 1.0, 60)
-
-    def profile(body, accuracy):
-        gap = 12.0 * x * {"quick": 1.01, "default": 1.0}[accuracy]
-        return SimpleNamespace(
-            radius=3.0 * x * units["radius"], pressure=-x * units["traction"], gap=gap * units["gap"]
-        )
-
-    monkeypatch.setattr(fem_reference, "profile", profile)
-    surface = FiniteElements().pull_off_profile(problem)
-    largest = surface.radius.max(), -surface.pressure.min(), surface.gap.max()
-    assert largest == pytest.approx((3.0, 1.0, 12.0), rel=1e-13)
-    assert surface.u_gap_distance > 1e-3
 
 
 @pytest.mark.heavy

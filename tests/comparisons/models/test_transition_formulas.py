@@ -52,13 +52,6 @@ def test_equations_10_and_12a_of_carpick_ogletree_and_salmeron(alpha: float) -> 
     assert value(FORMULAS[0], mu) == pytest.approx(7 / 4 - (x - 1) / (x + 1) / 4, rel=1e-13)
 
 
-@pytest.mark.parametrize("model", FORMULAS, ids=lambda model: model.name)
-def test_limits(model) -> None:
-    """DMT at a small Tabor number; JKR at a large one, of which alpha <= 1 / 1.02 leaves up to 1.1 %."""
-    assert value(model, 1e-6) == pytest.approx(2.0, rel=1e-5)
-    assert value(model, 1e4) == pytest.approx(1.5, rel=0.011)
-
-
 @pytest.mark.parametrize("mu", MU)
 def test_fits_are_near_maugis_dugdale(mu: float) -> None:
     """One wrong digit in the second place of a coefficient is 1 % and more: the exact model checks what was read.

@@ -82,7 +82,10 @@ def test_junit_has_an_error_where_no_gate_of_the_user_was_evaluated():
 @pytest.mark.parametrize(
     ("row", "words"),
     [
-        ({"nu": 0.25}, "solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 1 --nu 0.25"),
+        (
+            {"nu": 0.1 + 0.2},
+            "solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 1 --nu 0.30000000000000004",
+        ),
         ({"quantity": "pull_off_gap"}, "curve --model jkr --quantity pull_off_gap --n 2 --k 0.4 --mu 1"),
         ({"candidate": "mine"}, "solve --model 'my m/j.py:J' --quantity pull_off_force --n 2 --k 0.4 --mu 1"),
         (

@@ -8,52 +8,16 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.problem.variation import parse_variations, problems_of
+from tests.comparisons.conftest import GATES, with_entries
+from tests.comparisons.external.conftest import model_file
+from tests.comparisons.grid_text import PAD, grid_text
 
-PAD = """
-solid = {kind = "homogeneous", E = "2 MPa", nu = 0.4}
-punch = {kind = "sphere", R = "1 um"}
-law = {kind = "lennard-jones-9-3", work_of_adhesion = "50 mJ/m^2", z0 = "0.4 nm"}
-"""
-GRID = """
-[[grid]]
-id = "{id}"
-title = "Cases"
-reference = "bradley"
-models = ["jkr"]
-quantities = ["pull_off_force"]
-"""
-PADS = GRID.format(id="pads") + 'problem = "pad.toml"\nvary = { "solid.E" = ["1 MPa", "2 MPa", "30 MPa"] }\n'
-CASES = PADS + GRID.format(id="numbers") + "n = [2]\nk = [0]\nmu = [1]\n"
-
-GATE = """
-[[gate]]
-id = "PADS"
-requirement = "JKR has three quarters of the force of a rigid solid."
-quantity = "pull_off_force"
-candidate = "{candidate}"
-reference = "bradley"
-cases = {{ {cases} }}
-metric = "rel"
-lower = -0.2501
-upper = {upper}
-max_reference_uncertainty = 1e-6
-basis = "derived"
-grounds = "3/2 and 2 pi R w"
-min_cases = {least}
-tier = "quick"
-"""
+VARY = {"solid.E": ["1 MPa", "2 MPa", "30 MPa"]}
+PADS = grid_text(["jkr"], id="pads", problem="pad.toml", vary=VARY)
+CASES = PADS + grid_text(["jkr"], id="numbers", n=[2], k=[0], mu=[1])
+#: JKR has three quarters of the force of a rigid solid.
+GATE = with_entries(GATES, id="PADS", reference="bradley", lower=-0.2501)
 SOFT = '"solid.kind" = "homogeneous", "solid.E" = ["0.5 MPa", "20 MPa"]'
-
-#: A model that gives `{value}`.
-MODEL = """
-from comparisons import Result
-
-class Mine:
-    name, version, citation, domain = "mine", "1", "none", "everywhere"
-
-    def evaluate(self, problem, quantity):
-        return Result({value}, 0.0)
-"""
 #: The force of JKR for 1 um, in newtons.
 FORCE = 1.5 * math.pi * 1e-6 * 0.05
 
@@ -64,11 +28,11 @@ def run(tmp_path):
     (tmp_path / "cases.toml").write_text(CASES)
 
     def call(*options, cases=SOFT, upper=-0.2499, least=2, value=None):
-        gate = GATE.format(cases=cases, upper=upper, least=least, candidate="jkr" if value is None else "given")
-        (tmp_path / "gates.toml").write_text(gate)
+        candidate = "jkr" if value is None else "given"
+        entries = {"candidate": candidate, "cases": f"{{ {cases} }}", "upper": upper, "min_cases": least}
+        (tmp_path / "gates.toml").write_text(with_entries(GATE, **entries))
         if value is not None:
-            (tmp_path / "model.py").write_text(MODEL.format(value=value))
-            options += ("--model", f"{tmp_path / 'model.py'}:Mine")
+            options += ("--model", model_file(tmp_path, f"return Result({value}, 0.0)", "mine"))
         files = ["--cases", str(tmp_path / "cases.toml"), "--gates", str(tmp_path / "gates.toml")]
         return main(["run", *files, *options, "--jobs", "1", "--quiet", "--out", str(tmp_path / "out")])
 

@@ -15,19 +15,11 @@ from comparisons.runs.cases import load_grids
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.frames import frame
 from comparisons.runs.record import check_files, read_record
+from tests.comparisons.grid_text import grid_text
 from tests.comparisons.rows import row
 
-GRID = """
-[[grid]]
-id = "mine"
-title = "Toys"
-reference = "exact"
-models = ["ten-percent"]
-quantities = ["pull_off_force", "zero_load_displacement"]
-n = [2]
-k = [0, 0.4]
-mu = [0.1, 1]
-"""
+QUANTITIES = ["pull_off_force", "zero_load_displacement"]
+GRID = grid_text(["ten-percent"], "exact", QUANTITIES, n=[2], k=[0, 0.4], mu=[0.1, 1])
 
 
 def test_every_case_and_model_has_a_row(toys, tmp_path):
@@ -92,7 +84,7 @@ def test_a_reference_that_needs_no_poisson_ratio_is_the_one_of_a_case_with_it():
     rows = [
         row(model, quantity, k=0.0, mu=mu, nu=nu, value=value, u_num=0.0)
         for model, nu, value in (("fem", 0.25, 1.1), ("fscm", None, 1.0))
-        for quantity in ("pull_off_force", "zero_load_displacement")
+        for quantity in QUANTITIES
         for mu in (0.1, 1.0)
     ]
     table = comparison_table(frame(rows), load_grids(text + "nu = [0.25]", "quick"), None)
@@ -122,13 +114,10 @@ CASE = ["--n", "2", "--k", "0", "--mu", "1"]
         (["no-such-model", *CASE], "unknown model"),
     ],
 )
-def test_what_cannot_be_compared_is_one_sentence(tmp_path, capsys, arguments, named):
+def test_what_cannot_be_compared_is_one_sentence(tmp_path, refused, arguments, named):
     (tmp_path / "grid.toml").write_text(GRID.replace('"exact"', '"fscm"').replace('"ten-percent"', '"jkr"'))
     words = [str(tmp_path / "grid.toml") if word == "GRID" else word for word in arguments]
-    assert main(["compare", *words, "--out", str(tmp_path / "out")]) == 2
-    message = capsys.readouterr().err
-    assert named in message
-    assert message.count("\n") == 1
+    refused(["compare", *words, "--out", tmp_path / "out"], named)
     assert not (tmp_path / "out" / "store.sqlite").exists()
 
 

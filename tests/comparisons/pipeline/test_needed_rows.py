@@ -27,6 +27,9 @@ def test_a_run_of_models_has_the_rows_that_its_gates_need(small_grid, tmp_path):
     assert set(verdicts["REFUSES"]) == {"NOT-APPLICABLE", "ERROR"}
     with rows_in(tmp_path) as store:
         assert len(store.items) == 7
+    # A model that no gate names is in the tables of errors.
+    named = run("quick", HALF, ["ten-percent", "twelve-percent"], tmp_path / "named").tables.results
+    assert named["model"].value_counts().to_dict() == {"exact": 4, "twelve-percent": 4, "ten-percent": 2}
 
 
 def test_other_gates_compute_what_they_need_into_the_same_folder(small_grid, tmp_path, capsys):

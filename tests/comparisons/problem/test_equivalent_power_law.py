@@ -132,15 +132,3 @@ def test_a_power_law_has_no_equivalent(capsys):
         energy_spectrum(problem)
     assert main(["describe", str(problem.path), "--format", "json"]) == 0
     assert "equivalent_power_law" not in json.loads(capsys.readouterr().out)
-
-
-def test_describe_states_the_equivalent_and_its_error(coated, monkeypatch, capsys):
-    problem, law = coated
-    monkeypatch.setattr("comparisons.cli.commands.describe.equivalent_power_law", lambda *_: law)
-    assert main(["describe", str(problem.path)]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    assert "  equivalent power law E0 (z/c0)^k: E0 = 1.786 GPa, c0 = 8.061 nm, k = 0.4029, nu = 0.3" in lines
-    errors = next(number for number, line in enumerate(lines) if "errors of the closed forms" in line)
-    assert [row["model"] for row in law["closed_forms"]] == [line.split()[0] for line in lines[errors + 1 : -2]]
-    assert "none" in lines[-2]
-    assert "md-improved" in lines[-1]

@@ -7,6 +7,7 @@ import pytest
 from comparisons.pipeline.named_verdicts import named_verdicts
 
 from ..conftest import GATES, with_entries
+from ..grid_text import PAD, grid_text
 
 pytest_plugins = ["pytester"]
 
@@ -87,27 +88,11 @@ def test_an_ini_file_names_them(small_grid, pytester):
     pytester.runpytest_inprocess("-p", PLUGIN, "test_an_ini_file_names_them.py").assert_outcomes(passed=1)
 
 
-CASES = """
-[[grid]]
-id = "pads"
-title = "Pads"
-reference = "bradley"
-models = ["jkr"]
-quantities = ["pull_off_force"]
-problem = "pad.toml"
-vary = { "punch.R" = ["1 um", "2 um"] }
-"""
-PAD = """
-solid = {kind = "homogeneous", E = "2 MPa", nu = 0.4}
-punch = {kind = "sphere", R = "1 um"}
-law = {kind = "lennard-jones-9-3", work_of_adhesion = "50 mJ/m^2", z0 = "0.4 nm"}
-"""
-
-
 def test_problem_files_take_the_place_of_the_standing_cases(pytester):
     """In a process of its own, as of a user: closed forms need no other models."""
     entries = {"reference": "bradley", "cases": '{ "punch.R" = ["1 um", "2 um"] }', "min_cases": 2}
-    pytester.makefile(".toml", cases=CASES, pad=PAD, gates=gate("PADS", "jkr", -0.26, -0.24, **entries))
+    cases = grid_text(["jkr"], problem="pad.toml", vary={"punch.R": ["1 um", "2 um"]})
+    pytester.makefile(".toml", cases=cases, pad=PAD, gates=gate("PADS", "jkr", -0.26, -0.24, **entries))
     pytester.makeini("[pytest]\nfscm_bench_cases = cases.toml\n")
     options = ["--fscm-bench-gates=gates.toml", "--fscm-bench-model=jkr", "-rA"]
     result = pytester.runpytest_subprocess("-p", PLUGIN, *options)

@@ -6,17 +6,10 @@ import pytest
 
 from comparisons.problem import Problem
 from comparisons.runs.cases import grids, load_grids
+from tests.comparisons.grid_text import grid_text
 
 #: What a grid has besides its cases.
-REST = """
-[[grid]]
-id = "a"
-title = "A grid"
-tier = "quick"
-reference = "jkr"
-models = ["bradley"]
-quantities = ["pull_off_force"]
-"""
+REST = grid_text(["bradley"], "jkr", id="a", tier="quick")
 GRID = f"{REST}n = [2, 1]\nk = [0, 0.4]\nmu = [1, 0.5, 1.0]\n"
 
 
@@ -39,6 +32,8 @@ def test_a_list_of_cases_is_taken_as_it_is():
         (GRID.replace('"jkr"', '"jrk"'), "unknown model 'jrk'"),
         (GRID.replace('"pull_off_force"', '"pull_off"'), "unknown quantity 'pull_off'"),
         (GRID.replace("[1, 0.5, 1.0]", "[]"), "mu = []"),
+        (GRID.replace("[1, 0.5, 1.0]", f"[1{'0' * 400}]"), "mu must be a list of at least one number"),
+        (GRID.replace("2, 1]", "1, " * 2000 + "]").replace("1.0]", "1, " * 998 + "]"), "4000000 combinations"),
         (GRID.replace("[0, 0.4]", "[0, 1.4]"), "k = 1.4"),
         (GRID.replace("[[grid]]", "[[grids]]"), "unknown key 'grids'"),
         (GRID.replace("[[grid]]", "[grid"), "not TOML"),
@@ -53,6 +48,11 @@ def test_a_list_of_cases_is_taken_as_it_is():
 def test_wrong_grids_are_refused_with_the_key_and_the_value(text, named):
     with pytest.raises(ValueError, match=re.escape(named)):
         load_grids(text)
+
+
+def test_the_grids_of_a_sweep_have_no_tier():
+    with pytest.raises(ValueError, match="grid a: unknown key 'tier': the grids of a sweep have none"):
+        load_grids(GRID, tier="quick")
 
 
 def test_the_full_tier_holds_the_quick_one():
