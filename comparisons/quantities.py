@@ -130,8 +130,8 @@ class Axis:
         Of `fscm.Problem.units`.
     title : str
         Its name in a sentence.
-    formula, mathtext : str
-        The dimensionless variable in Unicode, and as mathematics of Matplotlib, which begins with the symbol.
+    formula : str
+        The variable with its unit in Unicode.
     sign : str
         Meaning of a negative value, where it needs one.
     is_in_si : bool
@@ -142,7 +142,6 @@ class Axis:
     scale: str
     title: str
     formula: str
-    mathtext: str
     sign: str = ""
     is_in_si: bool = False
 
@@ -154,23 +153,12 @@ class Axis:
     @property
     def in_si(self) -> Axis:
         """The same axis in SI."""
-        symbol = self.mathtext.partition(" ")[0]
-        return replace(self, mathtext=rf"{symbol}\ \mathrm{{({_SCALES[self.scale].si_unit})}}", is_in_si=True)
+        return replace(self, formula=f"{self.symbol} ({_SCALES[self.scale].si_unit})", is_in_si=True)
 
     @property
     def label(self) -> str:
-        """Label in Unicode."""
+        """Label in a plot."""
         return f"{self.title} {self.formula}"
-
-    @property
-    def figure_label(self) -> str:
-        """Label in a figure of Matplotlib."""
-        return f"{self.title} ${self.mathtext}$"
-
-    @property
-    def signed_figure_label(self) -> str:
-        """Label in a figure, with the meaning of negative values."""
-        return f"{self.figure_label}, {self.sign}" if self.sign else self.figure_label
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,13 +204,13 @@ class CurveQuantity(Quantity):
 
     @property
     def in_si(self) -> CurveQuantity:
-        r"""The same curve with axes in SI.
+        """The same curve with axes in SI.
 
         Examples
         --------
         >>> from comparisons.quantities import CURVES
-        >>> CURVES["force_curve"].in_si.x.figure_label, CURVES["force_curve"].si_unit
-        ('displacement $\\delta\\ \\mathrm{(m)}$', 'm; N')
+        >>> CURVES["force_curve"].in_si.x.label, CURVES["force_curve"].si_unit
+        ('displacement δ (m)', 'm; N')
         """
         return replace(self, x=self.x.in_si, y=self.y.in_si)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from datetime import date, time
 from difflib import get_close_matches
 from functools import lru_cache
@@ -22,7 +22,7 @@ from jsonschema.validators import extend
 
 from comparisons.data.toml_text import is_real
 
-__all__ = ["known_name", "label", "shipped_validator", "shown", "validated", "validator_of"]
+__all__ = ["known_name", "label", "shipped_validator", "shown", "validated"]
 
 #: What is refused first in one table: a misspelt key is also a missing one.
 _ORDER = ("additionalProperties", "required")
@@ -33,24 +33,17 @@ _NAME = re.compile(r"[A-Za-z0-9]+([-._][A-Za-z0-9.]+)*")
 _LONGEST = 80
 
 
-def validated(
-    document: Mapping[str, Any],
-    schema: str | Validator,
-    source: str,
-    locate: Callable[..., str] | None = None,
-) -> None:
+def validated(document: Mapping[str, Any], schema: str, source: str) -> None:
     """Refuse tables that do not fit a schema.
 
     Parameters
     ----------
     document : dict
         As `comparisons.data.toml_text.parse` returns it.
-    schema : str or Validator
-        Name of ``<schema>.schema.json`` in this folder, or as `validator_of` returns it.
+    schema : str
+        Name of ``<schema>.schema.json`` in this folder.
     source : str
         What was read, for the sentence.
-    locate : callable, optional
-        Names of table and key -> what was read with the line, in place of `source`.
 
     Raises
     ------
@@ -63,11 +56,9 @@ def validated(
     Traceback (most recent call last):
     ValueError: mine.toml: grid mine: unknown key 'titel': did you mean title?
     """
-    validator = shipped_validator(schema) if isinstance(schema, str) else schema
-    errors = sorted(validator.iter_errors(document), key=_position)
-    if errors:
-        where = locate(*errors[0].absolute_path, *_unknown_keys(errors[0])) if locate else source
-        raise ValueError(f"{where}: {_sentence(errors[0], document, validator.schema)}")
+    validator = shipped_validator(schema)
+    if errors := sorted(validator.iter_errors(document), key=_position):
+        raise ValueError(f"{source}: {_sentence(errors[0], document, validator.schema)}")
 
 
 def label(kind: str, table: object, number: int) -> str:
@@ -105,20 +96,16 @@ def known_name(noun: str, name: str, known_names: Iterable[str], where: str) -> 
 
 @lru_cache
 def shipped_validator(schema: str) -> Validator:
-    """Return the validator of ``<schema>.schema.json`` in this folder."""
-    return validator_of(json.loads(files("comparisons.data").joinpath(f"{schema}.schema.json").read_text("utf-8")))
-
-
-def validator_of(schema: Mapping[str, Any]) -> Validator:
-    """Return the validator of a JSON schema, for which a number may be infinite."""
-    Draft202012Validator.check_schema(schema)
+    """Return the validator of ``<schema>.schema.json`` in this folder, for which a number may be infinite."""
+    content = json.loads(files("comparisons.data").joinpath(f"{schema}.schema.json").read_text("utf-8"))
+    Draft202012Validator.check_schema(content)
     types = Draft202012Validator.TYPE_CHECKER.redefine_many(
         {
             "number": lambda _, value: is_real(value) and value == value,
             "integer": lambda _, value: isinstance(value, int) and is_real(value),
         }
     )
-    return extend(Draft202012Validator, type_checker=types)(schema)
+    return extend(Draft202012Validator, type_checker=types)(content)
 
 
 def _position(error: ValidationError) -> tuple[list[tuple[int, str]], int]:
@@ -126,11 +113,6 @@ def _position(error: ValidationError) -> tuple[list[tuple[int, str]], int]:
     path = [(step, "") if isinstance(step, int) else (-1, step) for step in error.absolute_path]
     order = _ORDER.index(error.validator) if error.validator in _ORDER else len(_ORDER)
     return (path if order == len(_ORDER) else path[:2]), order
-
-
-def _unknown_keys(error: ValidationError) -> list[str]:
-    unknown = error.validator == "additionalProperties"
-    return [key for key in error.instance if key not in error.schema["properties"]] if unknown else []
 
 
 def _sentence(error: ValidationError, document: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
@@ -141,7 +123,7 @@ def _sentence(error: ValidationError, document: Mapping[str, Any], schema: Mappi
     inner = path[2:] if where else path
     table = f"{'.'.join(map(str, inner))}: " if inner else ""
     if error.validator == "additionalProperties":
-        wrong = _unknown_keys(error)[0]
+        wrong = next(key for key in error.instance if key not in error.schema["properties"])
         return f"{where}{table}unknown key {shown(wrong)}{_nearest(wrong, error.schema['properties'])}"
     if error.validator == "required":
         missing = [key for key in error.validator_value if key not in error.instance]

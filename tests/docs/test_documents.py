@@ -99,7 +99,7 @@ def test_the_python_of_the_readme_runs(tmp_path):
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     (line, *_) = done.stdout.splitlines()
-    value, u_num = map(float, line.split())
+    value, u_num = map(float, line.split(" +- "))
     assert value == pytest.approx(1.78848171, abs=5e-9)
     assert 0.0 < u_num < 1e-9
 
