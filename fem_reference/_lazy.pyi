@@ -8,6 +8,7 @@ from .errors import (
 )
 from .large_strain import (
     LARGE_STRAIN_QUANTITIES as LARGE_STRAIN_QUANTITIES,
+    LargeStrainPath as LargeStrainPath,
     profile_large_strain as profile_large_strain,
     solve_large_strain as solve_large_strain,
     trace_large_strain as trace_large_strain,

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import time
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
+from fem_reference._large_strain.block import Friction
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent, linear_event
-from fem_reference._large_strain.equilibrium import Friction
 from fem_reference._large_strain.error_parts import estimate
 from fem_reference._large_strain.events import Family, found_event
 from fem_reference._large_strain.quantities import TABLE
 from fem_reference._large_strain.whole_path import path_states
 from fem_reference._threads import one_thread
+from fem_reference._typing import Array
 from fem_reference.accuracy import relative_error
-from fem_reference.errors import NotConverged
 from fem_reference.modulus import PowerLawModulus
 from fem_reference.poisson import PoissonRatio, poisson_at
 from fem_reference.problem import Problem
@@ -24,7 +24,13 @@ from fem_reference.punch import radius_at_height
 from fem_reference.result import Solution
 from fem_reference.states import EquilibriumPath, RadialField
 
-__all__ = ["LARGE_STRAIN_QUANTITIES", "profile_large_strain", "solve_large_strain", "trace_large_strain"]
+__all__ = [
+    "LARGE_STRAIN_QUANTITIES",
+    "LargeStrainPath",
+    "profile_large_strain",
+    "solve_large_strain",
+    "trace_large_strain",
+]
 
 #: Names of the quantities of finite strain.
 LARGE_STRAIN_QUANTITIES = tuple(TABLE)
@@ -32,12 +38,13 @@ LARGE_STRAIN_QUANTITIES = tuple(TABLE)
 #: Poisson's ratio from which on the pressure is an unknown of its own.
 NEARLY_INCOMPRESSIBLE = 0.45
 
-#: Side of the core in radii of the contact edge; where the solid is no power law it is that of small strain, whose
-#: exterior takes one.
+#: Side of the core in radii of the contact edge, and in those at which the punch is one length of the law high, since a
+#: spot on which contact begins is much smaller than what attracts; where the solid is no power law it is that of small
+#: strain at least, whose exterior takes one.
 CORE_EXTENT = 32.0
 
-#: Height of the punch, in lengths of the law, at the end of the core at least: a spot on which contact begins is small.
-CORE_HEIGHT = 100.0
+#: Height of the punch, in lengths of the law, at the end of the core at least.
+CORE_HEIGHT = 1000.0
 
 #: Resolved width of the contact edge in lengths of the law: on shorter elements the surface is resolved beyond what
 #: the law acts on.
@@ -46,17 +53,26 @@ EDGE_WIDTH = 0.4
 Form = Literal["auto", "displacement", "mixed"]
 
 
-def _discretisation(problem: Problem, event: LinearEvent, friction: Friction, form: Form) -> Discretisation:
-    """Elements for an event."""
+def _check(problem: Problem, friction: Friction, form: Form) -> None:
+    """Refuse what finite strain has no answer for, before anything is computed.
+
+    Raises
+    ------
+    ValueError
+    """
     if friction not in ("frictionless", "bonded"):
         raise ValueError(f"friction {friction!r} is unknown; choose 'frictionless' or 'bonded'")
     if form not in ("auto", "displacement", "mixed"):
         raise ValueError(f"form {form!r} is unknown; choose 'auto', 'displacement' or 'mixed'")
     if problem.solid.modulus.surface_exponent > 0.0:
-        raise NotConverged(
+        raise ValueError(
             "the modulus vanishes at the surface, where any tension makes short waves of a compressible surface "
             "unstable at finite strain; take a modulus that does not vanish, such as one with an offset z_s"
         )
+
+
+def _discretisation(problem: Problem, event: LinearEvent, friction: Friction, form: Form) -> Discretisation:
+    """Elements for an event."""
     largest = float(np.max(poisson_at(problem.solid.poisson, event.radius * np.geomspace(1e-6, 1e6, 200))))
     if form == "displacement" and largest >= 0.5:
         raise ValueError("form 'displacement' has no incompressible solid; choose 'mixed' or 'auto'")
@@ -65,8 +81,10 @@ def _discretisation(problem: Problem, event: LinearEvent, friction: Friction, fo
     spec = replace(event.spec, edge_width=width)
     solid = problem.solid
     scaling = isinstance(solid.modulus, PowerLawModulus) and not isinstance(solid.poisson, PoissonRatio)
-    reach = radius_at_height(problem.punch, CORE_HEIGHT * problem.law.z0) / event.radius
-    extent = max(CORE_EXTENT, reach) if scaling else max(CORE_EXTENT, reach, spec.extent)
+    attracting, reach = (radius_at_height(problem.punch, height * problem.law.z0) for height in (1.0, CORE_HEIGHT))
+    extent = max(CORE_EXTENT * max(event.radius, attracting), reach) / event.radius
+    if not scaling:
+        extent = max(extent, spec.extent)
     return Discretisation(problem, spec, event.size, extent, mixed, friction).at(event.radius)
 
 
@@ -108,7 +126,8 @@ def solve_large_strain(
     Raises
     ------
     ValueError
-        For an unknown name, or the form "displacement" for an incompressible solid.
+        For an unknown name, the form "displacement" for an incompressible solid, or a modulus that vanishes at the
+        surface.
     NoSuchEvent
         If the path of small strain, from which the event is sought, has none.
     NotConverged
@@ -126,6 +145,7 @@ def solve_large_strain(
     if quantity not in TABLE:
         raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(TABLE)}")
     relative_error(accuracy)
+    _check(problem, friction, form)
     row, start = TABLE[quantity], time.perf_counter()
     with one_thread:
         linear = {name: linear_event(problem, name, accuracy, friction) for name in row.events}
@@ -146,9 +166,23 @@ def solve_large_strain(
     )
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class LargeStrainPath(EquilibriumPath):
+    """The equilibrium path of finite strain; `edge_radius` is that of the material point before it was deformed.
+
+    Attributes
+    ----------
+    u_displacement, u_load : ndarray
+        Bounds of the numerical errors of each state at its central gap, or in contact at its edge radius.
+    """
+
+    u_displacement: Array
+    u_load: Array
+
+
 def trace_large_strain(
     problem: Problem, accuracy: float | str = "quick", friction: Friction = "frictionless", form: Form = "auto"
-) -> EquilibriumPath:
+) -> LargeStrainPath:
     """Trace the equilibrium path of finite strain, a point for each one of small strain.
 
     Parameters
@@ -158,8 +192,7 @@ def trace_large_strain(
 
     Returns
     -------
-    EquilibriumPath
-        `edge_radius` is that of the material point before it was deformed.
+    LargeStrainPath
 
     Raises
     ------
@@ -173,13 +206,17 @@ def trace_large_strain(
     >>> path = trace_large_strain(stiff)  # doctest: +SKIP
     """
     relative_error(accuracy)
+    _check(problem, friction, form)
     with one_thread:
         points = path_states(problem, accuracy, friction, lambda event: _discretisation(problem, event, friction, form))
-        return EquilibriumPath(
-            np.array([state.displacement for _, state in points]),
-            np.array([state.load for _, state in points]),
-            np.array([state.gap_at(0) for _, state in points]),
-            np.array([radius for radius, _ in points]),
+        u_displacement, u_load = np.array([point.bounds() for point in points]).T
+        return LargeStrainPath(
+            np.array([point.state.displacement for point in points]),
+            np.array([point.state.load for point in points]),
+            np.array([point.state.gap_at(0) for point in points]),
+            np.array([point.edge_radius for point in points]),
+            u_displacement,
+            u_load,
         )
 
 
@@ -219,6 +256,7 @@ def profile_large_strain(
     """
     if event not in ("pull_off", "jump_in", "jump_out", "zero_load"):
         raise ValueError(f"event {event!r} is unknown; choose pull_off, jump_in, jump_out or zero_load")
+    _check(problem, friction, form)
     with one_thread:
         linear = linear_event(problem, event, accuracy, friction)
         family = Family(_discretisation(problem, linear, friction, form), linear)

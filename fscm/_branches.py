@@ -88,15 +88,19 @@ def turned(arc: ArcLength, point: Point, name: str | None = None) -> Point:
 def joined(arc: ArcLength, before: Point, state: State) -> Point:
     """The state that follows another edge, with the orientation of the path preserved.
 
-    It is that of load and displacement.  Under a power-law punch it is that of the central gap, where contact begins:
-    the first contact is so small that load and displacement do not change within the error of the mesh.
+    It is that of load and displacement.  Where contact begins it is that of the central gap, too, and under a power-law
+    punch of that alone: the first contact may be so small that the others do not change within the error of the mesh.
     """
     point = Point(state, arc.tangent(state), before.segment + 1)
     if isinstance(state.disc.problem.punch, PowerPunch):
         same = before.rates.central_gap * point.rates.central_gap >= 0.0
     else:
         old, new = arc.shares(before), arc.shares(point)
-        same = sum(old[name] * new[name] for name in ("displacement", "load")) >= 0.0
+        product = sum(old[name] * new[name] for name in ("displacement", "load"))
+        if not before.state.follows_edge:
+            clearance = state.central_gap - state.disc.problem.law.singular_gap
+            product += before.rates.central_gap * point.rates.central_gap / clearance**2
+        same = product >= 0.0
     if same:
         return point
     state = replace(state, turned=("log_scale", -1.0))

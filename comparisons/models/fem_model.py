@@ -1,4 +1,4 @@
-"""The finite elements as models, with small and with finite strain.
+"""The finite elements as a model.
 
 `fem_reference` solves physical problems and contains no Tabor number.  Here a dimensionless problem becomes a
 physical one by Eqs. 7, 24 and 29, and every result is scaled back by Eqs. 25 and 31; so where the two references
@@ -23,9 +23,9 @@ from fscm.problem import Problem as PosedProblem
 if TYPE_CHECKING:
     from fem_reference import export
 
-__all__ = ["FiniteElements", "LargeStrain"]
+__all__ = ["FiniteElements", "built"]
 
-MODELS = {"fem": "FiniteElements", "fem-large-strain": "LargeStrain"}
+MODELS = {"fem": "FiniteElements"}
 
 #: Meshes of a curve: the coarser one, which gives its uncertainty, and that of its points.
 _LEVELS = ("quick", "default")
@@ -139,7 +139,7 @@ class FiniteElements(SolverModel):
         if not problem.name:
             scaled = self._scaled(problem)
             return scaled.units, self._body(scaled)
-        return problem.units, _built(problem)
+        return problem.units, built(problem)
 
     def _scaled(self, problem: Problem) -> PosedProblem:
         if problem.n < 1.0:
@@ -167,46 +167,14 @@ def _surface_at_pull_off(poisson_ratio: float, problem: Problem) -> RadialField:
     return FiniteElements(poisson_ratio)._surface_at_pull_off(problem)
 
 
-class LargeStrain(SolverModel):
-    """`fem_reference.solve_large_strain`: a neo-Hookean solid and the traction on its deformed surface, no friction.
+def built(problem: Problem) -> fem_reference.Problem:
+    """Return the problem of a file for the solver.
 
-    It has no curve: where the branches of a path with finite strain meet is not verified yet.
-
-    Examples
-    --------
-    >>> from comparisons.problem import Section
-    >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 1e-7})
-    >>> gel = Problem(Section("homogeneous", {"E": 1e6, "nu": 0.5}), Section("ball", {"R": 1e-5}), law)
-    >>> result = LargeStrain().evaluate(gel, "pull_off_force")
-    >>> round(result.value, 4), result.u_num < 1e-5
-    (1.5343, True)
+    Raises
+    ------
+    NotApplicable
+        If the solver refuses a part of it.
     """
-
-    name: ClassVar[str] = "fem-large-strain"
-    citation: ClassVar[str] = "This package: axisymmetric elements of a neo-Hookean half-space, without friction"
-    domain: ClassVar[str] = (
-        "problems in physical units, modulus that does not vanish at the surface, tension below 0.4 E*"
-    )
-    package = fem_reference
-    quantities = fem_reference.LARGE_STRAIN_QUANTITIES
-    #: It checks them itself (`comparisons.problem.evaluation`).
-    punches: ClassVar[tuple[str, ...]] = ()
-
-    def _result(self, problem: Problem, quantity: str) -> Result:
-        if not problem.name:
-            raise NotApplicable("n, k and mu do not state how large the strains are; give a problem file")
-        if problem.solid.kind == "homogeneous":
-            # It may be incompressible.
-            solid = fem_reference.NeoHookean(problem.solid["E"], problem.solid["nu"])
-            body = replace(_built(problem.with_value("solid", "nu", 0.0)), solid=solid)
-        else:
-            body = _built(problem)
-        unit = problem.units[QUANTITIES[quantity].scale]
-        return result_of(fem_reference.solve_large_strain(body, quantity), unit=unit)
-
-
-def _built(problem: Problem) -> fem_reference.Problem:
-    """Return the problem of a file for the solver."""
     try:
         body: fem_reference.Problem = problem.build(fem_reference)
     except ValueError as error:

@@ -12,20 +12,13 @@ import numpy as np
 
 from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference._contact.mesh_lengths import scales
-from fem_reference._contact.path import Point
+from fem_reference._contact.path import EDGE_RISE, Point
 from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
 from fem_reference._elastic.elasticity import EXTRA_POINTS
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import variant
-from fem_reference._large_strain.equilibrium import (
-    Block,
-    Control,
-    Friction,
-    State,
-    block_of,
-    extrapolated,
-    solve_state,
-)
+from fem_reference._large_strain.block import Block, Friction, block_of
+from fem_reference._large_strain.equilibrium import Control, State, extrapolated, solve_state
 from fem_reference._large_strain.start import small_strain_state
 from fem_reference._large_strain.surface import Surface
 from fem_reference._large_strain.surface_stability import largest_tension
@@ -66,8 +59,13 @@ class LinearEvent:
 
     @property
     def radius(self) -> float:
-        """Radius of the contact edge, or that of the lowest part of the gap."""
-        return self.point.edge_radius if self.point.branch.touching else self.point.state.size
+        """Radius of the contact edge, or that of the lowest part of the gap, on which contact begins."""
+        point = self.point
+        if point.branch.touching:
+            return point.edge_radius
+        contact, state = point.branch.contact, point.state
+        above = contact.gap(state.y) > state.central_gap + EDGE_RISE * contact.law.z0
+        return float(state.size * contact.compliance.trace.s[np.argmax(above)])
 
 
 def linear_problem(problem: Problem, friction: Friction = "frictionless") -> Problem:

@@ -11,17 +11,21 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
+from fem_reference._large_strain.block import EXTERIOR_RATIO
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent
-from fem_reference._large_strain.equilibrium import EXTERIOR_RATIO, State, solve_state
+from fem_reference._large_strain.equilibrium import State, solve_state
 from fem_reference._large_strain.events import Family, PathEvent, found_event
 
-__all__ = ["Estimate", "Functional", "estimate", "variants_of"]
+__all__ = ["Estimate", "Functional", "estimate", "state_bounds", "variants_of"]
 
 #: Density of the coarser elements over that of the mesh: the error of degree 6 falls by more than half.
 COARSER = 1.25
 
 #: Gauss points a direction that the finer quadrature adds.
 MORE_POINTS = 3
+
+#: Relative error that the Poisson's ratio of the exterior may cause.
+EXTERIOR_ERROR = 2.0 * (0.5 - EXTERIOR_RATIO)
 
 #: Events and the name of the one whose displacement is their level.
 LEVELS = {"landing": "jump_in", "separated": "jump_out"}
@@ -113,12 +117,36 @@ def estimate(
     parts = {
         "mesh": differences["degree"] + differences["density"],
         "first layer": differences["first layer"],
-        "core": differences["core"] + 2.0 * (0.5 - EXTERIOR_RATIO) * abs(base),
+        "core": differences["core"] + EXTERIOR_ERROR * abs(base),
         "quadrature": differences["quadrature"],
         "search": abs(value(rough) - functional({name: event.previous for name, event in rough.items()})),
         "algebra": abs(functional({name: _settled(event.state) for name, event in events.items()}) - base),
     }
     return Estimate(base, parts, events, values["degree"])
+
+
+def state_bounds(state: State, base: Discretisation, linear: LinearEvent) -> tuple[float, float]:
+    """Return bounds of the errors of displacement and load of the state at an event of small strain.
+
+    Parameters
+    ----------
+    state : State
+    base : Discretisation
+        Its elements.
+    linear : LinearEvent
+
+    Raises
+    ------
+    NotConverged
+        If the state is not found on one of the meshes.
+    """
+    changed = [Family(variant, linear).state(0.0) for variant in variants_of(base).values()]
+
+    def bound(measure: Callable[[State], float]) -> float:
+        value = measure(state)
+        return sum(abs(measure(other) - value) for other in changed) + EXTERIOR_ERROR * abs(value)
+
+    return bound(lambda state: state.displacement), bound(lambda state: state.load)
 
 
 def _variants_by_event(bases: Mapping[str, Discretisation]) -> dict[str, dict[str, Discretisation]]:

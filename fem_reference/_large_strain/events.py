@@ -13,8 +13,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from fem_reference._large_strain.block import Block
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent
-from fem_reference._large_strain.equilibrium import Block, Control, State, extrapolated, solve_state
+from fem_reference._large_strain.equilibrium import Control, State, extrapolated, solve_state
 from fem_reference.errors import NotConverged
 
 __all__ = ["EVENTS", "Family", "PathEvent", "found_event"]

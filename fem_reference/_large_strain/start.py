@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from fem_reference._contact.path import Point
-from fem_reference._large_strain.equilibrium import Block, State, linear_response
+from fem_reference._large_strain.block import Block, linear_response
+from fem_reference._large_strain.equilibrium import State
 from fem_reference._large_strain.surface import Surface
 
 __all__ = ["small_strain_state"]
@@ -23,7 +24,7 @@ def small_strain_state(point: Point, block: Block, surface: Surface) -> State:
         The pressure is stretched with the radius of the edge, if that of the surface is another one.
     """
     y, compliance = point.state.y, point.branch.contact.compliance
-    edge = point.edge_radius if point.branch.touching else point.state.size
+    edge = point.edge_radius if point.branch.touching else surface.size
     s = block.trace.s * edge / y[-1]
     inside = s < compliance.trace.extent
     w = np.zeros_like(s)

@@ -4,22 +4,50 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from fem_reference._contact.mesh_choice import MeshChoice, chosen, followed_path
 from fem_reference._contact.path import Point
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._large_strain.block import Friction
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent, linear_problem
-from fem_reference._large_strain.equilibrium import Friction, State
+from fem_reference._large_strain.equilibrium import State
+from fem_reference._large_strain.error_parts import state_bounds
 from fem_reference._large_strain.events import Family
 from fem_reference.problem import Problem
 
-__all__ = ["path_states"]
+__all__ = ["PathState", "path_states"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PathState:
+    """A state of the path, and the elements and the state of small strain from which it was found."""
+
+    state: State
+    discretisation: Discretisation
+    linear: LinearEvent
+
+    @property
+    def edge_radius(self) -> float:
+        """Material radius of the contact edge; nan before contact."""
+        point = self.linear.point
+        return point.edge_radius if point.branch.touching else math.nan
+
+    def bounds(self) -> tuple[float, float]:
+        """Bounds of the errors of displacement and load at this gap or this edge.
+
+        Raises
+        ------
+        NotConverged
+            If the state is not found on one of the meshes.
+        """
+        return state_bounds(self.state, self.discretisation, self.linear)
 
 
 def path_states(
     problem: Problem, accuracy: float | str, friction: Friction, discretised: Callable[[LinearEvent], Discretisation]
-) -> list[tuple[float, State]]:
-    """Return material radius of the contact edge (nan before contact) and state along the path.
+) -> list[PathState]:
+    """Return the states along the path.
 
     Parameters
     ----------
@@ -40,14 +68,15 @@ def path_states(
         return list(path.points)
 
     choice, spec, size = chosen(linear_problem(problem, friction), ("zero_load",), accuracy, followed)
-    states: list[tuple[float, State]] = []
+    states: list[PathState] = []
     joined = False
     for point in followed(choice, spec, size):
-        event = LinearEvent(point, spec, size)
-        state = Family(discretised(event), event).state(0.0)
+        linear = LinearEvent(point, spec, size)
+        discretisation = discretised(linear)
+        state = Family(discretisation, linear).state(0.0)
         # The first contact edges of small strain may lie before the last gap of finite strain.
-        joined = joined or not states or state.gap_at(0) < states[-1][1].gap_at(0)
+        joined = joined or not states or state.gap_at(0) < states[-1].state.gap_at(0)
         if joined or not point.branch.touching:
             joined = point.branch.touching
-            states.append((point.edge_radius if point.branch.touching else math.nan, state))
+            states.append(PathState(state, discretisation, linear))
     return states

@@ -293,6 +293,9 @@ def test_forces_have_the_units_of_the_input():
     assert scaled.value / (1e4 * 5e-6**2) == pytest.approx(solution.value, rel=1e-6)
 
 
+#: Difference of the two branches where they meet (measured: 2e-8 and 3e-8 of the load, 1e-8 and 3e-8 z0).
+BRANCHES = 1e-6
+
 #: Change of jumps and hysteresis by strains of a hundredth.
 LIMIT = 5e-3
 
@@ -357,7 +360,7 @@ def test_what_has_no_answer_is_refused():
     with pytest.raises(ValueError, match="z_s = -1"):
         NeoHookean(1.0, 0.5, 0.5, 1.0, -1.0)
     soft_surface = replace(problem, solid=PowerLaw(200.0, 1.0, 0.4, 0.3))
-    with pytest.raises(NotConverged, match="vanishes at the surface"):
+    with pytest.raises(ValueError, match="vanishes at the surface"):
         solve_large_strain(soft_surface, "pull_off_force")
     with pytest.raises(NotConverged, match=r"unstable from 0\.548"):
         solve_large_strain(sphere(0.02, 3.0, 0.3), "pull_off_force")
@@ -406,19 +409,16 @@ def test_the_path_has_one_minimum_of_the_load(number, mu, nu):
 @pytest.mark.heavy
 @pytest.mark.parametrize("nu", [0.3, 0.5])
 def test_the_branches_of_the_path_meet(nu):
-    """The first state whose mesh follows the contact edge is one of the branch that the central gap picks.
-
-    Measured: 1.4e-3 of the load and 0.012 z0 for nu = 0.3, less than 1e-4 and 1.3e-4 z0 for nu = 0.5.
-    """
+    """The first state whose mesh follows the contact edge is one of the branch that the central gap picks."""
     problem = sphere(5e-3, 2.0, nu)
     path = path_states(
         problem, "quick", "frictionless", lambda event: _discretisation(problem, event, "frictionless", "auto")
     )
-    last = max(i for i, (radius, _) in enumerate(path) if math.isnan(radius))
-    after = path[last + 1][1]
-    same = solve_state(path[last][1], Control(0, after.gap_at(0)))
-    assert same.load == pytest.approx(after.load, rel=3e-3)
-    assert same.displacement == pytest.approx(after.displacement, abs=0.02 * problem.law.z0)
+    last = max(i for i, point in enumerate(path) if math.isnan(point.edge_radius))
+    after = path[last + 1].state
+    same = solve_state(path[last].state, Control(0, after.gap_at(0)))
+    assert same.load == pytest.approx(after.load, rel=BRANCHES)
+    assert same.displacement == pytest.approx(after.displacement, abs=BRANCHES * problem.law.z0)
 
 
 @pytest.mark.heavy

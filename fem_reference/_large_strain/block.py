@@ -1,0 +1,181 @@
+"""A discretised half-space: a core of finite strain, its surface, and the linear exterior that closes it.
+
+Lengths are in units of the size c of the mesh, whose edge is at s = 1.  The tangent is a sparse matrix on the sides of
+the elements, which is factorised.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import SuperLU, splu
+
+from fem_reference._elastic.assembly import square_boundary
+from fem_reference._elastic.dof_ordering import line_unknowns
+from fem_reference._elastic.elasticity import EXTRA_POINTS
+from fem_reference._elastic.exterior import exterior_stiffness
+from fem_reference._elastic.mesh import Grid
+from fem_reference._elastic.trace import Trace, trace_of
+from fem_reference._large_strain.core import Core, core_of
+from fem_reference._large_strain.surface import local_slopes
+from fem_reference._typing import Array, Index
+from fem_reference.errors import NotConverged
+from fem_reference.modulus import Modulus
+from fem_reference.poisson import PoissonRatio, poisson_at
+
+__all__ = ["EXTERIOR_RATIO", "Block", "Friction", "block_of", "factorised", "linear_response", "summed"]
+
+#: Largest Poisson ratio of the exterior, whose stiffness needs a finite lambda: it changes by about 1 - 2 nu.
+EXTERIOR_RATIO = 0.5 - 2.5e-8
+
+Friction = Literal["frictionless", "bonded"]
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """A discretised half-space, in lengths of the radius of its edge.
+
+    Attributes
+    ----------
+    core : Core
+    trace : Trace
+        Its surface.
+    slopes : ndarray
+        Derivatives of the surface functions.
+    radial : ndarray of int
+        Rows of u_r on it in surface order; those of u_z are the next ones.
+    boundary : ndarray of int
+        Rows on the side and bottom of the square.
+    exterior : ndarray
+        Stiffness of the exterior there.
+    fixed : ndarray of int
+        Rows that are zero.
+    """
+
+    core: Core
+    trace: Trace
+    slopes: Array
+    radial: Index
+    boundary: Index
+    exterior: Array
+    fixed: Index
+
+    @cached_property
+    def surface_rows(self) -> Index:
+        """Rows of the functions of each surface element, both components interleaved, shape (e, 2 (p + 1))."""
+        rows = self.radial[self.trace.functions]
+        return np.stack([rows, rows + 1], axis=2).reshape(rows.shape[0], -1)
+
+    @cached_property
+    def _pattern(self) -> tuple[Index, Array, Index, Index, Index, Index]:
+        """Free rows, their numbers, and how entries of all parts go into a matrix of compressed columns."""
+        sides = self.core.sides
+        free = np.setdiff1d(np.unique(sides), self.fixed)
+        number = np.full(self.core.size, -1)
+        number[free] = np.arange(free.size)
+        parts = [(sides, sides), (self.surface_rows, self.surface_rows), (self.boundary[None], self.boundary[None])]
+        rows = np.concatenate([np.repeat(number[r], r.shape[1], axis=1).ravel() for r, _ in parts])
+        cols = np.concatenate([np.tile(number[c], (1, c.shape[1])).ravel() for _, c in parts])
+        present = np.flatnonzero((rows >= 0) & (cols >= 0))
+        key = cols[present] * free.size + rows[present]
+        order = np.argsort(key, kind="stable")
+        key = key[order]
+        starts = np.flatnonzero(np.concatenate([[True], key[1:] != key[:-1]]))
+        columns = np.searchsorted(key[starts] // free.size, np.arange(free.size + 1))
+        return free, number, present[order], starts, key[starts] % free.size, columns
+
+    @property
+    def free(self) -> Index:
+        """Rows on the sides of elements that are not fixed."""
+        return self._pattern[0]
+
+    def matrix(self, elements: Array, surface: Array) -> sparse.csc_array:
+        """Tangent on the free rows from those of the elements and of the surface."""
+        free, _, order, starts, rows, columns = self._pattern
+        entries = np.concatenate([elements.ravel(), surface.ravel(), self.exterior.ravel()])[order]
+        data = np.add.reduceat(entries, starts)
+        return sparse.csc_array((data, rows, columns), shape=(free.size, free.size))
+
+
+def block_of(
+    grid: Grid,
+    modulus: Modulus,
+    nu: float | PoissonRatio,
+    order: int,
+    mixed: bool,
+    friction: Friction = "frictionless",
+    extra: int = EXTRA_POINTS,
+) -> Block:
+    """Discretise a half-space.
+
+    Parameters
+    ----------
+    grid : Grid
+        With its edge at s = 1.
+    modulus, nu
+        E(z), and Poisson's ratio up to 0.5, in lengths of the edge radius.
+    order : int
+        Degree of the elements.
+    mixed : bool
+        Whether the pressure is an unknown of its own; an incompressible solid needs it.
+    friction : {"frictionless", "bonded"}
+        Whether the points of the surface are free to slide, or keep their radii.
+    extra : int
+        Gauss points a direction beyond the degree.
+    """
+
+    def constants(z: Array) -> tuple[Array, Array]:
+        E, ratio = modulus(z), poisson_at(nu, z)
+        with np.errstate(divide="ignore"):
+            softness = np.divide((1.0 + ratio) * (1.0 - 2.0 * ratio), ratio * E)
+        return E / (2.0 * (1.0 + ratio)), softness
+
+    core = core_of(grid, constants, order, mixed, extra)
+    trace = trace_of(grid, order)
+    boundary, signs = square_boundary(grid, core.dofs, order)
+    at_end = min(float(poisson_at(nu, np.array(grid.extent))), EXTERIOR_RATIO)
+    exterior = exterior_stiffness(grid, modulus, at_end, order, order - 1 if mixed else None)
+    surface = 2 * line_unknowns(core.dofs, 1, 0.0)
+    fixed = 2 * line_unknowns(core.dofs, 0, 0.0)
+    if friction == "bonded":
+        fixed = np.union1d(fixed, surface)
+    return Block(core, trace, local_slopes(trace), surface, boundary, signs[:, None] * exterior * signs, fixed)
+
+
+def summed(rows: Index, entries: Array, size: int) -> Array:
+    """Sum of entries by their rows."""
+    return np.asarray(np.bincount(rows.ravel(), entries.ravel(), size), float)
+
+
+def factorised(K: sparse.csc_array) -> SuperLU:
+    """Factors of a tangent.
+
+    Raises
+    ------
+    NotConverged
+        If it is singular.
+    """
+    try:
+        return splu(K, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    except RuntimeError as error:
+        raise NotConverged(f"the tangent of the solid of finite strain is singular: {error}") from error
+
+
+def linear_response(block: Block, pressure: Array) -> tuple[Array, Array]:
+    """Displacement and pressures of the linear solid under a pressure at the Gauss points of its surface."""
+    core, trace = block.core, block.trace
+    zero = np.zeros(core.size)
+    elements = core.condensed(zero, core.no_pressure(), 1.0)
+    if elements is None:
+        raise AssertionError("the undeformed solid is not turned inside out")
+    e, _, n = trace.local.shape
+    factors = factorised(block.matrix(elements.tangent, np.zeros((e, 2 * n, 2 * n))))
+    down = (trace.weight * trace.s * pressure).reshape(e, 1, -1) @ trace.local
+    load = summed(block.surface_rows[:, 1::2], down, core.size)
+    u = np.zeros(core.size)
+    u[block.free] = factors.solve(load[block.free])
+    return u, core.recover(elements, u)
