@@ -21,7 +21,15 @@ from comparisons.domain import Domain, declared_domain
 from comparisons.external.model_source import load_model, source_of
 from comparisons.model import Model
 
-__all__ = ["MODELS", "ExternalIdentity", "create", "declared_models", "depends_on_poisson_ratio", "identify"]
+__all__ = [
+    "COMPARABLE",
+    "MODELS",
+    "ExternalIdentity",
+    "create",
+    "declared_models",
+    "depends_on_poisson_ratio",
+    "identify",
+]
 
 _FOLDER = "comparisons.models"
 _LITERAL = re.compile(r"^MODELS = (\{.*?\})$", flags=re.MULTILINE | re.DOTALL)
@@ -30,7 +38,8 @@ _LITERAL = re.compile(r"^MODELS = (\{.*?\})$", flags=re.MULTILINE | re.DOTALL)
 _WITH_POISSON_RATIO = ("fem",)
 
 #: Models that come first in lists and tables; the others follow by the name of their module.
-_REFERENCES = ("fscm", "fscm-stieltjes", "fscm-stieltjes-400", "fem")
+_VERIFYING = ("fscm-stieltjes", "fscm-stieltjes-400")
+_REFERENCES = ("fscm", *_VERIFYING, "fem")
 _OF_THE_PAPER = ("jkr", "md-original", "md-improved", "dmt", "bradley", "semi-rigid")
 _OF_OTHERS = ("double-hertz-n-k", "md-jin", "dmt-strength", "carpick-ogletree-salmeron", "pietrement-troyon", "schwarz")
 _ORDER = (*_REFERENCES, *_OF_THE_PAPER, *_OF_OTHERS, "jump-asymptotes", "jkr-sphere", "atlas", "fem-large-strain")
@@ -73,6 +82,9 @@ def _models_in_folder() -> dict[str, str]:
 
 #: Name -> "module:class"; the class is called without arguments, or with Poisson's ratio alone if it takes it.
 MODELS: dict[str, str] = _models_in_folder()
+
+#: The models that a comparison of all has: without other discretisations of `fscm`, which take minutes.
+COMPARABLE = tuple(name for name in MODELS if name not in _VERIFYING)
 
 
 def depends_on_poisson_ratio(name: str) -> bool:

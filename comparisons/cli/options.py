@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from comparisons.problem import PARAMETERS, Problem
+from comparisons.problem.variation import RANGE, spaced
 from comparisons.runs.workers import usable_cores
 
 #: An option of a command: names and settings as of `argparse.ArgumentParser.add_argument`.
@@ -28,9 +31,30 @@ def several(*names: str, metavar: str, **settings: Any) -> Option:
     return names, {"metavar": metavar, "nargs": "+", "action": "extend", **settings}
 
 
-def numbers(*names: str, **settings: Any) -> Option:
-    """Declare an option with one number or more."""
-    return names, {"metavar": "X", "type": float, "nargs": "+", **settings}
+class _Joined(argparse.Action):
+    """An option whose words are lists of numbers, which are put together."""
+
+    def __call__(self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, *_: Any) -> None:
+        setattr(namespace, self.dest, list(chain.from_iterable(values)))
+
+
+def numbers(*names: str, logarithmic: bool = False, **settings: Any) -> Option:
+    """Declare an option with numbers or ranges FROM:TO:COUNT, at equal distances or at equal ratios."""
+    read = partial(_numbers, logarithmic=logarithmic)
+    return names, {"metavar": "X", "type": read, "nargs": "+", "action": _Joined, **settings}
+
+
+def _numbers(text: str, logarithmic: bool) -> list[float]:
+    """Return the numbers that a word of an option means."""
+    words = RANGE.fullmatch(text)
+    try:
+        texts = spaced(words[1], words[2], words[3], logarithmic) if words and not words[4] else [text]
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text}: {error}") from None
+    try:
+        return [float(number) for number in texts]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is neither a number nor a range FROM:TO:COUNT") from None
 
 
 def output_format(*names: str, help: str = "(default: text)") -> Option:

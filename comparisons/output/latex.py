@@ -14,7 +14,7 @@ import pandas as pd
 
 from comparisons.numerics.number_text import aligned, number_parts
 
-__all__ = ["escaped", "latex", "latex_parts"]
+__all__ = ["UPRIGHT_WIDTH", "escaped", "latex", "latex_parts"]
 
 _PACKAGES = r"% The document needs \usepackage{array,booktabs,longtable,pdflscape,siunitx}"
 
@@ -56,6 +56,9 @@ class _Page(NamedTuple):
 
 _UPRIGHT = _Page("footnotesize", 74, 4.6, "center")
 _TURNED = _Page("scriptsize", 138, 4.3, "landscape")
+
+#: Characters of a line of a table that is not turned.
+UPRIGHT_WIDTH = _UPRIGHT.characters
 
 
 def latex(texts: pd.DataFrame, caption: str, label: str) -> str:

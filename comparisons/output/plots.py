@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from comparisons.numerics.number_text import case_text, percent_text
-from comparisons.output.style import MODEL_NAMES, model_styles
+from comparisons.output.style import MODEL_ORDER, model_styles
 from comparisons.output.table import Column, Record, columns, key_columns, key_text, physical_text, words
 from comparisons.problem.problem import split_name
 from comparisons.problem.units import prefixed_unit
@@ -56,6 +56,8 @@ class Plot:
         The first view [x0, x1, y0, y1] of a group, if not all of it.
     y_labels : dict
         The label of the second axis of a group, if it is another.
+    unit : str
+        What follows a number of the second axis.
     """
 
     id: str
@@ -70,6 +72,7 @@ class Plot:
     mark: str = "both"
     views: dict[str, list[float]] = field(default_factory=dict)
     y_labels: dict[str, str] = field(default_factory=dict)
+    unit: str = ""
 
     @property
     def controls(self) -> list[tuple[str, list[str]]]:
@@ -92,7 +95,7 @@ class Plot:
     @property
     def first_models(self) -> list[str]:
         """Those of them that are switched on at first: external ones, then ours in the order of their names."""
-        order = list(MODEL_NAMES)
+        order = list(MODEL_ORDER)
         return sorted(self.models, key=lambda name: order.index(name) if name in order else -1)[:_SHOWN_AT_FIRST]
 
     def data(self) -> dict[str, Any]:
@@ -163,6 +166,7 @@ def kappa(table: pd.DataFrame, over: str = "") -> Plot:
         table="kappa",
         caption="κ = (model − reference) / |reference|. A band shows what the numerical uncertainties of model and "
         "reference allow together; where none is seen it is narrower than the line.",
+        unit=" %",
     )
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["COLOURS", "LINES", "MARKERS", "MODEL_LINES", "MODEL_NAMES", "ModelStyle", "model_styles", "save", "styled"]
+__all__ = ["COLOURS", "LINES", "MARKERS", "MODEL_LINES", "MODEL_ORDER", "ModelStyle", "model_styles", "save", "styled"]
 
 #: Okabe and Ito's colours that stay apart for every kind of colour vision and, in this order, in grey.
 COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666")
@@ -34,30 +34,15 @@ LINES += ((0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (4, 1, 4, 1, 1, 1)), (0, (2,
 #: Dashes in Matplotlib -> in Bokeh.
 _DASHES = {"-": "solid", "--": "dashed", "-.": "dotdash", ":": "dotted"}
 
-#: Model -> label as in the paper, in the order of the colours and markers; a model needs no row here.
-MODEL_NAMES = {
-    "fscm": "FSCM",
-    "md-improved": r"improved M-D-$n$-$k$",
-    "md-original": r"original M-D-$n$-$k$",
-    "fem": "FEM",
-    "jkr": r"JKR-$n$-$k$",
-    "bradley": r"Bradley-$n$",
-    "double-hertz-n-k": r"double-Hertz-$n$-$k$",
-    "semi-rigid": "semi-rigid",
-    "fscm-stieltjes": "fscm-stieltjes",
-    "fscm-stieltjes-400": "fscm-stieltjes-400",
-    "dmt": "dmt",
-    "md-jin": r"M-D-$n$-$k$, $\sigma_0 = 1$",
-    "dmt-strength": r"dmt, $\sigma_0 = \sigma_{th}$",
-    "carpick-ogletree-salmeron": "Carpick-Ogletree-Salmeron",
-    "pietrement-troyon": "Pietrement-Troyon",
-    "schwarz": "Schwarz",
-    "jump-asymptotes": "jump asymptotes",
-    "atlas": "atlas",
-    "jkr-sphere": "JKR of a ball",
+#: Model -> its dashes, in the order of the colours and markers; a model needs no row here.
+_MODEL_DASHES = {
+    **{"fscm": "-", "md-improved": "-", "md-original": "--", "fem": "--", "jkr": "-.", "bradley": ":"},
+    **{"double-hertz-n-k": "-.", "semi-rigid": "-", "fscm-stieltjes": ":", "fscm-stieltjes-400": ":", "dmt": ":"},
+    **{"md-jin": ":", "dmt-strength": ":", "carpick-ogletree-salmeron": "-.", "pietrement-troyon": ":"},
+    **{"schwarz": "-.", "jump-asymptotes": "-.", "atlas": "--", "jkr-sphere": "-."},
 }
-#: Their dashes, in the same order.
-_MODEL_DASHES = "- - -- -- -. : -. - : : : : : -. : -. -. -- -."
+#: The models of fscm-bench in the order of their colours.
+MODEL_ORDER = tuple(_MODEL_DASHES)
 
 #: The model whose curve is broad and pale, below the others: where they are right they cover it.
 _BROAD = "fscm"
@@ -69,8 +54,6 @@ class ModelStyle:
 
     Attributes
     ----------
-    label : str
-        Its name in figures.
     colour : str
         In hexadecimal digits.
     line, dash : str
@@ -81,7 +64,6 @@ class ModelStyle:
         Whether its line is broad and pale, below the others.
     """
 
-    label: str
     colour: str
     line: str
     dash: str
@@ -102,13 +84,12 @@ def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
     Examples
     --------
     >>> styles = model_styles(["fscm", "mine"])
-    >>> styles["fscm"].colour, styles["mine"].colour, styles["mine"].label
-    ('#000000', '#0072b2', 'mine')
+    >>> styles["fscm"].colour, styles["mine"].colour
+    ('#000000', '#0072b2')
     """
     present = sorted(set(names))
-    indices = {name: index for index, name in enumerate(MODEL_NAMES) if name in present}
+    indices = {name: index for index, name in enumerate(MODEL_ORDER) if name in present}
     free = (index for index in count() if index not in indices.values())
-    dashes = dict(zip(MODEL_NAMES, _MODEL_DASHES.split(), strict=True))
     styles: dict[str, ModelStyle] = {}
     # Ours first: the dashes of the others are those that their colour has left.
     for name in sorted(present, key=lambda name: name not in indices):
@@ -116,24 +97,12 @@ def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
         turn, colour = divmod(index, len(COLOURS))
         taken = {style.line for style in styles.values() if style.colour == COLOURS[colour]}
         left = [line for line in _DASHES if line not in taken] or list(_DASHES)
-        line = dashes.get(name, left[index % len(left)])
+        line = _MODEL_DASHES.get(name, left[index % len(left)])
         # With every turn of the colours the markers move on by one: a pair of both comes back after 64 models.
         shape = (index + turn) % len(MARKERS)
         markers = MARKERS[shape], _BOKEH_MARKERS[shape], _SIGNS[shape]
-        label = model_label(name)
-        styles[name] = ModelStyle(label, COLOURS[colour], line, _DASHES[line], *markers, broad=name == _BROAD)
+        styles[name] = ModelStyle(COLOURS[colour], line, _DASHES[line], *markers, broad=name == _BROAD)
     return {name: styles[name] for name in present}
-
-
-def model_label(name: str) -> str:
-    """Return the name of a model in figures.
-
-    Examples
-    --------
-    >>> model_label("fem"), model_label("mine")
-    ('FEM', 'mine')
-    """
-    return MODEL_NAMES.get(name, name)
 
 
 #: Lines of the models that the figures of the paper draw side by side.

@@ -27,7 +27,7 @@ from comparisons.output.terminal import rich_table
 from comparisons.runs import rows as stored_rows
 from comparisons.runs.case_columns import varied_of, with_problem
 
-__all__ = ["case_tables", "largest_errors", "summary_tables", "sweep_tables", "terminal_tables"]
+__all__ = ["case_tables", "largest_errors", "side_by_side", "summary_tables", "sweep_tables", "terminal_tables"]
 
 #: Columns of the tables where no terminal states its own; rows that a terminal shows; spaces between columns.
 WIDTH, _ROWS, _GAP = 80, 40, 2
@@ -114,15 +114,25 @@ def terminal_tables(
         beginning = cases if every else replace(cases, stored=cases.stored.head(_ROWS))
         count = len(cases.stored)
         limit = "" if len(beginning.stored) == count else f", first {_ROWS} of {count} cases"
-        models = [column.heading for column in cases.columns if column.number.startswith("kappa ")]
-        fixed = [name for name in beginning.texts if name not in models]
-        widths = {name: _GAP + max(map(len, [name, *beginning.texts[name]])) for name in beginning.texts}
-        free = width + _GAP - sum(widths[name] for name in fixed)
-        beside = max(int(free // max(widths[name] for name in models)), 1)
-        for start in range(0, len(models), beside):
-            yield rich_table(beginning.texts[[*fixed, *models[start : start + beside]]], cases.caption + limit)
+        for texts in side_by_side(beginning, width):
+            yield rich_table(texts, cases.caption + limit)
     for of_quantity in summary_tables(summary):
         yield rich_table(of_quantity.texts, of_quantity.caption)
+
+
+def side_by_side(cases: Table, width: int) -> Iterator[pd.DataFrame]:
+    """Yield the texts of a table of `case_tables` for as many models each time as fit a line of so many characters."""
+    models = [column.heading for column in cases.columns if column.number.startswith("kappa ")]
+    fixed = [name for name in cases.texts if name not in models]
+    widths = {name: _GAP + max(map(len, [name, *cases.texts[name]])) for name in cases.texts}
+    free = width + _GAP - sum(widths[name] for name in fixed)
+    beside = [models[0]]
+    for model in models[1:]:
+        if sum(widths[name] for name in [*beside, model]) > free:
+            yield cases.texts[[*fixed, *beside]]
+            beside = []
+        beside.append(model)
+    yield cases.texts[[*fixed, *beside]]
 
 
 def _printed(layout: Sequence[Column], rows: pd.DataFrame, title: str) -> RenderableType:

@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, LINES, MODEL_LINES, MODEL_NAMES, lettered
+from comparisons.output.style import COLOURS, LINES, MODEL_LINES, lettered
 
 __all__ = ["LABELS", "beside_fem", "by_model", "legend_below", "level", "lines_by", "panels"]
 
@@ -77,7 +77,7 @@ def of_model(table: pd.DataFrame, *models: str, column: str = "model") -> list[p
 def by_model(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
     """Draw the FSCM and both Maugis-Dugdale models, each in its style."""
     for model, rows in zip(MODEL_LINES, of_model(table, *MODEL_LINES), strict=True):
-        axes.plot(rows[x], rows[y], label=MODEL_NAMES[model], **MODEL_LINES[model])
+        axes.plot(rows[x], rows[y], label=model, **MODEL_LINES[model])
 
 
 def lines_by(

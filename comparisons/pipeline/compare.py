@@ -12,12 +12,14 @@ import pandas as pd
 from comparisons.data.file_names import COMPARISON, RECORD
 from comparisons.output.errors import comparison_table, error_summary
 from comparisons.output.figures.of_run import draw_comparison
+from comparisons.output.latex import UPRIGHT_WIDTH, latex
 from comparisons.output.markup import html_table
 from comparisons.output.style import save
-from comparisons.output.summaries import case_tables, summary_tables
+from comparisons.output.summaries import case_tables, side_by_side, summary_tables
 from comparisons.pipeline.inputs import Cases, grid_text, load_cases
 from comparisons.pipeline.run import run
 from comparisons.quantities import CURVES
+from comparisons.registry import COMPARABLE
 from comparisons.runs.csv_format import write_table
 from comparisons.runs.record import read_record, write_record
 from comparisons.runs.rows import Row
@@ -25,7 +27,10 @@ from comparisons.runs.rows import Row
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Comparison", "compare"]
+__all__ = ["ALL", "Comparison", "compare"]
+
+#: In place of a name: every model of fscm-bench that is not only a check of `fscm`.
+ALL = "all"
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +59,16 @@ class Comparison:
         """Return the errors as a Matplotlib figure."""
         return draw_comparison(self.table)
 
+    def latex(self) -> str:
+        """Return the tables in LaTeX, with as many models side by side as a page has room for."""
+        tables = [
+            latex(texts, cases.caption, f"{cases.id}-{number}")
+            for cases in case_tables(self.table)
+            for number, texts in enumerate(side_by_side(cases, UPRIGHT_WIDTH), start=1)
+        ]
+        summaries = (latex(table.texts, table.caption, table.id) for table in summary_tables(self.summary))
+        return "\n".join([*tables, *summaries])
+
     def _repr_html_(self) -> str:
         return "\n".join(map(html_table, [*summary_tables(self.summary), *case_tables(self.table)]))
 
@@ -76,7 +91,7 @@ def compare(
     Parameters
     ----------
     models : iterable of str
-        Names or SPECs.
+        Names or SPECs, or "all" for every model of fscm-bench that has a value or a failure in one of the cases.
     grid : str or Path, optional
         A file of [[grid]] tables as a sweep has it, or its text.  It states the quantities and the references.
     n, k, mu : sequence of float
@@ -108,7 +123,8 @@ def compare(
     >>> compared.table[["model", "kappa"]].round(4).values.tolist()
     [['jkr', -0.1022], ['bradley', 0.1971]]
     """
-    specs = [models] if isinstance(models, str) else list(models)
+    named = [models] if isinstance(models, str) else list(models)
+    specs = [*named] if ALL not in named else [*(spec for spec in named if spec != ALL), *COMPARABLE]
     if not specs:
         raise ValueError("no model is named; a comparison needs at least one")
     numbers = {"n": n, "k": k, "mu": mu, "nu": nu}
@@ -123,6 +139,8 @@ def compare(
     _check(cases, specs)
     finished = run(cases, models=specs, folder=folder, jobs=jobs)
     table = comparison_table(finished.tables.results, finished.inputs.cases.grids, finished.inputs.models)
+    if ALL in named:
+        table = _of_applicable(table, named)
     comparison = Comparison(table, error_summary(table), finished.folder, finished.failures)
     write_table(table, finished.folder / COMPARISON)
     figure = comparison.figure()
@@ -131,6 +149,13 @@ def compare(
     # With the checksums of these files.
     write_record(read_record(finished.folder / RECORD), finished.folder / RECORD)
     return comparison
+
+
+def _of_applicable(table: pd.DataFrame, named: Sequence[str]) -> pd.DataFrame:
+    """Return the rows of a comparison without models that are applicable in no case and have not been named."""
+    applicable = table.loc[table["status"] != "not-applicable", "model"]
+    kept = table["model"].isin([*applicable, *named]) | ~table["model"].isin(COMPARABLE)
+    return table[kept].reset_index(drop=True)
 
 
 def _grid_text(numbers: Mapping[str, Sequence[float] | None], quantities: Sequence[str], reference: str) -> str:

@@ -19,12 +19,13 @@ from comparisons.problem.problem import BETWEEN, Problem
 from comparisons.problem.reading import document_of, problem_of
 from comparisons.problem.units import NUMBER
 
-__all__ = ["Variation", "parse_variation", "parse_variations", "problems_of"]
+__all__ = ["RANGE", "Variation", "parse_variation", "parse_variations", "problems_of", "spaced"]
 
 #: Most problems of one variation, and most values of a range.
 _MOST = 100_000
 
-_RANGE = re.compile(rf"\s*({NUMBER})\s*:\s*({NUMBER})\s*:\s*(\d+)\s*(.*?)\s*")
+#: A range of values: first, last, number, unit.
+RANGE = re.compile(rf"\s*({NUMBER})\s*:\s*({NUMBER})\s*:\s*(\d+)\s*(.*?)\s*")
 _PLAIN = re.compile(rf"\s*{NUMBER}\s*")
 _UNIT = re.compile(rf"\s*{NUMBER}\s*(.*?)\s*")
 
@@ -105,13 +106,11 @@ def parse_variation(text: str) -> Variation:
     name, _, listed = text.partition("=")
     if not listed.strip():
         raise ValueError(f"--vary {shown(text)} names no key with values; {_FORM}")
-    if match := _RANGE.fullmatch(listed):
-        count = int(match[3])
-        if not 2 <= count <= _MOST:
-            raise ValueError(f"--vary {shown(text)}: {count} values are outside 2 to {_MOST}; a range has both ends")
-        # Twelve digits: 20:100:5 is 20, 40, 60 and not 60.000000000000007.
-        texts = [f"{value:.12g}" for value in np.linspace(float(match[1]), float(match[2]), count)]
-        unit = match[4]
+    if match := RANGE.fullmatch(listed):
+        try:
+            texts, unit = spaced(match[1], match[2], match[3]), match[4]
+        except ValueError as error:
+            raise ValueError(f"--vary {shown(text)}: {error}") from None
     else:
         texts = [value.strip() for value in listed.split(",")]
         unit_of_last = _UNIT.fullmatch(texts[-1])
@@ -123,6 +122,32 @@ def _value(text: str, unit: str) -> float | str:
     if not _PLAIN.fullmatch(text):
         return text
     return f"{text.strip()} {unit}" if unit else float(text)
+
+
+def spaced(first: str, last: str, count: str, logarithmic: bool = False) -> list[str]:
+    """Return numbers as texts, at equal distances, or at equal ratios to six digits, both ends included.
+
+    Raises
+    ------
+    ValueError
+        One sentence.
+
+    Examples
+    --------
+    >>> spaced("20", "100", "5"), spaced("0.1", "10", "3", logarithmic=True)
+    (['20', '40', '60', '80', '100'], ['0.1', '1', '10'])
+    """
+    ends, number = (float(first), float(last)), int(count)
+    if not 2 <= number <= _MOST:
+        raise ValueError(f"{count} values are outside 2 to {_MOST}; a range has both ends")
+    if logarithmic and min(ends) <= 0.0:
+        raise ValueError("values at equal ratios need ends above 0")
+    # Twelve digits: 20:100:5 is 20, 40, 60 and not 60.000000000000007.  Equal ratios are seldom round: six digits.
+    values, digits = (np.geomspace(*ends, number), 6) if logarithmic else (np.linspace(*ends, number), 12)
+    texts = [f"{value:.{digits}g}" for value in values]
+    if len(set(texts)) < number:
+        raise ValueError("its ends are too near each other for so many values")
+    return texts
 
 
 def parse_variations(texts: Sequence[str]) -> list[Variation]:

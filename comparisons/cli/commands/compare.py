@@ -3,27 +3,39 @@
 from __future__ import annotations
 
 import argparse
+from itertools import chain
 
-from comparisons.cli.options import JOBS, MODEL_SPEC, OUT, QUIET, file, numbers, option
+from comparisons.cli.options import JOBS, MODEL_SPEC, OUT, QUIET, file, numbers, option, several
 from comparisons.cli.run_screen import print_end
 from comparisons.cli.screen import output
 from comparisons.console.exit_status import FAILED
 from comparisons.console.progress import log
 from comparisons.output.summaries import terminal_tables
-from comparisons.pipeline.compare import compare
+from comparisons.pipeline.compare import ALL, compare
 
-EXAMPLES = ("fscm-bench compare jkr md-improved --n 1 2 --k 0 0.4 --mu 0.1 1 3",)
+EXAMPLES = (
+    "fscm-bench compare jkr md-improved --n 1 2 --k 0 0.4 --mu 0.1 1 3",
+    "fscm-bench compare --model all --n 2 --k 0 --mu 0.1:10:20 --latex > table.tex",
+)
+
+_MODELS = f"{MODEL_SPEC}; {ALL}: every model of fscm-bench that has a value in these cases"
 
 OPTIONS = (
-    option("models", metavar="MODEL", nargs="+", help=MODEL_SPEC),
+    option("models", metavar="MODEL", nargs="*", help=_MODELS),
+    several("--model", metavar="MODEL", help="the same: more models"),
     file("--grid", help="[[grid]] tables as for fscm-bench sweep"),
-    numbers("--n", help="values of n; every combination of --n, --k and --mu is a case"),
-    numbers("--k", help="values of k"),
-    numbers("--mu", help="values of mu"),
+    numbers("--n", help="values of n, or FROM:TO:COUNT; every combination of --n, --k and --mu is a case"),
+    numbers("--k", help="values of k, or FROM:TO:COUNT at equal distances"),
+    numbers("--mu", logarithmic=True, help="values of mu, or FROM:TO:COUNT at equal ratios: 0.1:10:20"),
     numbers("--nu", help="Poisson's ratios, for models that need one"),
     option("--quantity", metavar="NAME", nargs="+", help="see: fscm-bench list quantities (default: pull_off_force)"),
     option("--reference", metavar="MODEL", help="(default: fscm; atlas takes microseconds)"),
     option("--every", action="store_true", help="print every case, not the first 40"),
+    option(
+        "--latex",
+        action="store_true",
+        help="print the tables, with every case, as LaTeX (booktabs, longtable, siunitx)",
+    ),
     JOBS,
     OUT,
     QUIET,
@@ -35,7 +47,7 @@ def call(args: argparse.Namespace) -> int:
     if args.grid is not None and args.quantity is not None:
         raise ValueError("--grid states the quantities; leave out --quantity")
     finished = compare(
-        args.models,
+        [*args.models, *chain(args.model or ())],
         args.grid,
         n=args.n,
         k=args.k,
@@ -46,7 +58,9 @@ def call(args: argparse.Namespace) -> int:
         folder=args.out,
         jobs=args.jobs,
     )
-    if not args.quiet:
+    if args.latex:
+        print(finished.latex(), end="")
+    elif not args.quiet:
         console = output()
         for table in terminal_tables(finished.table, finished.summary, args.every, console.width):
             console.print(table)

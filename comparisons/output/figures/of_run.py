@@ -25,8 +25,9 @@ _QUANTITY, _K, _MODELS = "pull_off_force", 0.4, ("md-original", "md-improved")
 
 _COLUMNS = 4
 
-#: More panels are too small a part of a figure; room of one entry of the legend in inches.
-_MOST_PANELS, _LEGEND_WIDTH, _LEGEND_HEIGHT = 24, 2.3, 0.17
+#: More panels are too small a part of a figure; room in the legend of a character, a line and its height in inches.
+_MOST_PANELS, _LEGEND_CHARACTER, _LEGEND_LINE = 24, 0.063, 0.6
+_LEGEND_HEIGHT = 0.17
 
 #: Characters of a line beside or above a panel.
 _LINE = 28
@@ -76,8 +77,10 @@ def draw_plots(drawn: Sequence[plots.Plot]) -> Figure:
     columns = min(_COLUMNS, max(len(panels), 1))
     height = max(-(-len(panels) // columns), 1)
     styles = model_styles(model for plot in drawn for model in plot.points["model"])
-    width = max(4.8, 2.5 * columns)
-    in_legend = max(1, int(width // _LEGEND_WIDTH))
+    width = max(6.4, 2.5 * columns)
+    entries = _legend_entries(drawn)
+    longest = max(map(len, entries.values()), default=0)
+    in_legend = max(1, int(width // (_LEGEND_LINE + _LEGEND_CHARACTER * longest)))
     with styled():
         figure = new_figure(width, 0.7 + 2.4 * height + _LEGEND_HEIGHT * (len(styles) // in_legend))
         handles: dict[str, Any] = {}
@@ -86,8 +89,17 @@ def draw_plots(drawn: Sequence[plots.Plot]) -> Figure:
             if panel is not None:
                 plot, rows = panel
                 handles |= _panel(axes, plot, rows, styles)
-        figure.legend(handles.values(), handles, loc="outside lower center", ncols=in_legend)
+        labels = [entries[model] for model in handles]
+        figure.legend(handles.values(), labels, loc="outside lower center", ncols=in_legend)
     return figure
+
+
+def _legend_entries(drawn: Sequence[plots.Plot]) -> dict[str, str]:
+    """Return the text of each model in the legend: its name and largest bound, whose bar may be too small."""
+    points = pd.concat([plot.points for plot in drawn])
+    largest = (points["high"] - points["y"]).groupby(points["model"]).max()
+    unit = next((plot.unit for plot in drawn), "")
+    return {str(model): f"{model}, u ≤ {bound:.1e}{unit}" if bound else str(model) for model, bound in largest.items()}
 
 
 def _panel(axes: Axes, plot: plots.Plot, rows: pd.DataFrame, styles: Mapping[str, ModelStyle]) -> dict[str, Any]:
@@ -99,7 +111,7 @@ def _panel(axes: Axes, plot: plots.Plot, rows: pd.DataFrame, styles: Mapping[str
         if plot.mark == "both":
             bars = points["high"] - points["y"]
             drawn |= {"yerr": bars, "elinewidth": 0.8, "capsize": 2, "marker": style.symbol, "ms": 3.5}
-        handles[style.label] = axes.errorbar(points["x"], points["y"], **drawn)[0]
+        handles[str(model)] = axes.errorbar(points["x"], points["y"], **drawn)[0]
     axes.axhline(0, color="0.4", lw=0.8)
     options = zip(plot.choices, rows["options"].iloc[0], strict=True)
     # No line ends within "n = 2".

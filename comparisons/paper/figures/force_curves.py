@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES
+from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import (
     LABELS,
@@ -68,7 +68,7 @@ def _s_curve(figure: Figure, curves: pd.DataFrame, points: pd.DataFrame, hystere
     lattice[2].fill(*loop(path, points), color=COLOURS[6], alpha=0.35, lw=0)
     for axes, (x, y) in zip(lattice, _S_AXES, strict=True):
         level(axes)
-        axes.plot(path[x], path[y], color=COLOURS[0], label=MODEL_NAMES["fscm"])
+        axes.plot(path[x], path[y], color=COLOURS[0], label="fscm")
         axes.plot(points[x], points[y], ls="none", marker="o", ms=4, color=COLOURS[2])
         for name, point in points.iterrows():
             axes.annotate(str(name), (point[x], point[y]), (3, 4), textcoords="offset points", fontsize=8)
@@ -76,7 +76,7 @@ def _s_curve(figure: Figure, curves: pd.DataFrame, points: pd.DataFrame, hystere
             axes.set_xscale("symlog", linthresh=_LINEAR_GAP)
         axes.set(xlabel=LABELS[x], ylabel=LABELS[y], xlim=_S_RANGES[x], ylim=_S_RANGES[y])
     forces = lattice[2]
-    forces.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label=MODEL_NAMES["jkr"])
+    forces.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label="jkr")
     for name in ("A", "B"):
         forces.plot(*points.loc[[name, f"{name}'"], ["displacement", "load"]].to_numpy().T, color=COLOURS[1], ls=":")
     energy = hysteresis["value"].item()
@@ -163,7 +163,7 @@ def _over_models(figure: Figure, table: pd.DataFrame) -> None:
         axes.set(ylim=(-1.12 * depth, 0.35 * depth))
         axes.set_xlim(seen["displacement"].min() - 0.5, seen["displacement"].max() + 0.5)
     # Eqs. 66-69 hold in contact only; there both curves end.
-    legend_below(figure, 3, title="M-D-$n$-$k$ as far as there is contact, $a > 0$", title_fontsize=8)
+    legend_below(figure, 3, title="md-original and md-improved as far as there is contact, $a > 0$", title_fontsize=8)
 
 
 @paper_figure(_over_models, size=(7.2, 5.6), follows_path=True)

@@ -105,7 +105,7 @@ def _beside_asymptotes(figure: Figure, displacements: pd.DataFrame, coefficients
     for index, (column, words) in enumerate(zip(_ASYMPTOTES, ("jump in, Eq. 47", "jump out, Eq. 54"), strict=True)):
         left.plot(closed["mu"], closed[column], label=words, color=COLOURS[index], ls=("-", "--")[index])
         broad = MODEL_LINES["fscm"] | {"color": COLOURS[index]}
-        left.plot(fscm["mu"], fscm[column], label=words.partition(",")[0] + ", FSCM", **broad)
+        left.plot(fscm["mu"], fscm[column], label=words.partition(",")[0] + ", fscm", **broad)
     left.set(xlim=(0.0, 5.1), xlabel=LABELS["mu"], ylabel=r"displacement at the jumps $\delta/z_0$")
     left.legend()
     lines_by(right, coefficients, "n", "k", "C_in")

@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, MaxNLocator
 
 from comparisons.output.errors import relative_error
-from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, model_styles
+from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, model_styles
 from comparisons.paper.drawing import LABELS, by_model, dashed, held, label_of, legend_below, level, of_model, panels
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure, together
 from comparisons.paper.tasks import GRADIENTS, values_of
@@ -49,10 +49,10 @@ def _transition(figure: Figure, table: pd.DataFrame) -> None:
     for axes, (n, limits) in zip(lattice, _SHAPES.items(), strict=True):
         fscm, jkr, bradley = of_model(forces[forces["n"] == n], "fscm", "jkr", "bradley")
         for index, (k, line) in enumerate(fscm.groupby("k")):
-            axes.plot(line["mu"], line["value"], label=f"FSCM, {label_of('k', k)}", **dashed(index))
+            axes.plot(line["mu"], line["value"], label=f"fscm, {label_of('k', k)}", **dashed(index))
             axes.plot("mu", "value", data=jkr[jkr["k"] == k], color=COLOURS[index], label="_", **thin)
-        axes.plot(bradley["mu"], bradley["value"], color="0.5", ls="--", lw=0.9, label=MODEL_NAMES["bradley"])
-        axes.plot([], [], color=COLOURS[0], **thin, label=f"{MODEL_NAMES['jkr']}, colours as FSCM")
+        axes.plot(bradley["mu"], bradley["value"], color="0.5", ls="--", lw=0.9, label="bradley")
+        axes.plot([], [], color=COLOURS[0], **thin, label="jkr, colours as fscm")
         axes.set(xscale="log", xlim=_ENDS)
         _log_forces(axes, *limits)
     legend_below(figure, 4)
@@ -118,7 +118,7 @@ def _limits(axes: Axes, table: pd.DataFrame, y: str) -> None:
         return
     for name, dashes in (("bradley", "-."), ("jkr", ":")):
         (line,) = of_model(table, name)
-        axes.plot(line["mu"], line[y], color="0.55", lw=0.9, ls=dashes, label=MODEL_NAMES[name])
+        axes.plot(line["mu"], line[y], color="0.55", lw=0.9, ls=dashes, label=name)
 
 
 @paper_figure(partial(_panels_of_models, y="value", label=LABELS["force"]), size=(7.2, 5.6))
@@ -142,7 +142,7 @@ def _kappa_handles(shapes: Iterable[float]) -> list[Line2D]:
     ]
     for model, face in _FACES.items():
         style: dict[str, Any] = {"color": _OF_ALL, "marker": MARKERS[0], "ms": 3.5, "mfc": face or _OF_ALL}
-        handles.append(Line2D([], [], ls=model_styles([model])[model].line, label=MODEL_NAMES[model], **style))
+        handles.append(Line2D([], [], ls=model_styles([model])[model].line, label=model, **style))
     return handles
 
 
@@ -155,7 +155,7 @@ def _kappa_panels(complete: Axes, enlarged: Axes, kappa: pd.DataFrame) -> None:
             style: dict[str, Any] = {"color": colour, "marker": MARKERS[index], "mfc": face or colour, "ms": 3.5}
             error, u = 100 * points["kappa"], 100 * points["u_kappa"]
             for axes in (complete, enlarged) if len(points) else ():
-                axes.plot(points["mu"], error, ls=line, label=f"$n$ = {n:g}, {MODEL_NAMES[model]}", **style)
+                axes.plot(points["mu"], error, ls=line, label=f"$n$ = {n:g}, {model}", **style)
                 axes.fill_between(points["mu"], error - u, error + u, color=colour, alpha=0.2)
     for axes in (complete, enlarged):
         axes.set(xscale="log", xlabel=r"Tabor number $\mu$")
@@ -174,7 +174,7 @@ def _by_soft(figure: Figure, table: pd.DataFrame, kappa: pd.DataFrame) -> None:
     scaled.set(xscale="log")
     _log_forces(scaled, table["ratio"].min() / 1.2, table["ratio"].max() * 1.2)
     _kappa_panels(complete, enlarged, kappa)
-    fscm = Line2D([], [], label=f"{MODEL_NAMES['fscm']}, colours as $n$", **MODEL_LINES["fscm"])
+    fscm = Line2D([], [], label="fscm, colours as $n$", **MODEL_LINES["fscm"])
     figure.legend(handles=[fscm, *_kappa_handles(_SHAPES)], loc="outside lower center", ncols=7, columnspacing=1.2)
 
 

@@ -12,7 +12,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
-from comparisons.output.style import COLOURS, MODEL_LINES, MODEL_NAMES
+from comparisons.output.style import COLOURS, MODEL_LINES
 from comparisons.paper.drawing import LABELS, by_model, held, legend_below, level, lines_by, of_model, panels
 from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, table_of, together
 from comparisons.paper.tasks import COHESIVE, GRADIENTS, cohesive_surface, profile, quantity, surface
@@ -81,7 +81,7 @@ def _over_models(figure: Figure, table: pd.DataFrame, radii: pd.DataFrame) -> No
     by_model(left, table, "radius", "height")
     by_model(right, table, "radius", "pressure")
     (exact,) = of_model(table, "fscm")
-    left.plot(exact["radius"], exact["punch"], color="0.45", ls=":", lw=0.9, label="punch (FSCM)")
+    left.plot(exact["radius"], exact["punch"], color="0.45", ls=":", lw=0.9, label="punch (fscm)")
     level(right)
     left.set(xlim=(0.0, 3.0), ylim=(0.0, 1.75), ylabel=LABELS["height"])
     right.set(ylabel=LABELS["pressure"])
@@ -109,7 +109,7 @@ def _draw_surface_inside(figure: Figure, table: pd.DataFrame, radii: pd.DataFram
     heights = table.pivot(index="radius", columns="model", values="gap_and_displacement")
     axes = figure.subplots()
     for model in COHESIVE:
-        axes.plot(heights.index, heights[model] - heights["fscm"], label=MODEL_NAMES[model], **MODEL_LINES[model])
+        axes.plot(heights.index, heights[model] - heights["fscm"], label=model, **MODEL_LINES[model])
     axes.plot(heights.index, heights["fem"] - heights["fscm"], color=COLOURS[0], lw=0.9, ls=":", label="fem")
     level(axes)
     inner = radii["contact_radius"].min()

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 
 from comparisons.description.strain_errors import Change, ball_on, strain_change
 from comparisons.numerics.bounds import relative_difference, relative_uncertainty
-from comparisons.output.style import COLOURS, LINES, MODEL_NAMES
+from comparisons.output.style import COLOURS, LINES
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import panels
 from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, rows_of, together
@@ -91,7 +91,7 @@ def _picture(figure: Figure, table: pd.DataFrame, cancel: pd.DataFrame) -> None:
         for model, line, colour in zip(MODELS, LINES, COLOURS, strict=False):
             rows = table[(table["nu"] == nu) & (table["mu"] == mu) & (table["model"] == model)]
             percent, u, x = 100.0 * rows["kappa"], 100.0 * rows["u_kappa"], rows["elasto_adhesion_number"]
-            axes.plot(x, percent, color=colour, ls=line, lw=1.1, label=MODEL_NAMES[model])
+            axes.plot(x, percent, color=colour, ls=line, lw=1.1, label=model)
             axes.fill_between(x, percent - u, percent + u, color=colour, alpha=0.2, lw=0.0)
         meeting = cancel[(cancel["nu"] == nu) & (cancel["mu"] == mu)]["elasto_adhesion_number"]
         axes.plot(meeting, 0.0 * meeting, "o", ms=4, color=COLOURS[0], mfc="none")

@@ -78,6 +78,20 @@ def test_the_command_fits_80_columns_and_states_reference_and_coverage(tmp_path,
     assert (grid.reference, len(grid.cases)) == ("atlas", 6)
 
 
+def test_all_models_at_equal_ratios_as_latex(tmp_path, capsys, monkeypatch, typeset):
+    """Models that are applicable in no case are left out, but for those that are named."""
+    models = ("jkr", "jkr-sphere", "semi-rigid", "md-improved", "carpick-ogletree-salmeron", "pietrement-troyon")
+    monkeypatch.setattr("comparisons.pipeline.compare.COMPARABLE", models)
+    case = ["--n", "2", "--k", "0", "--mu", "0.1:10:4", "--reference", "atlas", "--out", str(tmp_path), "--jobs", "1"]
+    assert main(["compare", "jkr-sphere", "--model", "all", *case, "--latex"]) == 0
+    typeset(text := capsys.readouterr().out)
+    table = read_table(tmp_path / "comparison.csv")
+    assert sorted(set(table["mu"])) == [0.1, 0.464159, 2.15443, 10.0]
+    compared = set(models) - {"semi-rigid"}
+    assert set(table["model"]) == compared
+    assert all(text.count(rf"{{{model}}}") for model in compared)
+
+
 def test_a_reference_that_needs_no_poisson_ratio_is_the_one_of_a_case_with_it():
     """A case with nu: the finite elements get it, the FSCM does not."""
     text = GRID.replace('"exact"', '"fscm"').replace('"ten-percent"', '"fem"').replace("[0, 0.4]", "[0]")
@@ -112,6 +126,12 @@ CASE = ["--n", "2", "--k", "0", "--mu", "1"]
         (["jkr", "--grid", "GRID", "--mu", "1"], "--grid states the cases"),
         (["jkr", "--grid", "GRID", "--quantity", "pull_off_force"], "leave out --quantity"),
         (["no-such-model", *CASE], "unknown model"),
+        (["--n", "2", "--k", "0", "--mu", "1"], "no model"),
+        (["jkr", *CASE[:-1], "0.1:10"], "'0.1:10'"),
+        (["jkr", *CASE[:-1], "0:10:5"], "above 0"),
+        (["jkr", *CASE[:-1], "1:2:1"], "1 values"),
+        (["jkr", *CASE[:-1], "1:1:3"], "too near"),
+        (["jkr", *CASE, "--n", "1:2:x"], "'1:2:x'"),
     ],
 )
 def test_what_cannot_be_compared_is_one_sentence(tmp_path, refused, arguments, named):
