@@ -32,6 +32,7 @@ _COMMANDS = {
     "judge": "judge stored results again without computing, by the gates of the run or others",
     "report": "write a run as one HTML page that needs no other file",
     "leaderboard": "write any number of runs as one sortable HTML table",
+    "board": "judge a folder of submitted models and write a static site: errors, verdicts, report cards, history",
     "paper": "compute the figures and numbers of the paper again",
     "sweep": "compute grids of one's own, without gates",
     "compare": "compare models with a reference in cases of one's own: one table, one figure",

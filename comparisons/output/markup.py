@@ -10,6 +10,7 @@ import re
 import pandas as pd
 from markupsafe import Markup, escape
 
+from comparisons.data.file_names import REPORT
 from comparisons.judging.decision import Verdict
 from comparisons.output.style import VERDICT_SYMBOLS
 from comparisons.output.table import Column, Record, Table
@@ -93,6 +94,8 @@ def _cell(column: Column, row: Record, text: str) -> Markup:
         cell = _RANK.format(Verdict(text).rank, badge(text))
     elif column.kind == "code":
         cell = _COMMAND.format(text)
+    elif column.kind == "link" and row["folder"]:
+        cell = Markup('<a href="{}/{}">{}</a>').format(row["folder"], REPORT, text)
     elif column.kind == "prose":
         cell = Markup('<span class="prose">{}</span>').format(text)
     elif column.number and not pd.isna(row[column.number]):

@@ -42,7 +42,8 @@ class Column:
     number : str
         Name of the stored number that the cell shows; empty of a text.
     kind : str
-        "words", "prose" (which wraps), "verdict" or "code" (a command, for which a page of paper has no room).
+        "words", "prose" (which wraps), "verdict", "link" (to the report in the folder that the row names) or "code"
+        (a command, for which a page of paper has no room).
     small : callable or None
         From a stored row to small print below its cell on a page.
     """

@@ -11,7 +11,7 @@ from comparisons.output.report.stored_run import read_folder
 from comparisons.pipeline.inputs import stored_inputs
 from comparisons.runs.tasks import plan
 
-__all__ = ["leaderboard"]
+__all__ = ["entry_of", "leaderboard"]
 
 
 def leaderboard(folders: Sequence[Path], mixed: bool = False) -> str:
@@ -30,11 +30,11 @@ def leaderboard(folders: Sequence[Path], mixed: bool = False) -> str:
         If a folder is not that of a finished run, a file of it was changed, it holds a part of a sweep, or the runs
         have different cases or gates and `mixed` is false.
     """
-    entries = [_entry(folder) for folder in {folder.resolve(): folder for folder in folders}.values()]
+    entries = [entry_of(folder) for folder in {folder.resolve(): folder for folder in folders}.values()]
     return leaderboard_html(entries, mixed)
 
 
-def _entry(folder: Path) -> Entry:
+def entry_of(folder: Path) -> Entry:
     """Return the results of a folder with the keys that its tables of errors are about, and their references."""
     stored = read_folder(folder)
     if shard := stored.record["arguments"].get("shard"):

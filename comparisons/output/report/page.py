@@ -53,7 +53,7 @@ class Page:
     Attributes
     ----------
     kind : str
-        "report" or "leaderboard".
+        "report", "leaderboard" or "board".
     headline : str
         The result in one sentence.
     blocks : dict of str to list

@@ -37,7 +37,7 @@ def refused(schema, *paths, more=()):
 def test_the_files_and_the_examples_of_the_page_fit_the_published_schemas(tmp_path, examples):
     assert main(["new-model", str(tmp_path / "my-model")]) == 0
     workflows = [*(ROOT / ".github" / "workflows").glob("*.yml"), *tmp_path.rglob("*.yml")]
-    assert len(workflows) == 4
+    assert len(workflows) == 5
     assert refused("github-workflows", *workflows) == ""
     assert refused("github-actions", ACTION) == ""
     for_gitlab = ["--data-transform", "gitlab-ci"]

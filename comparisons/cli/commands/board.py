@@ -1,0 +1,34 @@
+"""``fscm-bench board``: a static site of submitted models with their errors, verdicts and history."""
+
+from __future__ import annotations
+
+import argparse
+
+from comparisons.cli.options import JOBS, QUIET, file
+from comparisons.cli.screen import output
+from comparisons.console.exit_status import FAILED, OK
+from comparisons.console.progress import log
+from comparisons.output.report.board import standings
+from comparisons.output.table import Table, columns, words
+from comparisons.output.terminal import rich_table
+from comparisons.pipeline.board import make_board
+
+EXAMPLES = ("fscm-bench board docs/board/submissions --out site",)
+
+OPTIONS = (
+    file("submissions", metavar="SUBMISSIONS", help="a folder of submissions, or one: see docs/board.md"),
+    file("--out", metavar="SITE", required=True, help="folder for the site; what it has is not computed again"),
+    JOBS,
+    QUIET,
+)
+
+
+def call(args: argparse.Namespace) -> int:
+    """Judge, write and print; return the exit status, 4 if a submission could not be judged."""
+    board = make_board(args.submissions, args.out, args.jobs)
+    rows = standings(board.entries)
+    if len(rows) and not args.quiet:
+        layout = [*columns("model"), words("version"), *columns("verdict", "quantity", "largest |κ| (%)", "coverage")]
+        output().print(rich_table(Table("board", "", layout, rows).texts, "board"))
+    log(f"the board is {board.page}")
+    return OK if all(entry.judged for entry in board.entries) else FAILED

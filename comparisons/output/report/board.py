@@ -1,0 +1,188 @@
+"""The first page of the board: errors of the newest versions, errors by region, history, and all submissions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import pandas as pd
+
+from comparisons.judging.card_gates import overall
+from comparisons.output import plots
+from comparisons.output.errors import error_summary
+from comparisons.output.report.leaderboard import Entry, standing
+from comparisons.output.report.page import Block, Page
+from comparisons.output.table import CASE, SHORT_PERCENT, Table, columns, percents, words
+
+__all__ = ["BoardEntry", "Submission", "board_page", "standings"]
+
+#: Regions of the cases, by the headings of their columns.
+_REGIONS: dict[str, Callable[[pd.DataFrame], pd.Series]] = {
+    "μ ≤ 0.1": lambda kappa: kappa["mu"] <= 0.1,
+    "0.1 < μ < 2": lambda kappa: kappa["mu"].between(0.1, 2.0, inclusive="neither"),
+    "μ ≥ 2": lambda kappa: kappa["mu"] >= 2.0,
+    "k = 0": lambda kappa: kappa["k"] == 0.0,
+    "k > 0": lambda kappa: kappa["k"] > 0.0,
+    "n < 2": lambda kappa: kappa["n"] < 2.0,
+    "n = 2": lambda kappa: kappa["n"] == 2.0,
+    "n > 2": lambda kappa: kappa["n"] > 2.0,
+}
+
+_MODEL = words("model", kind="link")
+_ERRORS = columns("largest |κ| (%)", *CASE, "rms κ (%)", "coverage")
+_ORIGIN = [words("version"), words("date"), words("licence")]
+
+
+@dataclass(frozen=True, slots=True)
+class Submission:
+    """A version of a model, as its authors describe it.
+
+    Attributes
+    ----------
+    name, version, date, citation, licence : str
+    authors : tuple of str
+    spec : str
+        The SPEC that finds the model.
+    """
+
+    name: str
+    version: str
+    date: str
+    authors: tuple[str, ...]
+    citation: str
+    licence: str
+    spec: str
+
+    @property
+    def folder(self) -> str:
+        """The folder of its results in the site."""
+        return f"models/{self.name}/{self.version}"
+
+
+@dataclass(frozen=True, slots=True)
+class BoardEntry:
+    """A submission and its results.
+
+    Attributes
+    ----------
+    place : str
+        Its folder among the submissions.
+    submission : Submission or None
+        None if its description cannot be read.
+    judged : Entry or None
+        None if it was not judged.
+    reason : str
+        Why it was not judged.
+    """
+
+    place: str
+    submission: Submission | None
+    judged: Entry | None
+    reason: str = ""
+
+    def is_of(self, submission: Submission) -> bool:
+        """Whether it is the same version of the same model."""
+        stated = self.submission
+        return stated is not None and (stated.name, stated.version) == (submission.name, submission.version)
+
+
+def standings(entries: Sequence[BoardEntry]) -> pd.DataFrame:
+    """Return the errors and verdicts of every version that was judged; `newest` marks the newest one of a model.
+
+    Parameters
+    ----------
+    entries : sequence of BoardEntry
+
+    Returns
+    -------
+    DataFrame
+        As of `comparisons.output.report.leaderboard.standing`, one row a quantity, by model and date.
+    """
+    tables = []
+    for entry in entries:
+        if entry.judged and (submission := entry.submission):
+            stated = {name: getattr(submission, name) for name in ("version", "date", "licence", "folder")}
+            errors = standing(entry.judged).assign(**stated, authors=", ".join(submission.authors))
+            tables.append(errors[errors["model"] == submission.name])
+    if not tables:
+        return pd.DataFrame()
+    rows = pd.concat(tables, ignore_index=True).sort_values(["model", "date", "version"], ignore_index=True)
+    return rows.assign(newest=rows["folder"] == rows.groupby("model")["folder"].transform("last"))
+
+
+def board_page(entries: Sequence[BoardEntry]) -> Page:
+    """Return the content of the first page.
+
+    Parameters
+    ----------
+    entries : sequence of BoardEntry
+    """
+    rows = standings(entries)
+    blocks = {} if rows.empty else _results(entries, rows)
+    count = rows["model"].nunique() if len(rows) else 0
+    judged = sum(entry.judged is not None for entry in entries)
+    lines = [f"Submissions: {len(entries)}, of which {judged} are judged."]
+    return Page("board", f"{count} models of adhesive contact and their errors", blocks | _submissions(entries), lines)
+
+
+def _results(entries: Sequence[BoardEntry], rows: pd.DataFrame) -> dict[str, Sequence[Block]]:
+    """Return the sections of what was judged."""
+    newest = rows[rows["newest"]].sort_values("size", kind="stable", ignore_index=True)
+    history = rows[rows.groupby("model")["version"].transform("nunique") > 1]
+    board = [_MODEL, *columns("verdict", "quantity"), *_ERRORS, *_ORIGIN]
+    versions = [_MODEL, *_ORIGIN[:2], *columns("verdict", "quantity"), *_ERRORS]
+    kappa = _kappa(entries, set(newest["folder"]))
+    return {
+        "models": [
+            Table("models", "The newest version of each model, the smallest largest error first", board, newest)
+        ],
+        "regions": [_regions(kappa)] if len(kappa) else [],
+        "errors": _plot(kappa) if len(kappa) else [],
+        "history": [Table("history", "Largest errors by version", versions, history)],
+    }
+
+
+def _kappa(entries: Sequence[BoardEntry], folders: set[str]) -> pd.DataFrame:
+    """Return the relative errors of the versions in these folders in every case."""
+    tables = []
+    for entry in entries:
+        if entry.judged and entry.submission and entry.submission.folder in folders:
+            kappa = entry.judged.stored.kappa
+            tables.append(kappa[kappa["model"] == entry.submission.name])
+    return pd.concat(tables, ignore_index=True)
+
+
+def _regions(kappa: pd.DataFrame) -> Table:
+    """Return the largest error of each model and quantity in each region."""
+    keys = ["model", "quantity"]
+    table = kappa[keys].drop_duplicates()
+    for heading, inside in _REGIONS.items():
+        summary = error_summary(kappa[inside(kappa)].assign(status="ok"))
+        names = {"largest": f"kappa {heading}", "u_largest": f"u {heading}"}
+        table = table.merge(summary[[*keys, *names]].rename(columns=names), on=keys, how="left")
+    layout = [percents(name, f"kappa {name}", f"u {name}", least=SHORT_PERCENT) for name in _REGIONS]
+    return Table("regions", "Error κ of largest size in percent, by region", [*columns(*keys), *layout], table)
+
+
+def _plot(kappa: pd.DataFrame) -> Sequence[Block]:
+    """Return the relative errors over a parameter, and their numbers."""
+    plot = plots.kappa(kappa)
+    layout = columns("model", "quantity", *CASE, "value", "reference", "reference's value", "κ (%)", "u of κ")
+    return [plot, Table("kappa", "Relative errors", layout, kappa, fold="Numbers of this plot", group=plot.group)]
+
+
+def _submissions(entries: Sequence[BoardEntry]) -> dict[str, Sequence[Block]]:
+    """Return the section with a row for each submission, and why it has no results."""
+    rows = []
+    for entry in entries:
+        row = {"place": entry.place, "status": "not judged", "reason": entry.reason, "folder": ""}
+        if submission := entry.submission:
+            row |= {"model": submission.name, "authors": ", ".join(submission.authors)}
+            row |= {name: getattr(submission, name) for name in ("version", "date", "licence", "citation")}
+        if entry.judged and submission:
+            row |= {"status": str(overall(entry.judged.stored.verdicts)), "folder": submission.folder}
+        rows.append(row)
+    prose = [words(name, kind="prose") for name in ("reason", "authors", "citation")]
+    layout = [words("folder", "place"), _MODEL, words("status", kind="verdict"), *_ORIGIN, *prose]
+    names = ["place", "folder", *(column.heading for column in layout[1:])]
+    return {"submissions": [Table("submissions", "Every submission", layout, pd.DataFrame(rows, columns=names))]}

@@ -1,0 +1,126 @@
+"""Function that makes the board: a static site of submissions, each run and judged as by ``fscm-bench run --model``."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+from comparisons.console.progress import log, note
+from comparisons.data.file_names import REPORT, STORE
+from comparisons.external.model_source import close_models
+from comparisons.model import ComputationFailed
+from comparisons.output.report.board import BoardEntry, Submission, board_page
+from comparisons.output.report.page import make_page
+from comparisons.output.report.render import render
+from comparisons.output.report.stored_run import read_folder
+from comparisons.pipeline.leaderboard import entry_of
+from comparisons.pipeline.run import run
+from comparisons.pipeline.submissions import read_submission, submission_folders
+from comparisons.pipeline.tables import REFERENCE
+from comparisons.registry import create
+from comparisons.runs.atomic_files import atomic, prepare_folder
+from comparisons.runs.environment import fingerprint
+from comparisons.runs.store import rows_in
+
+__all__ = ["INDEX", "Board", "make_board"]
+
+#: The first page of the site, and the file that names the code of its results.
+INDEX, _CODE = "index.html", "code.txt"
+
+
+@dataclass(frozen=True, slots=True)
+class Board:
+    """A site.
+
+    Attributes
+    ----------
+    page : Path
+        Its first page.
+    entries : list of BoardEntry
+        The submissions in the order of their folders.
+    """
+
+    page: Path
+    entries: list[BoardEntry]
+
+
+def make_board(submissions: Path, site: Path, jobs: int = 1) -> Board:
+    """Judge submissions in the standing cases and write their pages, the run folders behind them, and the first page.
+
+    A submission that cannot be judged is an entry with the reason.  What the site holds already is not computed again,
+    unless the submission or the code of fscm-bench has changed.
+
+    Parameters
+    ----------
+    submissions : Path
+        A folder of submissions, or one submission.
+    site : Path
+        Folder for the site.
+    jobs : int
+        Number of processes.
+
+    Raises
+    ------
+    ValueError
+        If there is no submission, or `site` holds files that are not of a board.
+    OSError
+        If a file cannot be written.
+    """
+    folders = list(submission_folders(submissions))
+    _prepare(site)
+    entries: list[BoardEntry] = []
+    for folder in folders:
+        note(f"submission {folder}")
+        entries.append(_entry(folder, submissions, site, entries, jobs))
+        # Each model is a process, which is not needed any more.
+        close_models()
+    page = site / INDEX
+    with atomic(page) as file:
+        file.write(render(board_page(entries)).encode())
+    return Board(page, entries)
+
+
+def _prepare(site: Path) -> None:
+    """Make the folder of a site; results of other code are removed."""
+    prepare_folder(site)
+    code = site / _CODE
+    if not code.exists() and any(site.iterdir()):
+        raise ValueError(f"{site} holds files that are not of a board; choose another folder with --out")
+    if not code.exists() or code.read_text(encoding="utf-8") != fingerprint():
+        shutil.rmtree(site / "models", ignore_errors=True)
+        with atomic(code) as file:
+            file.write(fingerprint().encode())
+
+
+def _entry(folder: Path, root: Path, site: Path, earlier: list[BoardEntry], jobs: int) -> BoardEntry:
+    """Return a submission with its results, or with the reason why it has none."""
+    place = folder.relative_to(root).as_posix() if folder != root else folder.name
+    submission = None
+    try:
+        submission = read_submission(folder)
+        if any(entry.is_of(submission) for entry in earlier):
+            raise ValueError(f"{submission.name} {submission.version} is there twice: each needs its own version")
+        _judge(submission, site, earlier, jobs)
+        judged = entry_of(site / submission.folder)
+    except (ValueError, ComputationFailed) as error:
+        log(f"{place} is not judged: {error}")
+        return BoardEntry(place, submission, None, str(error))
+    return BoardEntry(place, submission, judged)
+
+
+def _judge(submission: Submission, site: Path, earlier: list[BoardEntry], jobs: int) -> None:
+    """Run a submission in its folder of the site, and write its page."""
+    name = create(submission.spec).name
+    if name != submission.name:
+        raise ValueError(f"the name of the submission is {submission.name}, but that of its model is {name}")
+    target = prepare_folder(site / submission.folder)
+    judged = [entry.submission.folder for entry in earlier if entry.submission and entry.judged]
+    if judged and not (target / STORE).exists():
+        # The values of the reference are the same for every submission.
+        with rows_in(target) as store, rows_in(site / judged[-1]) as source:
+            store.take(source, lambda row: row.model == REFERENCE)
+    run(models=[submission.spec], folder=target, jobs=jobs)
+    page = render(make_page(read_folder(target)))
+    with atomic(target / REPORT) as file:
+        file.write(page.encode())

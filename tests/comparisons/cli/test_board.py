@@ -1,0 +1,162 @@
+"""The board: submissions of every kind, judged, refused and hostile, on one site."""
+
+import hashlib
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+
+from comparisons.cli.main import main
+from comparisons.external.model_source import close_models
+from comparisons.judging.gates import gates_text
+from comparisons.pipeline.submissions import read_submission
+from comparisons.registry import MODELS
+from tests.comparisons.conftest import GATES
+
+ROOT = Path(__file__).resolve().parents[3]
+SUBMISSIONS = ROOT / "docs" / "board" / "submissions"
+MANIFEST = """name = "{name}"
+version = "{version}"
+date = {date}
+authors = ["A. <b>Author</b>"]
+citation = "none"
+licence = "MIT"
+model = "{model}"
+"""
+MODEL = """from comparisons import Result
+import os
+
+class M:
+    name, version, citation, domain = "{name}", "1", "none", "any"
+
+    def evaluate(self, problem, quantity):
+        {line}
+"""
+DATA = """name = "table"
+version = "1"
+author = "A. Author"
+doi = "none"
+licence = "MIT"
+domain = "n = 2"
+predictions = "p.csv"
+sha256 = "{sum}"
+units = {{ pull_off_force = "pi Q^(2/n) dgamma z0^(2/n-1)" }}
+covers = [{{ quantities = ["pull_off_force"], n = [2], k = [0, 0.4], mu = [0.1, 1] }}]
+"""
+
+
+@pytest.fixture
+def submissions(small_grid, tmp_path, monkeypatch):
+    """A function that writes a submission; its gate is a limit of 11 percent for any model."""
+    gate = GATES.replace('candidate = "ten-percent"', 'candidate = "given"').replace("0.09", "-0.11")
+    monkeypatch.setattr("comparisons.pipeline.inputs.gates_text", lambda path: gates_text(path) if path else gate)
+
+    def written(folder, line="return Result(2.2, 1e-9)", version="1", name="mine", date="2026-01-01", model="m.py:M"):
+        path = tmp_path / "submissions" / folder
+        path.mkdir(parents=True, exist_ok=True)
+        (path / "submission.toml").write_text(MANIFEST.format(name=name, version=version, date=date, model=model))
+        (path / "m.py").write_text(MODEL.format(name=name, line=line))
+        return path
+
+    yield written
+    close_models()
+
+
+def board(tmp_path):
+    """The exit status of the command, and the text of the first page."""
+    site = tmp_path / "site"
+    status = main(["board", str(tmp_path / "submissions"), "--out", str(site), "--jobs", "1"])
+    return status, (site / "index.html").read_text(encoding="utf-8")
+
+
+def rows_of(page, table):
+    """The rows of a table: the texts of their cells."""
+    body = page.partition(f'id="table-{table}"')[2].partition("<tbody>")[2].partition("</tbody>")[0]
+    rows = re.findall(r"<tr>(.*?)</tr>", body, flags=re.DOTALL)
+    return [[re.sub("<[^>]*>", "", cell).strip() for cell in re.findall(r"<td>(.*?)</td>", row, re.S)] for row in rows]
+
+
+def test_every_submission_has_a_verdict_or_the_reason_why_not(submissions, tmp_path):
+    submissions("mine/a", "return Result(2.4, 1e-9)", "1.9", date="2026-03-01")
+    submissions("mine/b", version="1.10", date="2026-04-01")
+    submissions("mine/c", version="1.10")
+    table = submissions("table", name="table", model="model.toml")
+    numbers = "".join(f"pull_off_force,2,{k},{mu},2.1,0\n" for k in (0, 0.4) for mu in (0.1, 1))
+    (table / "p.csv").write_text(f"quantity,n,k,mu,value,u_num\n{numbers}")
+    (table / "model.toml").write_text(DATA.format(sum=hashlib.sha256((table / "p.csv").read_bytes()).hexdigest()))
+    submissions("toy", name="twelve-percent", model="twelve-percent")
+    submissions("ends", "os._exit(1)", name="ends")
+    submissions("loads-not", "return (", name="loads-not")
+    submissions("outside", name="outside", model="../mine/a/m.py:M")
+    submissions("other-name", name="other").joinpath("m.py").write_text(MODEL.format(name="mine", line="pass"))
+    (submissions("broken") / "submission.toml").write_text("name = [")
+    (tmp_path / "submissions" / "empty").mkdir()
+    status, page = board(tmp_path)
+    assert status == 4
+    assert [(row[0], row[1][2:], row[3]) for row in rows_of(page, "models")] == [
+        ("table", "PASS", "5.00000(5)"),
+        ("mine", "PASS", "10.00000(5)"),
+        ("twelve-percent", "FAIL", "12.00000(5)"),
+        ("ends", "ERROR", ""),
+    ]
+    assert [(row[1], row[5]) for row in rows_of(page, "history")] == [("1.9", "20.00000(5)"), ("1.10", "10.00000(5)")]
+    assert ["mine", "pull-off force", "10.000(5)"] in [row[:3] for row in rows_of(page, "regions")]
+    reasons = {row[0]: row[6] for row in rows_of(page, "submissions") if row[2] == "not judged"}
+    named = {"mine/c": "twice", "loads-not": "SyntaxError", "outside": "leads out", "other-name": "mine"}
+    named |= {"broken": "not TOML", "empty": "submission.toml"}
+    assert reasons.keys() == named.keys()
+    assert [folder for folder, text in named.items() if text not in reasons[folder]] == []
+    assert "<b>Author" not in page
+    links = re.findall(r'href="(models/[^"]*)"', page)
+    assert {*links} == {
+        f"models/{name}/report.html" for name in ("mine/1.9", "mine/1.10", "table/1", "twelve-percent/1", "ends/1")
+    }
+    assert all((tmp_path / "site" / link).is_file() for link in links)
+
+
+def test_what_has_not_changed_is_not_computed_again(submissions, tmp_path, capsys, monkeypatch):
+    submissions("a", name="a")
+    changed = submissions("b", name="b")
+    counts = []
+    for line in ("return Result(2.2, 1e-9)", "return Result(2.1, 1e-9)"):
+        changed.joinpath("m.py").write_text(MODEL.format(name="b", line=line))
+        for _ in range(2):
+            close_models()
+            assert board(tmp_path)[0] == 0
+            counts.append(re.findall(r"(\d+) computations on", capsys.readouterr().err))
+    assert counts == [["8", "8"], ["0", "0"], ["0", "4"], ["0", "0"]]
+    # Results of other code are replaced.
+    monkeypatch.setattr("comparisons.pipeline.board.fingerprint", lambda: "other code")
+    assert board(tmp_path)[0] == 0
+    assert re.findall(r"(\d+) computations on", capsys.readouterr().err) == ["8", "8"]
+
+
+def test_a_folder_of_other_files_and_one_without_submissions_are_refused(submissions, tmp_path, capsys):
+    (tmp_path / "site").mkdir()
+    (tmp_path / "site" / "index.html").write_text("mine")
+    for folder, named in ((submissions("a"), "files that are not of a board"), (tmp_path / "no", "no folder with")):
+        assert main(["board", str(folder), "--out", str(tmp_path / "site")]) == 2
+        assert named in capsys.readouterr().err
+    assert (tmp_path / "site" / "index.html").read_text() == "mine"
+
+
+def test_the_first_entries_are_models_of_the_paper_and_of_others():
+    names = [read_submission(folder).name for folder in sorted(SUBMISSIONS.iterdir())]
+    assert {"md-original", "md-improved", "jkr", "dmt", "bradley"} <= {*names} <= {*MODELS}
+    assert names == sorted(path.name for path in SUBMISSIONS.iterdir())
+
+
+def test_the_code_of_a_pull_request_gets_no_secret_and_cannot_write():
+    workflow = yaml.safe_load((ROOT / ".github" / "workflows" / "board.yml").read_text(encoding="utf-8"))
+    # YAML reads the key `on` as true.
+    assert "pull_request" in workflow[True]
+    assert "pull_request_target" not in workflow[True]
+    assert workflow["permissions"] == {"contents": "read"}
+    runs_code = [
+        job for job in workflow["jobs"].values() if any("fscm-bench" in step.get("run", "") for step in job["steps"])
+    ]
+    assert len(runs_code) == 2
+    assert all("permissions" not in job and "secrets." not in str(job) for job in runs_code)
+    checkouts = [step for job in runs_code for step in job["steps"] if "checkout" in step.get("uses", "")]
+    assert all(step["with"]["persist-credentials"] is False for step in checkouts)
