@@ -70,7 +70,7 @@ class Interface:
     --------
     >>> Interface(depth=0.0)
     Traceback (most recent call last):
-    ValueError: depth of an interface = 0.0 is outside (0, infinity)
+    ValueError: depth of an interface = 0.0 is outside (0, infinity): it is a real number
     """
 
     depth: float
