@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import Any
 
 import fem_reference
 import fscm
 from comparisons.bench.measuring import cpu_seconds, peak_memory
 from comparisons.bench.part import Numbers, Settings
-from fscm.problem import Problem
+from comparisons.models.fem_model import FiniteElements
+from comparisons.problem import Problem
 from fscm.stieltjes import StieltjesScheme, find_event
 
 __all__ = ["measure"]
@@ -20,37 +20,28 @@ _NEIGHBOUR = 1.1
 #: Repetitions have Tabor numbers that differ by this much, so that no stored solution serves them.
 _APART = 1e-6
 
-#: Scales of the physical problem that the finite elements get; no result depends on them.
-_SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25, "nu": 0.3}
-
 #: Value and bound in units of the pull-off force, and unknowns.
 _Solved = tuple[float, float | None, int]
 
 
-def _by_fscm(problem: Problem, accuracy: str) -> _Solved:
+def _by_fscm(problem: fscm.Problem, accuracy: str) -> _Solved:
     solution = fscm.solve(problem, "pull_off_force", float(accuracy))
     return solution.value, solution.u_num, solution.size
 
 
-def _by_elements(problem: Problem, accuracy: str) -> _Solved:
+def _by_elements(problem: fscm.Problem, accuracy: str) -> _Solved:
     """Solve the physical problem; its load is in the unit of the pull-off force."""
-    physical = problem.in_units(**_SCALES)
-    solid: Any = physical.solid
-    body = fem_reference.Problem(
-        fem_reference.PowerLaw(E0=solid.E0, c0=solid.c0, k=solid.k, nu=solid.nu),
-        fem_reference.PowerPunch(n=physical.n, Q=_SCALES["Q"]),
-        fem_reference.LennardJones(work_of_adhesion=_SCALES["work_of_adhesion"], z0=_SCALES["z0"]),
-    )
-    solution, unit = fem_reference.solve(body, "pull_off_force", accuracy), physical.units["load"]
+    units, body = FiniteElements().physical(Problem.dimensionless(problem.n, problem.k, problem.mu))
+    solution, unit = fem_reference.solve(body, "pull_off_force", accuracy), units["load"]
     return solution.value / unit, solution.u_num / unit, solution.size
 
 
-def _by_stieltjes(problem: Problem, segments: str) -> _Solved:
+def _by_stieltjes(problem: fscm.Problem, segments: str) -> _Solved:
     event = find_event(StieltjesScheme(problem, int(segments)), "pull_off")
     return -event.load, None, int(segments)
 
 
-_SOLVERS: dict[str, Callable[[Problem, str], _Solved]] = {
+_SOLVERS: dict[str, Callable[[fscm.Problem, str], _Solved]] = {
     "fscm": _by_fscm,
     "fem": _by_elements,
     "fscm-stieltjes": _by_stieltjes,
@@ -59,7 +50,7 @@ _SOLVERS: dict[str, Callable[[Problem, str], _Solved]] = {
 
 def _solve(settings: Settings, factor: float = 1.0) -> Numbers:
     """Solve a problem whose Tabor number has a factor."""
-    problem = Problem(settings["n"], settings["k"], factor * settings["mu"])
+    problem = fscm.Problem(settings["n"], settings["k"], factor * settings["mu"])
     value, u_num, unknowns = _SOLVERS[settings["model"]](problem, settings["setting"])
     return {"value": value, "u_num": u_num, "unknowns": unknowns}
 

@@ -64,7 +64,7 @@ class FiniteElements(SolverModel):
     def _result(self, problem: Problem, quantity: str) -> Result:
         if quantity == "critical_tabor_number":
             return self._critical_tabor_number(problem)
-        units, body = self._physical(problem)
+        units, body = self.physical(problem)
         return result_of(fem_reference.solve(body, quantity), unit=units[QUANTITIES[quantity].scale])
 
     def _critical_tabor_number(self, problem: Problem) -> Result:
@@ -82,7 +82,7 @@ class FiniteElements(SolverModel):
         return result_of(replace(solution, value=value, u_num=highest - value))
 
     def _curve(self, problem: Problem) -> Curve:
-        units, body = self._physical(problem)
+        units, body = self.physical(problem)
         coarse, path = (fem_reference.trace(body, level) for level in _LEVELS)
         return Curve(
             displacement=path.displacement / units["displacement"],
@@ -106,7 +106,7 @@ class FiniteElements(SolverModel):
         """
         from fem_reference import export  # loads Matplotlib
 
-        units, body = self._physical(problem)
+        units, body = self.physical(problem)
         with translated(fem_reference):
             spec, point = fem_reference.event_state(body, event)
             raw = export.contact_field(body.solid, spec, point)
@@ -129,12 +129,12 @@ class FiniteElements(SolverModel):
         return _surface_at_pull_off(self._poisson_ratio, problem)
 
     def _surface_at_pull_off(self, problem: Problem) -> RadialField:
-        units, body = self._physical(problem)
+        units, body = self.physical(problem)
         with translated(fem_reference):
             coarse, fine = (fem_reference.profile(body, accuracy=level) for level in _LEVELS)
         return surface_of(coarse, fine, units)
 
-    def _physical(self, problem: Problem) -> tuple[Mapping[str, float], fem_reference.Problem]:
+    def physical(self, problem: Problem) -> tuple[Mapping[str, float], fem_reference.Problem]:
         """The units of the results, and the problem of the solver."""
         if not problem.name:
             scaled = self._scaled(problem)

@@ -1,9 +1,5 @@
 """Registry of the models of its folder, and the contract that each of them keeps."""
 
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
 
 from comparisons import registry
@@ -80,13 +76,3 @@ def test_a_module_without_the_literal_declares_nothing(source):
 def test_a_declaration_must_be_a_literal():
     with pytest.raises(ValueError, match="malformed"):
         declared_models("MODELS = {name: name for name in ()}")
-
-
-def test_no_model_is_imported_before_it_is_created():
-    program = (
-        "import sys; from comparisons.registry import create; create('dmt');"
-        "print([name for name in sys.modules if name.split('.')[0] in ('fem_reference', 'skfem', 'pyamg')])"
-    )
-    root = Path(__file__).resolve().parents[2]
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=root)
-    assert done.stdout.strip() == "[]", done.stderr

@@ -126,6 +126,8 @@ def test_a_state_satisfies_the_printed_equations(printed, n, k, Lambda, w) -> No
     assert abs(float(work - 1)) < 2e-14
     assert abs(float(state.displacement[0] - delta)) < 2e-14 * state.displacement_scale[0]
     assert abs(float(state.load[0] - P)) < 2e-14 * state.load_scale[0]
+    assert abs(state.load_slope[0]) <= state.load_slope_scale[0]
+    assert abs(state.displacement_slope[0]) <= state.displacement_slope_scale[0]
 
 
 @pytest.mark.parametrize(
@@ -260,8 +262,10 @@ def test_gibson_contact_is_algebraic() -> None:
 
 
 def test_a_missed_minimum_is_not_passed_in_silence() -> None:
-    """A scan whose slopes hide the minimum must fail on the load it saw."""
+    """A scan whose slopes hide the minimum, or which saw a load a little below it, must fail."""
     events = CohesiveEvents.scan(CohesiveContact(GradedPunch(2.0, 0.0), 3.0))
-    blind = replace(events, states=replace(events.states, load_slope=np.abs(events.states.load_slope)))
-    with pytest.raises(ComputationFailed, match="below the pull-off"):
-        blind.pull_off()
+    states, lowest = events.states, events.pull_off().load
+    deeper = np.where(states.load == states.load.min(), lowest - 1e-7, states.load)
+    for seen in (replace(states, load_slope=np.abs(states.load_slope)), replace(states, load=deeper)):
+        with pytest.raises(ComputationFailed, match="below the pull-off"):
+            replace(events, states=seen).pull_off()

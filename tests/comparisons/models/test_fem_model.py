@@ -112,3 +112,4 @@ def test_gap_and_pressure_at_pull_off_are_those_of_the_integral_equation(monkeyp
 def test_what_the_finite_elements_do_not_do(problem, quantity, reason):
     with pytest.raises(NotApplicable, match=reason):
         FiniteElements().evaluate(problem, quantity)
+    assert FiniteElements().physical(Problem.dimensionless(1, 0.9, 1))[1].punch.n == 1.0

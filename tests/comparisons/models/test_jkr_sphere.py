@@ -7,7 +7,7 @@ import math
 import pytest
 
 from comparisons import create
-from comparisons.model import NotApplicable, Result
+from comparisons.model import ComputationFailed, NotApplicable, Result
 from comparisons.problem import Problem, Section
 from comparisons.problem.evaluation import evaluated
 
@@ -65,6 +65,13 @@ def test_it_is_the_limit_of_the_fscm() -> None:
         errors.append(abs(force / limit - 1.0))
     assert errors[1] < 0.2 * errors[0]
     assert errors[1] < 1e-3  # that of the paraboloid is 1e-2
+
+
+def test_the_fscm_refuses_a_ball_smaller_than_its_contact_before_it_traces_a_path(monkeypatch) -> None:
+    """At such a Tabor number the path takes a minute, and the contact is that of JKR."""
+    monkeypatch.setattr("fscm.solve", None)
+    with pytest.raises(ComputationFailed, match="the ball is smaller than the contact"):
+        result_of(problem_of(20.0, 200.0), "fscm")
 
 
 @pytest.mark.parametrize(

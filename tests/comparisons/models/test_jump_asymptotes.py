@@ -60,14 +60,6 @@ def test_energy_is_the_quadrature_of_the_printed_branches(n: float, k: float, mu
     assert 0.0 < result.u_num < 1e-11 * max(1.0, result.value)
 
 
-def test_it_has_the_jumps_of_the_two_models() -> None:
-    problem = Problem.dimensionless(2, 0.4, 5.0)
-    for name in ("jump_in_displacement", "jump_in_gap"):
-        assert MODEL.evaluate(problem, name).value == SemiRigid().evaluate(problem, name).value
-    jump_out = JKR().evaluate(problem, "jump_out_displacement").value
-    assert MODEL.evaluate(problem, "jump_out_displacement").value == jump_out
-
-
 @pytest.mark.parametrize(("mu", "reason"), [(1, "is not above that of the jump-out, -1.6"), (1e-3, "a positive one")])
 def test_refusals(mu: float, reason: str) -> None:
     with pytest.raises(NotApplicable, match=reason):

@@ -77,8 +77,6 @@ def test_a_result_of_the_atlas_is_that_of_the_function(quantity):
 @pytest.mark.parametrize(
     ("n", "k", "mu", "quantity", "reason"),
     [
-        (0.9, 0.4, 1, "pull_off_force", r"n = 0.9 is outside \[1, 6\]"),
-        (2, 0.81, 1, "pull_off_force", r"k = 0.81 is outside \[0, 0.8\]"),
         (2, 0.4, 11, "pull_off_force", r"mu = 11 is outside \[0.01, 10\]"),
         (2, 0, 0.3, "jump_in_gap", "critical Tabor number 0.69"),
         (2, 0, 1, "contact_radius", "does not compute contact_radius"),

@@ -1,8 +1,4 @@
-"""Cache of finished calls: one computation each, stored results, continuation after an interruption."""
-
-import math
-import os
-import signal
+"""Cache of finished calls: one computation each, and stored results."""
 
 import pytest
 
@@ -25,10 +21,6 @@ def fail(x):
     raise ComputationFailed(f"{x} does not converge")
 
 
-def not_a_number(x):
-    return math.nan
-
-
 def test_each_call_is_made_once_and_its_result_or_failure_is_read_again(tmp_path):
     MADE.clear()
     calls = [CachedCall.of(double, 1), CachedCall.of(double, 2.5), CachedCall.of(fail, 3), CachedCall.of(refuse, 4)]
@@ -42,23 +34,3 @@ def test_each_call_is_made_once_and_its_result_or_failure_is_read_again(tmp_path
         with pytest.raises(ComputationFailed, match=reason):
             outcome.get()
     assert [outcome.failed for outcome in outcomes] == [False, False, True, True]
-
-
-def test_nan_and_results_of_other_code_are_refused(tmp_path, monkeypatch):
-    with pytest.raises(ValueError, match="JSON"):
-        make_calls([CachedCall.of(not_a_number, 1)], tmp_path)
-    make_calls([CachedCall.of(double, 1)], tmp_path)
-    monkeypatch.setattr("comparisons.runs.store.fingerprint", lambda: "code 1, NumPy 2, SciPy 3")
-    with pytest.raises(ValueError, match="another version"):
-        make_calls([], tmp_path)
-
-
-def killed(_):
-    os.kill(os.getpid(), signal.SIGKILL)
-
-
-def test_a_call_whose_process_ends_is_made_again_by_the_next_command(tmp_path):
-    call = CachedCall.of(killed, 1)
-    with pytest.raises(ComputationFailed, match="its worker process ended twice"):
-        make_calls([call], tmp_path, jobs=2).outcomes[call].get()
-    assert make_calls([call], tmp_path, jobs=2).made == 1
