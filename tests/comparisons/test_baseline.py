@@ -70,28 +70,30 @@ def test_each_tier_renews_its_files(tmp_path, target, tier):
         assert (target / "references_agreement.csv").read_text() == "agreement.csv of the full run"
 
 
+def longer(path):
+    path.write_bytes(path.read_bytes() + b" ")
+
+
 @pytest.mark.parametrize(
-    ("tier", "damage", "name"),
+    ("tier", "arguments", "damage", "words"),
     [
-        ("quick", Path.unlink, "results.csv"),
-        ("quick", Path.unlink, "references.png"),
-        ("full", Path.unlink, "agreement.csv"),
-        ("quick", lambda path: path.write_bytes(path.read_bytes() + b" "), "results.csv"),
-        ("quick", lambda path: path.write_bytes(path.read_bytes() + b" "), "largest_kappa.csv"),
+        ("quick", {}, Path.unlink, "results.csv"),
+        ("quick", {}, Path.unlink, "references.png"),
+        ("full", {}, Path.unlink, "agreement.csv"),
+        ("quick", {}, longer, "results.csv"),
+        ("quick", {}, longer, "largest_kappa.csv"),
+        ("quick", {"model": ["jkr", "dmt"]}, None, "--model "),
+        ("quick", {"gates": "mine.toml"}, None, "--gates "),
+        ("quick", {"tier": None}, None, "standing cases"),
     ],
 )
-def test_a_run_that_lacks_a_file_or_was_changed_renews_nothing(tmp_path, target, tier, damage, name):
-    run = made_up(tmp_path / "run", tier)
-    damage(run / name)
-    with pytest.raises(ValueError, match=name):
-        renew(run, target)
-    assert renewed(target) == set()
-
-
-@pytest.mark.parametrize(("option", "value"), [("model", ["jkr", "dmt"]), ("gates", "mine.toml"), ("tier", None)])
-def test_a_run_of_other_cases_models_or_gates_renews_nothing(tmp_path, target, option, value):
-    run = made_up(tmp_path / "run", **{"tier": "quick", option: value})
-    with pytest.raises(ValueError, match=rf"--{option} |standing cases"):
+def test_a_run_that_is_no_whole_one_of_the_standing_cases_renews_nothing(
+    tmp_path, target, tier, arguments, damage, words
+):
+    run = made_up(tmp_path / "run", **{"tier": tier} | arguments)
+    if damage:
+        damage(run / words)
+    with pytest.raises(ValueError, match=words):
         renew(run, target)
     assert renewed(target) == set()
 

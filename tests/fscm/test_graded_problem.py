@@ -5,16 +5,12 @@ import pytest
 
 from fscm import (
     Coating,
-    Exponential,
-    LennardJones,
     NotConverged,
-    PowerPunch,
     PowerSum,
     Problem,
     RoundedCone,
     TabulatedLaw,
     solve,
-    solve_together,
 )
 from fscm._arc_length import parameter_of, rates_of
 from fscm._continuation import moved
@@ -27,17 +23,6 @@ from fscm.graded.panels import remainder
 from fscm.stability import margins
 
 SOFT_BELOW = Coating(5.0, 1.0, 0.7, 0.1, 0.3)
-
-
-@pytest.mark.heavy
-def test_a_homogeneous_solid_has_the_numbers_of_the_power_law():
-    quantities = ("pull_off_force", "jump_in_displacement", "jump_out_gap")
-    computed, exact = (
-        solve_together(problem, quantities)
-        for problem in (Problem(2, 0.0, 1.0, graded=Exponential(1.0, 1.0, 1.0, 0.3)), Problem(2, 0, 1.0))
-    )
-    for name, value in computed.items():
-        assert abs(value.value - exact[name].value) <= value.u_num + exact[name].u_num + 1e-13
 
 
 def test_rates_along_the_path_are_exact():
@@ -81,12 +66,6 @@ def test_the_short_path_is_for_power_laws_alone():
     assert pull_off_path(Problem(2, 0.0, 1.0, law=law), Meshes()) is None
     assert pull_off_path(Problem(2, 0.0, 1.0, graded=SOFT_BELOW), Meshes()) is None
     assert pull_off_path(Problem(1, 0.2, 1.0, punch=RoundedCone(2.0)), Meshes()) is None
-
-
-def test_the_length_of_a_solid_is_in_units_of_the_radius():
-    solid = Exponential(E_surface=1e9, E_depth=5e9, length=1e-7, nu=0.3)
-    problem = Problem(solid, PowerPunch(2, Q=1e-6), LennardJones(0.05, 3e-10))
-    assert problem.dimensionless.graded.length == pytest.approx(1e-7 / problem.units["radius"])
 
 
 def test_what_needs_a_power_law_is_refused_in_one_sentence():

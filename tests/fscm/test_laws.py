@@ -40,13 +40,6 @@ def test_a_law_and_its_derivatives_match_extended_precision(law, m, n):
     assert law == pickle.loads(pickle.dumps(law))
 
 
-def test_numbers_of_other_types_are_refused_or_become_floats():
-    for m, n in (("9", 3), (9, True), (9j, 3)):
-        with pytest.raises(ValueError, match="exponent"):
-            Mie(m=m, n=n)
-    assert hash(Mie(m=9, n=3)) == hash(Mie(m=9.0, n=np.float64(3.0)))
-
-
 @pytest.mark.filterwarnings("error::RuntimeWarning")
 def test_a_law_without_traction_below_its_singular_gap_is_solved_as_one_that_has_it():
     """Under a sharp edge trial gaps are below it: between the nodes of a coarse mesh and behind a long step."""
@@ -58,17 +51,6 @@ def points(count, end=20.0):
     """Points of the 9-3 law, gaps from its singularity, denser in the well."""
     gaps = np.geomspace(0.7, end, count)
     return gaps, LJ.traction(gaps - 1.0)
-
-
-def test_a_table_in_units_of_its_own_is_normalised():
-    gaps, tractions = points(100)
-    table = TabulatedLaw(gaps + 17.0, 300.0 * tractions)
-    assert table.equilibrium_gap == pytest.approx(18.0, abs=1e-5)
-    assert table.work_of_adhesion == pytest.approx(300.0, rel=0.02)
-    table = table.dimensionless
-    assert (table.work_of_adhesion, table.z0) == (1.0, 1.0)
-    assert float(table.traction(np.array(0.0))) == pytest.approx(0.0, abs=1e-13)
-    assert float(table.energy(np.array(0.0))) == pytest.approx(-1.0, rel=1e-14)
 
 
 def test_the_wall_is_steep_monotone_and_diverges():

@@ -9,7 +9,6 @@ import pytest
 from fscm import NotConverged, Problem, equilibria, profile, solve, solve_together, trace
 from fscm._arc_length import parameter_of, rates_of
 from fscm._continuation import equilibrium_path, moved
-from fscm.experiment import displacement_cycle
 from tests.fscm.equilibria_on_finer_meshes import finer_analysis
 from tests.fscm.solved_once import analysis_of, path_of
 from tests.marks import heavy
@@ -78,21 +77,6 @@ def test_bad_controls_and_angles_are_refused() -> None:
     for degrees in (0.0, -5.0, 181.0, math.nan):
         with pytest.raises(ValueError, match="largest_turn"):
             trace(problem, largest_turn=degrees)
-
-
-def test_cycle_encloses_the_hysteresis_energy() -> None:
-    """The area between loading and unloading equals the drop of energy in the two jumps."""
-    problem = Problem(2, 0.4, 1.0)
-    cycle = displacement_cycle(path_of(problem))
-    area = -sum(np.trapezoid(c[1], c[0]) for c in (cycle.loading, cycle.unloading))
-    exact = analysis_of(problem).solution("hysteresis_energy").value
-    assert abs(area) == pytest.approx(exact, rel=0.02)  # trapezoids of a drawn curve
-    assert cycle.jump_in is not None
-    assert cycle.jump_out is not None
-    assert cycle.jump_in[1, 1] < cycle.jump_in[1, 0] < 0  # attraction grows on jumping in
-    assert cycle.jump_out[1, 0] < cycle.jump_out[1, 1] < 0
-    assert np.all(np.diff(cycle.loading[0]) >= 0)
-    assert np.all(np.diff(cycle.unloading[0]) <= 0)
 
 
 def test_profiles_at_pull_off() -> None:

@@ -1,7 +1,6 @@
 """Input files that are no regular files, or too large: one sentence for every command that reads one."""
 
 import os
-import threading
 
 import pytest
 
@@ -45,20 +44,9 @@ def test_every_command_refuses_a_device_in_one_sentence(command, swept, tmp_path
 
 def test_a_pipe_is_not_waited_for(tmp_path):
     """No program writes into it."""
-    pipe = tmp_path / "pipe.toml"
-    os.mkfifo(pipe)
-    sentences = []
-
-    def read():
-        try:
-            read_text(pipe, "the sweep file")
-        except ValueError as error:
-            sentences.append(str(error))
-
-    reader = threading.Thread(target=read, daemon=True)
-    reader.start()
-    reader.join(10.0)
-    assert "pipe" in sentences[0]
+    os.mkfifo(tmp_path / "pipe.toml")
+    with pytest.raises(ValueError, match="is a pipe"):
+        read_text(tmp_path / "pipe.toml", "the sweep file")
 
 
 def test_a_folder_and_a_file_that_is_too_large(tmp_path):

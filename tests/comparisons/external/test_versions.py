@@ -1,7 +1,6 @@
 """Version of a model: changed by every file that its numbers depend on; rows of another version are never used."""
 
 import os
-from pathlib import Path
 
 import pandas as pd
 import pytest
@@ -176,9 +175,6 @@ def test_a_process_that_had_to_be_started_again_is_compared_with_the_one_before(
     assert row.reason.startswith("the model's files changed")
 
 
-PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad.toml"
-
-
 @pytest.fixture
 def once(write_model, few_cases, tmp_path, tmp_path_factory, capsys):
     """Return a function that writes the data the model reads, computes, and returns status and messages.
@@ -188,11 +184,12 @@ def once(write_model, few_cases, tmp_path, tmp_path_factory, capsys):
     (tmp_path / "gates.toml").write_text(GATE)
     data = tmp_path_factory.mktemp("elsewhere") / "data.txt"
 
-    def go(text, command=("run", "--gates", str(tmp_path / "gates.toml"))):
+    def go(text):
         data.write_text(text)
         close_models()
         spec = write_model(f"return Result(float(Path({str(data)!r}).read_text()), 0.0)")
         capsys.readouterr()
+        command = ["run", "--gates", str(tmp_path / "gates.toml")]
         status = main([*command, "--jobs", "1", "--out", str(tmp_path / "out"), "--model", spec, "jkr"])
         return status, capsys.readouterr().err
 
@@ -227,15 +224,3 @@ def test_an_old_pass_does_not_stand_when_the_data_have_changed(once, tmp_path):
     assert 2.5 not in values(tmp_path)
     once("2.0")
     assert values(tmp_path) == [2.0] * 4
-
-
-def test_old_rows_of_a_sweep_over_a_problem_file_do_not_stand(once, tmp_path):
-    sweep = ["sweep", "--problem", str(PAD), "--vary", "punch.R=1:4:4 um", "--quantity", "pull_off_force"]
-    assert once("2.0", sweep)[0] == 0
-    before = values(tmp_path)
-    assert "0 computations" in once("2.0", sweep)[1]
-    status, messages = once("3.0", sweep)
-    assert status == 0
-    # All of this model, and none of the other.
-    assert "4 are stored" in messages
-    assert values(tmp_path) == pytest.approx([1.5 * value for value in before])

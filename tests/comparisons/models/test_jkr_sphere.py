@@ -8,8 +8,9 @@ import pytest
 
 from comparisons import create
 from comparisons.model import ComputationFailed, NotApplicable, Result
-from comparisons.problem import Problem, Section
+from comparisons.problem import Problem
 from comparisons.problem.evaluation import evaluated
+from tests.comparisons.problems import on_solid
 
 EVENTS = ("pull_off_force", "pull_off_displacement", "jump_out_displacement", "zero_load_displacement")
 LAW = {"work_of_adhesion": 0.05, "z0": 3e-10}
@@ -26,8 +27,7 @@ def problem_of(
         "homogeneous": {"E": modulus, "nu": 0.5},
         "exponential": {"E_surface": modulus, "E_depth": 2.0 * modulus, "length": 1e-7, "nu": 0.3},
     }
-    sections = Section(solid, values[solid]), Section(punch, {"R": radius}), Section("lennard-jones-9-3", LAW)
-    return Problem(*sections, name="ball.toml")
+    return on_solid(solid, values[solid], R=radius, punch=punch, work=LAW["work_of_adhesion"], z0=LAW["z0"])
 
 
 def result_of(problem: Problem, model: str, quantity: str = "pull_off_force") -> Result:

@@ -10,7 +10,7 @@ from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.paper.figures import force_curves, pull_off_forces
 from comparisons.paper.figures.force_curves import fig03_s_curve, loop
 from comparisons.paper.figures.surfaces import fig17_surface_models
-from comparisons.paper.tasks import curve, jumps, near_critical, profile, quantity, surface
+from comparisons.paper.tasks import curve, jumps, profile, quantity, surface
 from comparisons.problem import Problem
 from comparisons.registry import create
 
@@ -87,17 +87,6 @@ def test_the_pressure_carries_the_pull_off_force_and_the_strength_is_reached():
     load = np.trapezoid(shape["pressure"], np.array(shape["radius"]) ** 2) - beyond
     assert -load == pytest.approx(of_model("fscm", "pull_off_force", 2.0, 0.4, 1.0).value, abs=2e-3)
     assert min(shape["pressure"]) == pytest.approx(-STRENGTH, abs=1e-6)
-
-
-def test_the_branches_part_as_at_a_cusp():
-    critical = near_critical(2.0, 0.4)
-    assert round(critical["mu"], 2) == 0.78
-    at_cusp, far = critical["jumps"][0], critical["jumps"][3]
-    ratio = (far["mu"] - critical["mu"]) / (at_cusp["mu"] - critical["mu"])
-    # Two roots of a square part like its root, and their values like the power 3/2.
-    for kind, power, tolerance in (("gap", 0.5, 0.02), ("displacement", 1.5, 0.05)):
-        of_near, of_far = (row[f"jump_in_{kind}"] - row[f"jump_out_{kind}"] for row in (at_cusp, far))
-        assert of_far / of_near == pytest.approx(ratio**power, rel=tolerance)
 
 
 def test_jumps_are_the_quantities_of_the_model_and_there_is_none_below_the_critical_tabor_number():

@@ -14,15 +14,12 @@ from comparisons.description.assumptions import SMALL, assumptions
 from comparisons.description.forces import reference_force
 from comparisons.description.overview import overview
 from comparisons.description.strain_errors import Change, beyond, strain_change
-from comparisons.problem import Problem, Section
+from comparisons.problem import Section
 from tests.comparisons.problem.strain_table import forces_of_a_ball
+from tests.comparisons.problems import on_solid
 
 #: A bead of glass on PDMS: w/(E* R) = 0.005.
-BEAD = Problem(
-    Section("homogeneous", {"E": 1.5e6, "nu": 0.5}),
-    Section("sphere", {"R": 5e-6}),
-    Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10}),
-)
+BEAD = on_solid("homogeneous", {"E": 1.5e6, "nu": 0.5}, R=5e-6)
 
 
 def described(problem):
@@ -78,9 +75,7 @@ def test_where_nothing_was_computed_the_error_is_unknown(changed, reason):
 
 
 def test_nothing_is_recommended_where_the_contact_is_larger_than_the_sphere():
-    content = described(
-        replace(BEAD, punch=Section("sphere", {"R": 2e-8}), solid=Section("homogeneous", {"E": 1e5, "nu": 0.5}))
-    )
+    content = described(on_solid("homogeneous", {"E": 1e5, "nu": 0.5}, R=2e-8))
     assert content["assumptions"]["contact_radius"] > 2e-8
     assert content["assumptions"]["total"]["error"] is None
     assert content["recommended"] == {"1 %": None, "5 %": None}
@@ -96,19 +91,14 @@ def test_the_exact_sphere_has_no_error_of_its_shape():
 
 
 def test_a_stiff_solid_has_small_errors():
-    glass = replace(BEAD, solid=Section("homogeneous", {"E": 70e9, "nu": 0.2}), punch=Section("sphere", {"R": 1e-5}))
-    assumed = described(glass)["assumptions"]
+    assumed = described(on_solid("homogeneous", {"E": 70e9, "nu": 0.2}, R=1e-5))["assumptions"]
     assert abs(assumed["total"]["error"]) < 1e-3
     assert all(row["value"] < row["limit"] for row in assumed["measures"])
 
 
 def test_a_solution_with_finite_strain_on_request(tmp_path, capsys):
     """w/(E* R) = 1e-3 and mu = 1, which is a row of the table; a solid of another kind has none."""
-    ball = replace(
-        BEAD,
-        law=Section("lennard-jones-9-3", {"work_of_adhesion": 0.01, "z0": 5e-8}),
-        punch=Section("ball", {"R": 5e-6}),
-    )
+    ball = on_solid("homogeneous", {"E": 1.5e6, "nu": 0.5}, R=5e-6, punch="ball", work=0.01, z0=5e-8)
     looked_up, solved = (
         assumptions(ball, reference_force(ball), by_solution)["strain"] for by_solution in (False, True)
     )

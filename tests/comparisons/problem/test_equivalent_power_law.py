@@ -11,11 +11,12 @@ import pytest
 import fscm
 from comparisons.cli.main import main
 from comparisons.description.equivalent_power_law import equivalent_power_law
-from comparisons.problem import Problem, Section, elastic_energy
+from comparisons.problem import elastic_energy
 from comparisons.problem.elastic_energy import energy_spectrum
 from comparisons.problem.equivalent_solid import LARGEST_K, equivalent_solids, least_wrong
 from comparisons.problem.reading import load_problem
 from comparisons.runs.tasks import evaluate
+from tests.comparisons.problems import on_solid
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
 COATED = EXAMPLES / "coated_solid.toml"
@@ -36,12 +37,6 @@ def test_the_transform_of_a_straight_line_is_accurate_at_small_and_large_argumen
     assert abs(elastic_energy._linear_part(np.array([x]))[0] - float(exact)) < _FUNCTIONS * min(x**3, math.sqrt(x))
 
 
-def on(kind, values, columns=None):
-    """A sphere of 100 nm on a solid."""
-    law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
-    return Problem(Section(kind, values, columns or {}), Section("sphere", {"R": 1e-7}), law)
-
-
 def equivalent(problem):
     return equivalent_power_law(problem, evaluate("fscm", "pull_off_force", problem))
 
@@ -56,7 +51,7 @@ def coated():
 @pytest.mark.heavy
 def test_a_power_law_with_a_tiny_offset_is_itself():
     """What is left is the offset: it has a share (z_s/length)^(1-k) or less of the compliance."""
-    law = equivalent(on("offset-power-law", {"E0": 2e9, "c0": 1e-8, "k": 0.4, "z_s": 1e-12, "nu": 0.3}))
+    law = equivalent(on_solid("offset-power-law", {"E0": 2e9, "c0": 1e-8, "k": 0.4, "z_s": 1e-12, "nu": 0.3}))
     assert law["c0"] == 1e-8
     assert law["k"] == law["free_k"] == pytest.approx(0.4, abs=3e-3)
     assert law["E0"] == pytest.approx(2e9, rel=3e-3)
@@ -109,7 +104,7 @@ def test_a_closed_form_has_the_value_of_the_equivalent_and_the_error_of_the_fit(
 
 def test_a_solid_that_no_power_law_stands_for():
     coating = {"E_coating": 1e10, "E_substrate": 1e7, "thickness": 10e-9, "transition": 0.0, "nu": 0.3}
-    law = evaluate("jkr", "pull_off_force", on("coating", coating))
+    law = evaluate("jkr", "pull_off_force", on_solid("coating", coating))
     assert (law.status, law.value) == ("not-applicable", None)
     assert "no power law stands for" in law.reason
 

@@ -12,9 +12,9 @@ from comparisons.description.equivalent_power_law import equivalent_power_law
 from comparisons.description.forces import reference_force
 from comparisons.description.overview import SIMPLEST_FIRST, overview, simplest_within
 from comparisons.description.text import description_text
-from comparisons.problem import Problem, Section
 from comparisons.problem.evaluation import REFERENCES
 from comparisons.registry import MODELS
+from tests.comparisons.problems import on_solid
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
 
@@ -64,8 +64,7 @@ def test_the_order_of_the_recommendation(errors, simplest):
 def test_a_tabor_number_is_printed_where_its_modulus_is_that_of_the_contact():
     """A coating so thick that the contact does not feel the substrate."""
     coating = {"E_coating": 1e9, "E_substrate": 3e9, "thickness": 1e-6, "transition": 0.0, "nu": 0.3}
-    law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
-    pad = Problem(Section("coating", coating), Section("sphere", {"R": 1e-7}), law)
+    pad = on_solid("coating", coating)
     force = reference_force(pad)
     equivalent = equivalent_power_law(pad, force)
     assert equivalent["surface_compliance_deviation"] < 0.1
