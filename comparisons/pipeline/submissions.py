@@ -52,10 +52,10 @@ def read_submission(folder: Path) -> Submission:
         If it cannot be read or is not admissible; one sentence says why.
     """
     path = path_inside(folder, MANIFEST)
-    described: dict[str, Any] = parse(read_text(path, "the description of the submission"), str(path))
+    described: dict[str, Any] = parse(read_text(path, "the description of the submission"), MANIFEST)
     if isinstance(described.get("date"), date):
         described["date"] = described["date"].isoformat()
-    validated(described, "submission", str(path))
+    validated(described, "submission", MANIFEST)
     authors, model = tuple(described.pop("authors")), described.pop("model")
     return Submission(**described, authors=authors, spec=_spec(folder, model))
 
@@ -67,6 +67,6 @@ def _spec(folder: Path, model: str) -> str:
     name, colon, attribute = model.rpartition(":") if ".py:" in model else (model, "", "")
     path = path_inside(folder, name)
     if not path.is_file():
-        raise ValueError(f"{folder / MANIFEST}: model = {model!a:.80} is no model of fscm-bench, and no file beside it")
+        raise ValueError(f"{MANIFEST}: model = {model!a:.80} is no model of fscm-bench, and no file beside it")
     # With a separator it is no name of an installed model.
     return f"{path if path.is_absolute() else f'./{path}'}{colon}{attribute}"

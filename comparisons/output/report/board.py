@@ -136,7 +136,7 @@ def _results(entries: Sequence[BoardEntry], rows: pd.DataFrame) -> dict[str, Seq
         "models": [
             Table("models", "The newest version of each model, the smallest largest error first", board, newest)
         ],
-        "regions": [_regions(kappa)] if len(kappa) else [],
+        "regions": [_regions(kappa, newest)] if len(kappa) else [],
         "errors": _plot(kappa) if len(kappa) else [],
         "history": [Table("history", "Largest errors by version", versions, history)],
     }
@@ -152,10 +152,10 @@ def _kappa(entries: Sequence[BoardEntry], folders: set[str]) -> pd.DataFrame:
     return pd.concat(tables, ignore_index=True)
 
 
-def _regions(kappa: pd.DataFrame) -> Table:
-    """Return the largest error of each model and quantity in each region."""
+def _regions(kappa: pd.DataFrame, newest: pd.DataFrame) -> Table:
+    """Return the largest error of each model and quantity in each region, in the order of the newest versions."""
     keys = ["model", "quantity"]
-    table = kappa[keys].drop_duplicates()
+    table = newest.loc[newest["cases"] > 0, keys]
     for heading, inside in _REGIONS.items():
         summary = error_summary(kappa[inside(kappa)].assign(status="ok"))
         names = {"largest": f"kappa {heading}", "u_largest": f"u {heading}"}
@@ -172,17 +172,21 @@ def _plot(kappa: pd.DataFrame) -> Sequence[Block]:
 
 
 def _submissions(entries: Sequence[BoardEntry]) -> dict[str, Sequence[Block]]:
-    """Return the section with a row for each submission, and why it has no results."""
+    """Return the section of all submissions: those that were not judged, with the reason, and what each states."""
+    refused = [
+        {"place": entry.place, "model": entry.submission and entry.submission.name, "reason": entry.reason}
+        for entry in entries
+        if not entry.judged
+    ]
+    layout = [words("folder", "place"), words("model"), words("reason", kind="prose")]
+    not_judged = Table("refused", "Not judged", layout, pd.DataFrame(refused))
     rows = []
     for entry in entries:
-        row = {"place": entry.place, "status": "not judged", "reason": entry.reason, "folder": ""}
         if submission := entry.submission:
-            row |= {"model": submission.name, "authors": ", ".join(submission.authors)}
-            row |= {name: getattr(submission, name) for name in ("version", "date", "licence", "citation")}
-        if entry.judged and submission:
-            row |= {"status": str(overall(entry.judged.stored.verdicts)), "folder": submission.folder}
-        rows.append(row)
-    prose = [words(name, kind="prose") for name in ("reason", "authors", "citation")]
-    layout = [words("folder", "place"), _MODEL, words("status", kind="verdict"), *_ORIGIN, *prose]
-    names = ["place", "folder", *(column.heading for column in layout[1:])]
-    return {"submissions": [Table("submissions", "Every submission", layout, pd.DataFrame(rows, columns=names))]}
+            row = {name: getattr(submission, name) for name in ("version", "date", "licence", "citation", "folder")}
+            status = str(overall(entry.judged.stored.verdicts)) if entry.judged else "not judged"
+            row |= {"model": submission.name, "status": status, "authors": ", ".join(submission.authors)}
+            rows.append(row if entry.judged else row | {"folder": ""})
+    prose = [words(name, kind="prose") for name in ("authors", "citation")]
+    layout = [_MODEL, words("status", kind="verdict"), *_ORIGIN, *prose]
+    return {"submissions": [not_judged, Table("submissions", "Every submission", layout, pd.DataFrame(rows))]}

@@ -102,11 +102,19 @@ def test_every_submission_has_a_verdict_or_the_reason_why_not(submissions, tmp_p
     ]
     assert [(row[1], row[5]) for row in rows_of(page, "history")] == [("1.9", "20.00000(5)"), ("1.10", "10.00000(5)")]
     assert ["mine", "pull-off force", "10.000(5)"] in [row[:3] for row in rows_of(page, "regions")]
-    reasons = {row[0]: row[6] for row in rows_of(page, "submissions") if row[2] == "not judged"}
+    reasons = {row[0]: row[2] for row in rows_of(page, "refused")}
     named = {"mine/c": "twice", "loads-not": "SyntaxError", "outside": "leads out", "other-name": "mine"}
     named |= {"broken": "not TOML", "empty": "submission.toml"}
     assert reasons.keys() == named.keys()
     assert [folder for folder, text in named.items() if text not in reasons[folder]] == []
+    stated = [row[1] for row in rows_of(page, "submissions")]
+    assert [status for status in stated if status != "not judged"] == [
+        "! ERROR",
+        "✗ FAIL",
+        "✓ PASS",
+        "✓ PASS",
+        "✗ FAIL",
+    ]
     assert "<b>Author" not in page
     links = re.findall(r'href="(models/[^"]*)"', page)
     assert {*links} == {
@@ -116,6 +124,8 @@ def test_every_submission_has_a_verdict_or_the_reason_why_not(submissions, tmp_p
 
 
 def test_what_has_not_changed_is_not_computed_again(submissions, tmp_path, capsys, monkeypatch):
+    """And the values of the reference are computed once for all."""
+    monkeypatch.setattr("comparisons.pipeline.board.REFERENCE", "exact")
     submissions("a", name="a")
     changed = submissions("b", name="b")
     counts = []
@@ -125,11 +135,11 @@ def test_what_has_not_changed_is_not_computed_again(submissions, tmp_path, capsy
             close_models()
             assert board(tmp_path)[0] == 0
             counts.append(re.findall(r"(\d+) computations on", capsys.readouterr().err))
-    assert counts == [["8", "8"], ["0", "0"], ["0", "4"], ["0", "0"]]
+    assert counts == [["8", "4"], ["0", "0"], ["0", "4"], ["0", "0"]]
     # Results of other code are replaced.
     monkeypatch.setattr("comparisons.pipeline.board.fingerprint", lambda: "other code")
     assert board(tmp_path)[0] == 0
-    assert re.findall(r"(\d+) computations on", capsys.readouterr().err) == ["8", "8"]
+    assert re.findall(r"(\d+) computations on", capsys.readouterr().err) == ["8", "4"]
 
 
 def test_a_folder_of_other_files_and_one_without_submissions_are_refused(submissions, tmp_path, capsys):
