@@ -56,6 +56,11 @@ def test_a_large_ball_is_the_paraboloid(quantity: str) -> None:
     assert differences[0] / differences[1] == pytest.approx(4.0, rel=0.02)
 
 
+def test_the_curve_ends_as_far_in_compression_as_its_pull_off_is_in_tension() -> None:
+    load = create("jkr-sphere").force_curve(problem_of(1e-3)).load
+    assert 1.0 <= load[-1] / -load.min() < 1.2
+
+
 def test_it_is_the_limit_of_the_fscm() -> None:
     """At a large Tabor number the law acts on the edge alone."""
     errors = []

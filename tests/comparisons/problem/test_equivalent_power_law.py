@@ -13,7 +13,7 @@ from comparisons.cli.main import main
 from comparisons.description.equivalent_power_law import equivalent_power_law
 from comparisons.problem import elastic_energy
 from comparisons.problem.elastic_energy import energy_spectrum
-from comparisons.problem.equivalent_solid import LARGEST_K, equivalent_solids, least_wrong
+from comparisons.problem.equivalent_solid import LARGEST_K, equivalent_solids, least_wrong, power_law_of
 from comparisons.problem.reading import load_problem
 from comparisons.runs.tasks import evaluate
 from tests.comparisons.problems import on_solid
@@ -57,6 +57,15 @@ def test_a_power_law_with_a_tiny_offset_is_itself():
     assert law["E0"] == pytest.approx(2e9, rel=3e-3)
     assert abs(law["pull_off_force"]["error"]) < 3e-4
     assert law["compliance_deviation"] < 2e-3
+
+
+def test_a_compliance_has_the_modulus_of_its_power_law():
+    problem = on_solid("offset-power-law", {"E0": 2e9, "c0": 1e-8, "k": 0.4, "z_s": 1e-12, "nu": 0.3})
+    xi = np.geomspace(1e7, 1e8, 3)
+    values = fscm.graded.compliance.compliance(problem.posed.graded, xi * problem.units["radius"])
+    spectrum = elastic_energy.EnergySpectrum(xi, values, np.full(3, 1.0 / 3.0), 1.0)
+    k, _, _, compliance = least_wrong(spectrum)
+    assert power_law_of(problem, k, compliance, spectrum).solid["E0"] == pytest.approx(2e9, rel=3e-3)
 
 
 def test_a_fit_beyond_the_largest_exponent_stops_there():

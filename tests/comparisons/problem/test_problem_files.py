@@ -198,6 +198,18 @@ def test_what_a_model_does_not_take_is_not_applicable(written, model, quantity, 
     assert reason in value.reason
 
 
+def test_the_entries_of_a_list_count_from_one(written):
+    problem = written(solid="layers", punch="sphere", law="mie")
+    assert [problem[f"solid.thickness.{number}"] for number in range(4)] == [None, 1e-8, 2e-8, None]
+    assert problem["solid.thickness"] == (1e-8, 2e-8)
+
+
+def test_problems_of_files_stand_after_those_of_the_paper(written):
+    file = written(solid="layers", punch="sphere", law="mie")
+    first, second = Problem.dimensionless(1, 0, 5.0), Problem.dimensionless(2, 0, 1.0)
+    assert sorted([file, second, first]) == [first, second, file]
+
+
 def test_the_json_is_the_contract(capsys):
     file = EXAMPLES / "graded_pad.toml"
     command = ["solve", "--model", "jkr", "--quantity", "pull_off_force", "--problem", str(file)]
