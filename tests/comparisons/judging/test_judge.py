@@ -124,7 +124,8 @@ def test_a_limit_of_an_uncertainty_is_in_the_unit_of_the_metric(metric, u):
         (RIGHT, GATE.replace('"rel"', '"range-relative"'), "ERROR"),
         # A number that belongs to a failed row is no result.
         (RIGHT.assign(status=["ok"] * 4 + ["failed"] * 4), GATE, "ERROR"),
-        (RIGHT.assign(u_num=-1e-6), GATE, "ERROR"),
+        # The other bound is larger than the one below zero.
+        *((results({model: -1e-7}, fscm=2.0, jkr=2.0), GATE, "ERROR") for model in ("jkr", "fscm")),
         *(
             (RIGHT.assign(**{column: bad}), GATE, "ERROR")
             for column in ("value", "u_num")
