@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from comparisons.paper.statements import paths, surfaces
+from comparisons import create
+from comparisons.paper.statements import formulas, measures, paths, surfaces
 from comparisons.paper.statements.evidence import (
     FAILS,
     FALSE,
@@ -24,6 +25,7 @@ from comparisons.paper.statements.evidence import (
 )
 from comparisons.paper.statements.kinds import extrapolated, vanishes
 from comparisons.paper.statements.paths import count_jumps, turning_points
+from comparisons.problem import Problem
 
 
 def comparison(value, limit=0.0, u=0.0, u_limit=0.0, relation="<", model="fscm", clause="n = 2", title="other"):
@@ -158,3 +160,63 @@ def test_measures_of_a_path():
     assert paths.gap_step(None, path) == (-10.0, 2e-3)
     assert paths.far_deformation(None, path) == pytest.approx((0.05, 1e-4))
     assert paths.far_load(None, path) == pytest.approx((0.1, 1e-3))
+
+
+def at(*arguments, n=2.0, k=0.0, mu=100.0):
+    return measures.Place("fscm", measures.named(n, k, mu), arguments)
+
+
+def number(value):
+    return Number(value, 1e-3, "")
+
+
+@pytest.mark.parametrize(("n", "k"), [(1.0, 0.0), (2.0, 0.4), (3.0, 0.8)])
+def test_an_asymptote_has_the_power_of_the_tabor_number_that_is_expected(n, k):
+    problems = (Problem.dimensionless(n, k, mu) for mu in (100.0, 200.0))
+    values = [create("jump-asymptotes").evaluate(problem, "jump_in_displacement").value for problem in problems]
+    place = at("jump_in_displacement", n=n, k=k)
+    assert measures.power_of_mu(place, *map(number, values))[0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_refusal_is_certain_and_a_failure_is_not():
+    bounds = [
+        measures.quantity_of(at("x"), {"status": status, "reason": ""})[1] for status in ("not-applicable", "failed")
+    ]
+    assert bounds == pytest.approx([0.0, math.nan], nan_ok=True)
+
+
+def test_measures_of_a_jump():
+    assert measures.jump_in_deformation(at(), number(4.0), number(-3.5)) == pytest.approx(
+        (
+            0.125,
+            5.3125e-4,
+        ),
+        rel=1e-9,
+    )
+    jumps = [
+        {"mu": 0.5 * (1.0 + excess), "jump_in_gap": 1.0 + distance, "jump_out_gap": 1.0}
+        | dict.fromkeys(("u_jump_in_gap", "u_jump_out_gap"), 1e-6)
+        for excess, distance in ((1e-4, 0.03), (1e-2, 0.2))
+    ]
+    assert paths.gap_cusp(at(), {"mu": 0.5, "jumps": jumps})[0] == pytest.approx(0.5)
+    # B(8, 1) / B(2, 1) = 1/4.
+    assert paths.repulsion(at("41", n=1.0), number(1.0))[0] == pytest.approx(1.0 / 256.0)
+
+
+def test_measures_of_a_cohesive_zone():
+    r = np.linspace(0.0, 4.0, 401)
+    zone = {"radius": r, "gap": r / 1.5, "contact_radius": 1.2, "cohesive_radius": 1.5, "displacement": 2.0}
+    assert surfaces.zone_width(at("md"), zone)[0] == pytest.approx(0.3)
+    for name, stress in (("md-improved", 0.588), ("md", 1.0264)):
+        assert surfaces.zone_area(at(name), zone)[0] == pytest.approx(abs(stress - 1.0), abs=1e-3)
+    # The same deformation, but for 0.25.
+    exact = {"radius": r, "gap": zone["gap"] - 1.0, "u_distance": 0.0}
+    for distance in (surfaces.distance_inside, surfaces.distance_outside):
+        assert distance(at("md"), {"md": zone}, exact, number(2.75)) == pytest.approx((0.25, 1e-3))
+
+
+def test_measures_of_formulas():
+    coarse, full = ({"force": force, "beyond": beyond, "u_num": 1e-3} for force, beyond in ((1.0, 0.0), (2.0, 0.5)))
+    assert formulas.segments_change(at(), coarse, full) == pytest.approx((0.25, 1e-3))
+    # The response falls away from its ring.
+    assert formulas.phi_sharpness(at("1e-3", "1e-2"))[0] > 1.0
