@@ -95,7 +95,7 @@ def _prepare(site: Path) -> None:
 
 def _entry(folder: Path, root: Path, site: Path, earlier: list[BoardEntry], jobs: int) -> BoardEntry:
     """Return a submission with its results, or with the reason why it has none."""
-    place = folder.relative_to(root).as_posix() if folder != root else folder.name
+    path = folder.relative_to(root).as_posix() if folder != root else folder.name
     submission = None
     try:
         submission = read_submission(folder)
@@ -104,9 +104,9 @@ def _entry(folder: Path, root: Path, site: Path, earlier: list[BoardEntry], jobs
         _judge(submission, site, earlier, jobs)
         judged = entry_of(site / submission.folder)
     except (ValueError, ComputationFailed) as error:
-        log(f"{place} is not judged: {error}")
-        return BoardEntry(place, submission, None, str(error))
-    return BoardEntry(place, submission, judged)
+        log(f"{path} is not judged: {error}")
+        return BoardEntry(path, submission, None, str(error))
+    return BoardEntry(path, submission, judged)
 
 
 def _judge(submission: Submission, site: Path, earlier: list[BoardEntry], jobs: int) -> None:

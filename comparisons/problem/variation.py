@@ -124,7 +124,7 @@ def _value(text: str, unit: str) -> float | str:
     return f"{text.strip()} {unit}" if unit else float(text)
 
 
-def spaced(first: str, last: str, count: str, logarithmic: bool = False) -> list[str]:
+def spaced(start: str, end: str, count: str, logarithmic: bool = False) -> list[str]:
     """Return numbers as texts, at equal distances, or at equal ratios to six digits, both ends included.
 
     Raises
@@ -137,7 +137,7 @@ def spaced(first: str, last: str, count: str, logarithmic: bool = False) -> list
     >>> spaced("20", "100", "5"), spaced("0.1", "10", "3", logarithmic=True)
     (['20', '40', '60', '80', '100'], ['0.1', '1', '10'])
     """
-    ends, number = (float(first), float(last)), int(count)
+    ends, number = (float(start), float(end)), int(count)
     if not 2 <= number <= _MOST:
         raise ValueError(f"{count} values are outside 2 to {_MOST}; a range has both ends")
     if logarithmic and min(ends) <= 0.0:

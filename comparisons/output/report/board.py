@@ -65,7 +65,7 @@ class BoardEntry:
 
     Attributes
     ----------
-    place : str
+    path : str
         Its folder among the submissions.
     submission : Submission or None
         None if its description cannot be read.
@@ -75,7 +75,7 @@ class BoardEntry:
         Why it was not judged.
     """
 
-    place: str
+    path: str
     submission: Submission | None
     judged: Entry | None
     reason: str = ""
@@ -174,11 +174,11 @@ def _plot(kappa: pd.DataFrame) -> Sequence[Block]:
 def _submissions(entries: Sequence[BoardEntry]) -> dict[str, Sequence[Block]]:
     """Return the section of all submissions: those that were not judged, with the reason, and what each states."""
     refused = [
-        {"place": entry.place, "model": entry.submission and entry.submission.name, "reason": entry.reason}
+        {"path": entry.path, "model": entry.submission and entry.submission.name, "reason": entry.reason}
         for entry in entries
         if not entry.judged
     ]
-    layout = [words("folder", "place"), words("model"), words("reason", kind="prose")]
+    layout = [words("folder", "path"), words("model"), words("reason", kind="prose")]
     not_judged = Table("refused", "Not judged", layout, pd.DataFrame(refused))
     rows = []
     for entry in entries:

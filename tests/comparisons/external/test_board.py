@@ -1,6 +1,5 @@
 """The board: submissions of every kind, judged, refused and hostile, on one site."""
 
-import hashlib
 import re
 from pathlib import Path
 
@@ -12,9 +11,13 @@ from comparisons.external.model_source import close_models
 from comparisons.judging.gates import gates_text
 from comparisons.pipeline.submissions import read_submission
 from comparisons.registry import MODELS
-from tests.comparisons.conftest import GATES
+
+from ..conftest import GATES
+from .conftest import ROWS, model_file
 
 ROOT = Path(__file__).resolve().parents[3]
+BODY = "return Result(2.2, 1e-9)"
+MINE = {"name": "mine", "version": "3", "date": "2026-01-01", "model": "mine.py:Model"}
 SUBMISSIONS = ROOT / "docs" / "board" / "submissions"
 MANIFEST = """name = "{name}"
 version = "{version}"
@@ -24,26 +27,6 @@ citation = "none"
 licence = "MIT"
 model = "{model}"
 """
-MODEL = """from comparisons import Result
-import os
-
-class M:
-    name, version, citation, domain = "{name}", "1", "none", "any"
-
-    def evaluate(self, problem, quantity):
-        {line}
-"""
-DATA = """name = "table"
-version = "1"
-author = "A. Author"
-doi = "none"
-licence = "MIT"
-domain = "n = 2"
-predictions = "p.csv"
-sha256 = "{sum}"
-units = {{ pull_off_force = "pi Q^(2/n) dgamma z0^(2/n-1)" }}
-covers = [{{ quantities = ["pull_off_force"], n = [2], k = [0, 0.4], mu = [0.1, 1] }}]
-"""
 
 
 @pytest.fixture
@@ -52,15 +35,15 @@ def submissions(small_grid, tmp_path, monkeypatch):
     gate = GATES.replace('candidate = "ten-percent"', 'candidate = "given"').replace("0.09", "-0.11")
     monkeypatch.setattr("comparisons.pipeline.inputs.gates_text", lambda path: gates_text(path) if path else gate)
 
-    def written(folder, line="return Result(2.2, 1e-9)", version="1", name="mine", date="2026-01-01", model="m.py:M"):
+    def written(folder, body=BODY, version="1", name="mine", date="2026-01-01", model="mine.py:Model"):
         path = tmp_path / "submissions" / folder
         path.mkdir(parents=True, exist_ok=True)
         (path / "submission.toml").write_text(MANIFEST.format(name=name, version=version, date=date, model=model))
-        (path / "m.py").write_text(MODEL.format(name=name, line=line))
+        model_file(path, body, name)
+        (path / f"{name}.py").rename(path / "mine.py")
         return path
 
-    yield written
-    close_models()
+    return written
 
 
 def board(tmp_path):
@@ -77,25 +60,23 @@ def rows_of(page, table):
     return [[re.sub("<[^>]*>", "", cell).strip() for cell in re.findall(r"<td>(.*?)</td>", row, re.S)] for row in rows]
 
 
-def test_every_submission_has_a_verdict_or_the_reason_why_not(submissions, tmp_path):
-    submissions("mine/a", "return Result(2.4, 1e-9)", "1.9", date="2026-03-01")
+def test_every_submission_has_a_verdict_or_the_reason_why_not(submissions, write_data, tmp_path):
+    submissions("mine/a", BODY.replace("2.2", "2.4"), "1.9", date="2026-03-01")
     submissions("mine/b", version="1.10", date="2026-04-01")
     submissions("mine/c", version="1.10")
-    table = submissions("table", name="table", model="model.toml")
-    numbers = "".join(f"pull_off_force,2,{k},{mu},2.1,0\n" for k in (0, 0.4) for mu in (0.1, 1))
-    (table / "p.csv").write_text(f"quantity,n,k,mu,value,u_num\n{numbers}")
-    (table / "model.toml").write_text(DATA.format(sum=hashlib.sha256((table / "p.csv").read_bytes()).hexdigest()))
+    write_data([row.replace(",1.6,", ",2.0,") for row in ROWS]).rename(tmp_path / "submissions" / "table")
+    submissions("table", name="measured", model="model.toml")
     submissions("toy", name="twelve-percent", model="twelve-percent")
     submissions("ends", "os._exit(1)", name="ends")
     submissions("loads-not", "return (", name="loads-not")
-    submissions("outside", name="outside", model="../mine/a/m.py:M")
-    submissions("other-name", name="other").joinpath("m.py").write_text(MODEL.format(name="mine", line="pass"))
+    submissions("outside", name="outside", model="../mine/a/mine.py:Model")
+    (submissions("other-name", name="other") / "submission.toml").write_text(MANIFEST.format(**MINE))
     (submissions("broken") / "submission.toml").write_text("name = [")
     (tmp_path / "submissions" / "empty").mkdir()
     status, page = board(tmp_path)
     assert status == 4
     assert [(row[0], row[1][2:], row[3]) for row in rows_of(page, "models")] == [
-        ("table", "PASS", "5.00000(5)"),
+        ("measured", "FAIL", "-12.50000(5)"),
         ("mine", "PASS", "10.00000(5)"),
         ("twelve-percent", "FAIL", "12.00000(5)"),
         ("ends", "ERROR", ""),
@@ -119,20 +100,18 @@ def test_every_submission_has_a_verdict_or_the_reason_why_not(submissions, tmp_p
     assert "<b>Author" not in page
     links = re.findall(r'href="([^"]*report.html)"', page)
     assert {*links} == {
-        f"models/{name}/report.html" for name in ("mine/1.9", "mine/1.10", "table/1", "twelve-percent/1", "ends/1")
+        f"models/{name}/report.html" for name in ("mine/1.9", "mine/1.10", "measured/1", "twelve-percent/1", "ends/1")
     }
     assert all((tmp_path / "site" / link).is_file() for link in links)
 
 
-def test_what_has_not_changed_is_not_computed_again(submissions, tmp_path, capsys, monkeypatch):
+def test_what_has_not_changed_is_not_computed_again(submissions, no_cards, tmp_path, capsys, monkeypatch):
     """And the values of the reference are computed once for all."""
     monkeypatch.setattr("comparisons.pipeline.board.REFERENCE", "exact")
-    monkeypatch.setattr("comparisons.pipeline.finished_run.make_cards", lambda *_: {})
     submissions("a", name="a")
-    changed = submissions("b", name="b")
     counts = []
-    for line in ("return Result(2.2, 1e-9)", "return Result(2.1, 1e-9)"):
-        changed.joinpath("m.py").write_text(MODEL.format(name="b", line=line))
+    for body in (BODY, BODY.replace("2.2", "2.1")):
+        submissions("b", body, name="b")
         for _ in range(2):
             close_models()
             assert board(tmp_path)[0] == 0
