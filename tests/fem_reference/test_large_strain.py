@@ -27,7 +27,7 @@ from fem_reference._elastic.trace import trace_of
 from fem_reference._large_strain.core import core_of
 from fem_reference._large_strain.discretisation import linear_event
 from fem_reference._large_strain.equilibrium import Control, solve_state
-from fem_reference._large_strain.error_parts import variants_of
+from fem_reference._large_strain.error_parts import state_bounds, variants_of
 from fem_reference._large_strain.events import Family
 from fem_reference._large_strain.surface import Surface, local_slopes
 from fem_reference._large_strain.whole_path import path_states
@@ -404,6 +404,21 @@ def test_the_path_has_one_minimum_of_the_load(number, mu, nu):
     assert np.count_nonzero(np.diff(turns)) == 1
     deepest = solve_large_strain(sphere(number, mu, nu), "pull_off_force")
     assert 0.0 <= deepest.value + path.load.min() < 5e-3 * deepest.value
+
+
+def test_the_mesh_before_contact_is_that_of_the_spot_on_which_it_begins():
+    """A rigid sphere is 0.05 z0 high at 0.038 R; what attracts extends to 0.3 R."""
+    assert 0.02 < family(sphere(5e-3, 2.0, 0.3), "jump_in").event.radius < 0.038
+
+
+def test_the_bounds_of_a_state_contain_that_of_a_higher_degree():
+    problem = sphere(1e-3, 0.5, 0.3)
+    coarse, fine = (family(problem, order=order) for order in (4, 6))
+    state, exact = coarse.state(0.0), fine.state(0.0)
+    bounds = state_bounds(state, coarse.discretisation, coarse.event)
+    for bound, name in zip(bounds, ("displacement", "load"), strict=True):
+        error = abs(getattr(state, name) - getattr(exact, name))
+        assert error < bound < 1e-3 * abs(getattr(state, name)), name
 
 
 @pytest.mark.heavy
