@@ -24,7 +24,7 @@ OPTIONS = (
     file("curves", metavar="CURVE", nargs="+", help="CSV with displacement [nm] and load [nN], or a file of an AFM"),
     file("--problem", required=True, help="a problem file; the fit starts from its values"),
     several("--free", metavar="KEY", required=True, help="keys of the file that are fitted, as solid.E"),
-    option("--model", choices=("fscm", "jkr"), help="(default: fscm, and its limit jkr beyond a Tabor number of 100)"),
+    option("--model", choices=("fscm", "jkr"), help="(default: fscm, and its limit jkr where that is as good)"),
     option("--branch", choices=("approach", "retreat", "both"), default="both", help="(default: both)"),
     option("--stiffness", metavar="VALUE", help='of the cantilever, as "0.2 N/m"; by default the displacement is held'),
     option("--sensitivity", metavar="VALUE", help='deflection for a volt, as "50 nm/V"'),

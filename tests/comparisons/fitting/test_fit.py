@@ -107,6 +107,15 @@ def test_what_a_curve_cannot_tell_is_said():
     assert any("law.z0" in remark for remark in result.remarks)
 
 
+def test_jkr_for_a_stiff_contact_is_refused_trust():
+    problem = of_tabor_number(0.2)
+    record = Instrument(noise=0.005).record(problem, np.random.default_rng(6))
+    stiff = fitted(problem, record, problem, model="jkr")
+    assert stiff.residual > 2.0 * stiff.noise
+    assert any("Tabor number" in remark for remark in stiff.remarks)
+    assert not any("Tabor number" in remark for remark in fitted(problem, record, problem, model="fscm").remarks)
+
+
 def test_the_example_of_the_documentation_has_the_values_it_was_made_with():
     examples = Path(__file__).parents[3] / "docs" / "examples"
     problem = Problem.load(examples / "problems" / "probe.toml")

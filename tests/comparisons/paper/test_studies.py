@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from comparisons.paper.studies.finite_strain import meeting_points
+from comparisons.paper.studies.fit_by_jkr import fitted_by_jkr
 
 
 def test_geometry_and_strain_cancel_where_their_parts_are_equal():
@@ -19,3 +20,11 @@ def test_geometry_and_strain_cancel_where_their_parts_are_equal():
     roots = np.cbrt([once.elasto_adhesion_number, once.lowest, once.highest])
     assert roots == pytest.approx([0.05, 0.0495, 0.0505])
     assert math.isnan(never.elasto_adhesion_number)
+
+
+def test_jkr_finds_the_values_of_soft_spheres_alone():
+    """Far below a Tabor number of 1 its modulus is a third of the true one, its work of adhesion a quarter larger."""
+    soft, stiff = (fitted_by_jkr(0.0, 1.0, mu) for mu in (30.0, 0.1))
+    assert list(soft.values()) == pytest.approx([1.0, 1.0], abs=2e-3)
+    assert stiff["work_of_adhesion"] == pytest.approx(1.28, abs=0.03)
+    assert stiff["modulus"] == pytest.approx(0.33, abs=0.02)
