@@ -41,6 +41,10 @@ _KNOWN = (10.0, 20.0)
 #: Start values of the JKR limit, as shares of those of the file: a file may be wrong by some powers of ten.
 _SHARES = (0.1, 10.0, 0.01, 100.0)
 
+#: Standard deviation of the logarithm of a free value about that of the file: it moves no value that a curve
+#: determines, and holds the others within a few powers of ten.
+_VAGUE = 5.0
+
 #: And Tabor numbers at which it begins where that limit does not describe the curve.
 _STIFF = (0.5, 0.1, 3.0, 0.02)
 
@@ -54,7 +58,7 @@ _MODEL_ERROR = 3e-4
 #: A model describes a record where its residuals are at most twice the noise.
 _DESCRIBED = 4.0
 
-#: Steps of derivatives: of relative values, and of zeros in units of the largest load and of the noise in position.
+#: Step of derivatives: of logarithms of values, and of zeros in units of the ranges of load and position.
 _STEP = 1e-3
 
 #: Residual of values for which the model has no path: larger than any of a path.
@@ -361,7 +365,10 @@ class _Search:
                 return worst
             return np.concatenate([errors, np.zeros(len(worst) - len(errors))])
 
-        result = lmfit.minimize(residuals, parameters, method="leastsq", epsfcn=_STEP**2, max_nfev=40 * len(parameters))
+        def jacobian(parameters: lmfit.Parameters) -> Array:
+            return _jacobian(residuals, parameters)
+
+        result = lmfit.minimize(residuals, parameters, method="leastsq", Dfun=jacobian, max_nfev=40 * len(parameters))
         if not result.chisqr < _REFUSED**2:
             raise ComputationFailed("no values of the free keys describe the curve")
         return result
@@ -387,7 +394,7 @@ class _Search:
         position, zero = self.zeros(values)
         observed = self.observed
         errors = (machine.load(position, observed) + zero - observed.record.load)[observed.used] / self.noise
-        others = [values[key.name] / key.deviation for key in self.keys if key.deviation]
+        others = [values[key.name] / (key.deviation or _VAGUE) for key in self.keys if key.deviation or key.logarithmic]
         if machine.jumps:
             for approach, points in observed.jumps.items():
                 if approach and equilibria is by_jkr:
@@ -397,6 +404,25 @@ class _Search:
                 # The jump is evenly anywhere between both points.
                 others.append((around.mean() - fold) / (np.ptp(around) / math.sqrt(12.0)))
         return np.concatenate([errors, others])
+
+
+def _jacobian(residuals: Callable[[lmfit.Parameters], Array], parameters: lmfit.Parameters) -> Array:
+    """Derivatives of residuals, shape (m, number of parameters).
+
+    A step over the fold of a branch changes some residuals at once.  Only one of the steps to both sides goes over
+    it, so the smaller of both derivatives is that of the residual.
+    """
+    central, columns = residuals(parameters), []
+    for parameter in parameters.values():
+        value, slopes = float(parameter.value), []
+        for step in (_STEP, -_STEP):
+            parameter.value = value + step
+            # A value at its limit moves to one side alone.
+            if moved := float(parameter.value) - value:
+                slopes.append((residuals(parameters) - central) / moved)
+        parameter.value = value
+        columns.append(np.where(np.abs(slopes[0]) < np.abs(slopes[-1]), slopes[0], slopes[-1]))
+    return np.column_stack(columns)
 
 
 def _plain(name: str) -> str:
@@ -420,7 +446,8 @@ def _described(search: _Search, result: Any, model: str, count: int) -> Fit:
         _dotted(name): float(parameter.stderr) if parameter.stderr else math.inf
         for name, parameter in result.params.items()
     }
-    shifts = _shifts(search, result, model, problem)
+    is_determined = all(deviations[key.name] <= _UNDETERMINED for key in search.keys[:count])
+    shifts = _shifts(search, result, model, problem, is_determined)
     parameters = {}
     for key in search.keys[:count]:
         value = key.value(values[key.name])
@@ -448,14 +475,17 @@ def _described(search: _Search, result: Any, model: str, count: int) -> Fit:
     )
 
 
-def _shifts(search: _Search, result: Any, model: str, problem: Problem) -> dict[str, dict[str, float] | None]:
+def _shifts(
+    search: _Search, result: Any, model: str, problem: Problem, is_determined: bool
+) -> dict[str, dict[str, float] | None]:
     """What the errors of the model and of the assumptions in the load change, as fitted numbers."""
     errors: dict[str, float | None] = {"model": 0.0, "assumptions": None}
     if model == "jkr":
         distance = _distance_of_jkr(problem)
         errors["model"] = distance if math.isfinite(distance) else None
-    # The error of small strains is unknown for a graded solid, whose force takes long at large Tabor numbers.
-    if model == "fscm" or problem.posed.k == 0.0:
+    # The error of small strains is unknown for a graded solid, whose force takes long at large Tabor numbers, and for a
+    # contact that the curve does not determine.
+    if is_determined and (model == "fscm" or problem.posed.k == 0.0):
         assumed = assumptions(problem, evaluate("fscm", "pull_off_force", problem))
         errors["assumptions"] = assumed["total"]["error"] if assumed else None
     return {

@@ -208,6 +208,17 @@ def test_a_file_of_an_instrument_is_read(tmp_path):
         assert row.value == pytest.approx(problem[key], rel=0.05)
 
 
+def test_a_fold_near_a_point_of_the_record_does_not_narrow_the_uncertainty():
+    """The uncertainty changes with the seed of the noise by tenths of itself, not by powers of ten."""
+    problem = of_tabor_number(8.0, 0.4)
+    cycle = Instrument().cycle(problem)
+    shares = []
+    for seed in range(12):
+        record = Instrument(noise=0.04).record(problem, np.random.default_rng(seed), cycle=cycle)
+        shares.append([row.u / row.value for row in fitted(problem, record, problem).parameters.values()])
+    assert (np.max(shares, axis=0) < 3.0 * np.min(shares, axis=0)).all()
+
+
 @pytest.mark.heavy
 def test_stated_intervals_hold_as_often_as_they_say():
     """500 curves, Tabor numbers 0.05 to 1e4: 68 and 95 % within four standard deviations of sampling."""
