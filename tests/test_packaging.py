@@ -148,9 +148,27 @@ def test_the_constraints_have_the_lowest_version_of_every_requirement():
 def test_a_release_is_refused_while_something_does_not_agree():
     problems = runpy.run_path(str(ROOT / ".github" / "release_check.py"))["problems"]
     version, address = PROJECT["version"], "https://host/owner/name"
-    assert not any("CITATION" in line or "tag" in line for line in problems(f"v{version}", address))
+    assert not any("version" in line or "tag" in line for line in problems(f"v{version}", address))
     assert any("v0.0.9" in line and version in line for line in problems("v0.0.9", address))
     assert any("[project.urls]" in line and address in line for line in problems(f"v{version}", address))
+
+
+def test_a_release_needs_authors_and_a_doi(tmp_path):
+    (tmp_path / ".github" / "joss").mkdir(parents=True)
+    for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff", ".github/release_check.py", ".github/joss/paper.md"):
+        (tmp_path / name).write_bytes((ROOT / name).read_bytes())
+    problems = runpy.run_path(str(tmp_path / ".github" / "release_check.py"))["problems"]
+
+    def named():
+        found = "\n".join(problems(f"v{PROJECT['version']}", ""))
+        return [word for word in ("CITATION.cff has no family", "paper.md has no family", "doi") if word in found]
+
+    assert named() == ["CITATION.cff has no family", "paper.md has no family", "doi"]
+    citation, paper = tmp_path / "CITATION.cff", tmp_path / ".github" / "joss" / "paper.md"
+    text = citation.read_text().replace('  - name: "The fscm-bench developers"', "  - family-names: Doe")
+    citation.write_text(text.replace("\nlicense:", "\ndoi: 10.5281/zenodo.1\nlicense:"))
+    paper.write_text(paper.read_text().replace("authors: []", "authors:\n  - name: Jane Doe"))
+    assert named() == []
 
 
 def test_the_recipe_of_conda_has_the_requirements_and_the_names_of_the_project():
