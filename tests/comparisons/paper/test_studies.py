@@ -23,7 +23,7 @@ def test_geometry_and_strain_cancel_where_their_parts_are_equal():
 
 
 def test_jkr_finds_the_values_of_soft_spheres_alone():
-    """Far below a Tabor number of 1 its modulus is a third of the true one, its work of adhesion a quarter too large."""
+    """Far below a Tabor number of 1 its modulus is a third of the true one, its work of adhesion too large."""
     soft, stiff = (fitted_by_jkr(0.0, 1.0, mu) for mu in (30.0, 0.1))
     assert list(soft.values()) == pytest.approx([1.0, 1.0], abs=2e-3)
     # Several minima are about as good there.
