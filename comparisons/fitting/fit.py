@@ -8,7 +8,7 @@ the uncertainty of a result contains it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -58,8 +58,10 @@ _MODEL_ERROR = 3e-4
 #: A model describes a record where its residuals are at most twice the noise.
 _DESCRIBED = 4.0
 
-#: Step of derivatives: of logarithms of values, and of zeros in units of the ranges of load and position.
-_STEP = 1e-3
+#: Steps of derivatives, of numbers of keys and of zeros in units of the ranges of load and position: a search with the
+#: first one crosses what folds at the points of a record make rough, one with the second goes on from there, or finds
+#: what the first one steps over.
+_STEPS = (1e-2, 1e-3)
 
 #: Residual of values for which the model has no path: larger than any of a path.
 _REFUSED = 1e9
@@ -263,7 +265,7 @@ class _Search:
         free = [key.name for key in self.keys if key.logarithmic and key.prior is None]
         for shift in ({}, *({name: math.log(share)} for share in _SHARES for name in free)):
             try:
-                result = self._minimised(by_jkr, shift)
+                result = _best(self._minimised(by_jkr, shift, step) for step in _STEPS)
             except (NotApplicable, ComputationFailed, ValueError):
                 continue
             if result.redchi < _DESCRIBED:
@@ -300,13 +302,14 @@ class _Search:
                 break
         if not results:
             raise refusal
-        return min(results, key=lambda result: float(result.chisqr))
+        return _best(results)
 
     def by(self, model: str, start: dict[str, float]) -> Any:
         """Return the result of lmfit of a model, from given numbers."""
-        if model == "jkr":
-            return self._minimised(by_jkr, start)
-        return self._minimised(lambda problem, largest: by_fscm(problem, largest, self._exact), start)
+        equilibria = by_jkr if model == "jkr" else (lambda problem, largest: by_fscm(problem, largest, self._exact))
+        coarse, fine = _STEPS
+        starts = (start, self._values(self._minimised(equilibria, start, coarse)))
+        return _best(self._minimised(equilibria, each, fine) for each in starts)
 
     def scaled(self, model: str, result: Any, factor: float) -> Any:
         """Return the result with loads of the model that are larger by a factor."""
@@ -336,7 +339,9 @@ class _Search:
         compliance = load / self.observed.record.stiffness
         return self._position - compliance - shift * self._range, load
 
-    def _minimised(self, equilibria: Callable[[Problem, float], Equilibria], start: dict[str, float]) -> Any:
+    def _minimised(
+        self, equilibria: Callable[[Problem, float], Equilibria], start: dict[str, float], step: float
+    ) -> Any:
         parameters = lmfit.Parameters()
         for key in self.keys:
             low, high = (key.number(limit) for limit in key.limits)
@@ -366,7 +371,7 @@ class _Search:
             return np.concatenate([errors, np.zeros(len(worst) - len(errors))])
 
         def jacobian(parameters: lmfit.Parameters) -> Array:
-            return _jacobian(residuals, parameters)
+            return _jacobian(residuals, parameters, step)
 
         result = lmfit.minimize(residuals, parameters, method="leastsq", Dfun=jacobian, max_nfev=40 * len(parameters))
         if not result.chisqr < _REFUSED**2:
@@ -406,8 +411,13 @@ class _Search:
         return np.concatenate([errors, others])
 
 
-def _jacobian(residuals: Callable[[lmfit.Parameters], Array], parameters: lmfit.Parameters) -> Array:
-    """Derivatives of residuals, shape (m, number of parameters).
+def _best(results: Iterable[Any]) -> Any:
+    """Return the result of lmfit with the smallest sum of squares."""
+    return min(results, key=lambda result: float(result.chisqr))
+
+
+def _jacobian(residuals: Callable[[lmfit.Parameters], Array], parameters: lmfit.Parameters, step: float) -> Array:
+    """Derivatives of residuals by differences over a step, shape (m, number of parameters).
 
     A step over the fold of a branch changes some residuals at once.  Only one of the steps to both sides goes over
     it, so the smaller of both derivatives is that of the residual.
@@ -415,8 +425,8 @@ def _jacobian(residuals: Callable[[lmfit.Parameters], Array], parameters: lmfit.
     central, columns = residuals(parameters), []
     for parameter in parameters.values():
         value, slopes = float(parameter.value), []
-        for step in (_STEP, -_STEP):
-            parameter.value = value + step
+        for signed in (step, -step):
+            parameter.value = value + signed
             # A value at its limit moves to one side alone.
             if moved := float(parameter.value) - value:
                 slopes.append((residuals(parameters) - central) / moved)
