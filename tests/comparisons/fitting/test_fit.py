@@ -42,7 +42,7 @@ def fitted(problem, record, start=None, free=FREE, **options):
     return fit_record(record, start, free_keys(start, free), **options)
 
 
-@pytest.mark.parametrize(("mu", "k"), [(0.1, 0.0), (0.6, 0.4), (3.0, 0.0), (3e3, 0.4)])
+@pytest.mark.parametrize(("mu", "k"), [(0.1, 0.0), (0.6, 0.4), (3.0, 0.0), (20.0, 0.0), (3e3, 0.4)])
 def test_known_values_are_found_from_a_wrong_start(mu, k):
     problem = of_tabor_number(mu, k)
     record = Instrument(drift=0.01).record(problem, np.random.default_rng(1))

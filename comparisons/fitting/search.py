@@ -1,0 +1,273 @@
+"""Least squares of a model for one record: where the search begins, its residuals and their derivatives."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import lmfit
+import numpy as np
+from numpy.typing import NDArray
+
+from comparisons.fitting.equilibria import Equilibria, by_fscm, by_jkr
+from comparisons.fitting.machine import Machine, Observations
+from comparisons.fitting.parameters import Key, changed
+from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.problem import Problem
+from comparisons.runs.tasks import evaluate
+
+__all__ = ["Curves", "Search", "dotted", "plain"]
+
+Array = NDArray[np.float64]
+
+#: Start values of the JKR limit, as shares of those of the file: a file may be wrong by some powers of ten.
+_SHARES = (0.1, 10.0, 0.01, 100.0)
+
+#: Standard deviation of the logarithm of a free value about that of the file: it moves no value that a curve
+#: determines, and holds the others within a few powers of ten.
+_VAGUE = 5.0
+
+#: And Tabor numbers at which it begins where that limit does not describe the curve.
+_STIFF = (0.5, 0.1, 3.0, 0.02)
+
+#: The key on which every pull-off force depends.
+_ADHESION = "law.work_of_adhesion"
+
+#: Errors of the equilibria between Tabor numbers of the grid, as a share of the pull-off force (measured worst 8e-4, at
+#: a fold; a tenth of that elsewhere): a record without noise does not ask for more.
+_MODEL_ERROR = 3e-4
+
+#: A model describes a record where its residuals are at most twice the noise.
+_DESCRIBED = 4.0
+
+#: Steps of derivatives, of numbers of keys and of zeros in units of the ranges of load and position: a search with the
+#: first one crosses what folds at the points of a record make rough, one with the second goes on from there, or finds
+#: what the first one steps over.
+_STEPS = (1e-2, 1e-3)
+
+#: Residual of values for which the model has no path: larger than any of a path.
+_REFUSED = 1e9
+
+
+@dataclass(frozen=True)
+class Curves:
+    """The equilibria of a model.
+
+    Attributes
+    ----------
+    model : str
+        "fscm" or "jkr".
+    exact : bool
+        Of the FSCM: whether each problem has a path of its own.
+    factor : float
+        On all loads.
+    """
+
+    model: str
+    exact: bool = False
+    factor: float = 1.0
+
+    def equilibria(self, problem: Problem, largest: float) -> Equilibria:
+        """Return those of a problem up to a load in N."""
+        of_model = by_jkr(problem, largest) if self.model == "jkr" else by_fscm(problem, largest, self.exact)
+        return Equilibria(of_model.displacement, of_model.load * self.factor)
+
+
+class Search:
+    """Least squares for one record."""
+
+    def __init__(self, observed: Observations, problem: Problem, keys: Sequence[Key]) -> None:
+        self.observed, self.problem, self.keys = observed, problem, tuple(keys)
+        record = observed.record
+        depth = float(np.median(record.load) - record.load.min())
+        self.noise = math.hypot(record.noise, _MODEL_ERROR * depth)
+        self._position = record.position
+        self._time = np.linspace(0.0, 1.0, len(record.load))
+        self.range = float(np.ptp(self._position))
+        self.load_range = float(np.ptp(record.load))
+        self._has_both = bool(record.approach.any() and not record.approach.all())
+
+    def starts(self) -> list[dict[str, float]]:
+        """Return where the search may begin: at the best fit of the JKR limit, which takes no time.
+
+        Stiff solids are not near that limit.  Where it does not describe the record, the search begins at the pull-off
+        force of the record and several Tabor numbers.
+        """
+        free = [key.name for key in self.keys if key.logarithmic and key.prior is None]
+        for shift in ({}, *({name: math.log(share)} for share in _SHARES for name in free)):
+            try:
+                result = _best(self.minimised(Curves("jkr"), shift, step) for step in _STEPS)
+            except (NotApplicable, ComputationFailed, ValueError):
+                continue
+            if result.redchi < _DESCRIBED:
+                return [self.values(result)]
+        return [self._of_pull_off(mu) for mu in _STIFF]
+
+    def _of_pull_off(self, mu: float) -> dict[str, float]:
+        """Return numbers with the pull-off force of the record and, if a modulus is free, a Tabor number."""
+        numbers = dict.fromkeys((key.name for key in self.keys), 0.0)
+        loads = self.observed.record.load
+        force = float(np.median(loads[self._unloaded()]) - loads.min())
+        if _ADHESION in numbers:
+            stated = evaluate("jkr", "pull_off_force", self.problem).value
+            numbers[_ADHESION] = math.log(force / stated) if stated and force > 0.0 else 0.0
+        moduli = [key.name for key in self.keys if key.section == "solid" and key.logarithmic]
+        if moduli:
+            logs = []
+            for number in (0.0, 1.0):
+                numbers |= dict.fromkeys(moduli, number)
+                logs.append(math.log(changed(self.problem, self.keys, numbers).posed.mu))
+            # The Tabor number is a power of the modulus.
+            numbers |= dict.fromkeys(moduli, (math.log(mu) - logs[0]) / (logs[1] - logs[0]))
+        return numbers
+
+    def best(self, curves: Curves, starts: Sequence[dict[str, float]]) -> Any:
+        """Return the best result of lmfit from several starts.
+
+        From each the search has a coarse and a fine step.
+        """
+        results, refusal = [], ComputationFailed("no values of the free keys describe the curve")
+        for start in starts:
+            try:
+                coarse = self.values(self.minimised(curves, start, _STEPS[0]))
+                results.append(_best(self.minimised(curves, each, _STEPS[1]) for each in (start, coarse)))
+            except ComputationFailed as error:
+                refusal = error
+            if results and results[-1].redchi < _DESCRIBED:
+                break
+        if not results:
+            raise refusal
+        return _best(results)
+
+    def scaled(self, curves: Curves, result: Any, factor: float) -> dict[str, float]:
+        """Return the numbers that a result becomes if all loads of the model are larger by a factor."""
+        return self.values(self.minimised(replace(curves, factor=factor), self.values(result), _STEPS[1]))
+
+    def values(self, result: Any) -> dict[str, float]:
+        """Return the numbers of a result, by the names of keys and zeros."""
+        return {dotted(name): float(parameter.value) for name, parameter in result.params.items()}
+
+    def machine(self, values: dict[str, float], curves: Curves) -> Machine:
+        """Return the stable sections of the problem of fitted numbers."""
+        problem = changed(self.problem, self.keys, values)
+        largest = float(self.observed.record.load.max()) - values.get("load", 0.0) * self.load_range
+        return Machine.of(curves.equilibria(problem, 1.2 * largest), self.observed.record.stiffness)
+
+    def zeros(self, values: dict[str, float]) -> tuple[Array, float]:
+        """Return the positions of the record from their zero, and the zero of the load."""
+        shift = values["displacement"] + values.get("drift", 0.0) * (self._time - 0.5)
+        load = values["load"] * self.load_range
+        compliance = load / self.observed.record.stiffness
+        return self._position - compliance - shift * self.range, load
+
+    def minimised(self, curves: Curves, start: dict[str, float], step: float) -> Any:
+        """Return the result of lmfit from given numbers.
+
+        Raises
+        ------
+        comparisons.model.ComputationFailed
+            If none near them describe the record.
+        """
+        parameters = lmfit.Parameters()
+        for key in self.keys:
+            low, high = (key.number(limit) for limit in key.limits)
+            value = start.get(key.name, 0.0)
+            room = {} if math.isinf(low) and math.isinf(high) else {"min": low, "max": high}
+            parameters.add(plain(key.name), value=value, **room)
+        loads, far = self.observed.record.load, self._unloaded()
+        parameters.add("load", value=start.get("load", float(np.median(loads[far])) / self.load_range))
+        if "displacement" in start:
+            displacement = start["displacement"]
+        else:
+            values = {dotted(name): float(parameter.value) for name, parameter in parameters.items()}
+            machine = self.machine(values, curves)
+            displacement = self._aligned(machine, values) / self.range
+        parameters.add("displacement", value=displacement)
+        if self._has_both:
+            parameters.add("drift", value=start.get("drift", 0.0))
+
+        worst = np.full(int(self.observed.used.sum()) + len(self.keys) + 2, _REFUSED)
+
+        def residuals(parameters: lmfit.Parameters) -> Array:
+            values = {dotted(name): float(parameter.value) for name, parameter in parameters.items()}
+            try:
+                errors = self._residuals(values, curves)
+            except (ComputationFailed, NotApplicable, ValueError):
+                return worst
+            return np.concatenate([errors, np.zeros(len(worst) - len(errors))])
+
+        def jacobian(parameters: lmfit.Parameters) -> Array:
+            return _jacobian(residuals, parameters, step)
+
+        result = lmfit.minimize(residuals, parameters, method="leastsq", Dfun=jacobian, max_nfev=40 * len(parameters))
+        if not result.chisqr < _REFUSED**2:
+            raise ComputationFailed("no values of the free keys describe the curve")
+        return result
+
+    def _unloaded(self) -> NDArray[np.bool_]:
+        """Points of the tenth that is farthest from the solid."""
+        return np.asarray(self._position <= np.quantile(self._position, 0.1))
+
+    def _aligned(self, machine: Machine, values: dict[str, float]) -> float:
+        """The zero of the position at which the record has the load of the model: the best of those along it."""
+        shifts = self._position[:, None] - machine.contact[0][None, :: max(machine.contact.shape[1] // 40, 1)]
+        tried = np.linspace(shifts.min(), shifts.max(), 400)
+        loads = self.observed.record.load - values["load"] * self.load_range
+        thinned = slice(None, None, max(len(loads) // 400, 1))
+        errors = [
+            float(np.sum((machine.load(self._position - shift, self.observed) - loads)[thinned] ** 2))
+            for shift in tried
+        ]
+        return float(tried[int(np.argmin(errors))])
+
+    def _residuals(self, values: dict[str, float], curves: Curves) -> Array:
+        machine = self.machine(values, curves)
+        position, zero = self.zeros(values)
+        observed = self.observed
+        errors = (machine.load(position, observed) + zero - observed.record.load)[observed.used] / self.noise
+        others = [values[key.name] / (key.deviation or _VAGUE) for key in self.keys if key.deviation or key.logarithmic]
+        if machine.jumps:
+            for approach, points in observed.jumps.items():
+                if approach and curves.model == "jkr":
+                    continue  # Its surfaces do not attract before contact.
+                fold = machine.far[0, -1] if approach else machine.contact[0, 0]
+                around = position[list(points)]
+                # The jump is evenly anywhere between both points.
+                others.append((around.mean() - fold) / (np.ptp(around) / math.sqrt(12.0)))
+        return np.concatenate([errors, others])
+
+
+def _best(results: Iterable[Any]) -> Any:
+    """Return the result of lmfit with the smallest sum of squares."""
+    return min(results, key=lambda result: float(result.chisqr))
+
+
+def _jacobian(residuals: Callable[[lmfit.Parameters], Array], parameters: lmfit.Parameters, step: float) -> Array:
+    """Derivatives of residuals by differences over a step, shape (m, number of parameters).
+
+    A step over the fold of a branch changes some residuals at once.  Only one of the steps to both sides goes over
+    it, so the smaller of both derivatives is that of the residual.
+    """
+    central, columns = residuals(parameters), []
+    for parameter in parameters.values():
+        value, slopes = float(parameter.value), []
+        for signed in (step, -step):
+            parameter.value = value + signed
+            # A value at its limit moves to one side alone.
+            if moved := float(parameter.value) - value:
+                slopes.append((residuals(parameters) - central) / moved)
+        parameter.value = value
+        columns.append(np.where(np.abs(slopes[0]) < np.abs(slopes[-1]), slopes[0], slopes[-1]))
+    return np.column_stack(columns)
+
+
+def plain(name: str) -> str:
+    """Return the name of a key as lmfit takes it."""
+    return name.replace(".", "__")
+
+
+def dotted(name: str) -> str:
+    """Return the name of a key from that of lmfit."""
+    return name.replace("__", ".")
