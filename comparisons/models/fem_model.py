@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import fem_reference
 from comparisons.model import Curve, NotApplicable, RadialField, Result
-from comparisons.models.solver import SolverModel, result_of, surface_of, translated
+from comparisons.models.solver import SolverModel, curve_of, result_of, surface_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
@@ -84,15 +84,8 @@ class FiniteElements(SolverModel):
     def _curve(self, problem: Problem) -> Curve:
         units, body = self.physical(problem)
         coarse, path = (fem_reference.trace(body, level) for level in _LEVELS)
-        return Curve(
-            displacement=path.displacement / units["displacement"],
-            load=path.load / units["load"],
-            columns={
-                "central_gap": path.central_gap / units["gap"],
-                "edge_radius": path.edge_radius / units["radius"],
-            },
-            u_distance=mesh_difference(coarse.displacement, coarse.load, path.displacement, path.load),
-        )
+        u_distance = mesh_difference(coarse.displacement, coarse.load, path.displacement, path.load)
+        return curve_of(path, units, u_distance)
 
     def field(self, problem: Problem, event: str) -> tuple[export.Field, float]:
         """Return displacement and stresses in the whole solid at an event.

@@ -10,7 +10,7 @@ import numpy as np
 import fem_reference
 from comparisons.model import Curve, NotApplicable, Result
 from comparisons.models.fem_model import built
-from comparisons.models.solver import SolverModel, result_of
+from comparisons.models.solver import SolverModel, curve_of, result_of
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 
@@ -50,15 +50,7 @@ class LargeStrain(SolverModel):
         body, units = _body(problem), problem.units
         path = fem_reference.trace_large_strain(body)
         errors = path.u_displacement / np.ptp(path.displacement), path.u_load / np.ptp(path.load)
-        return Curve(
-            displacement=path.displacement / units["displacement"],
-            load=path.load / units["load"],
-            columns={
-                "central_gap": path.central_gap / units["gap"],
-                "edge_radius": path.edge_radius / units["radius"],
-            },
-            u_distance=float(np.hypot(*errors).max()),
-        )
+        return curve_of(path, units, float(np.hypot(*errors).max()))
 
 
 def _body(problem: Problem) -> fem_reference.Problem:

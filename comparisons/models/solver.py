@@ -13,7 +13,7 @@ from comparisons.model import ComputationFailed, Curve, NotApplicable, RadialFie
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.problem import Problem
 
-__all__ = ["SolverModel", "result_of", "surface_of", "translated"]
+__all__ = ["SolverModel", "curve_of", "result_of", "surface_of", "translated"]
 
 
 _ONES = {"radius": 1.0, "traction": 1.0, "gap": 1.0}
@@ -109,3 +109,17 @@ def surface_of(coarse: Any, fine: Any, units: Mapping[str, float] = _ONES) -> Ra
         mesh_difference(*surfaces[0].shown(name)[:2], *surfaces[1].shown(name)[:2]) for name in ("pressure", "gap")
     )
     return replace(surfaces[1], u_distance=pressure, u_gap_distance=gap)
+
+
+def curve_of(path: Any, units: Mapping[str, float], u_distance: float) -> Curve:
+    """Return the path of the finite elements as a curve, divided by the units of the paper.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> path = SimpleNamespace(displacement=2.0, load=3.0, central_gap=4.0, edge_radius=5.0)
+    >>> curve_of(path, {"displacement": 2.0, "load": 1.0, "gap": 2.0, "radius": 5.0}, 0.1).columns
+    {'central_gap': 2.0, 'edge_radius': 1.0}
+    """
+    columns = {"central_gap": path.central_gap / units["gap"], "edge_radius": path.edge_radius / units["radius"]}
+    return Curve(path.displacement / units["displacement"], path.load / units["load"], columns, u_distance)
