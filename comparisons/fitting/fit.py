@@ -191,7 +191,8 @@ def fit_record(record: Record, problem: Problem, free: Sequence[Key], model: str
         at_start = changed(problem, search.keys, {key.name: starts[0].get(key.name, 0.0) for key in search.keys})
         model = "jkr" if has_limit and _distance_of_jkr(at_start) < _LIMIT else "fscm"
     # The paths of a fit in n or k have no Tabor numbers in common.
-    curves = Curves(model, exact=any(key.name in ("solid.k", "punch.n") for key in search.keys))
+    exact = not has_limit or any(key.name in ("solid.k", "punch.n") for key in search.keys)
+    curves = Curves(model, exact=model == "fscm" and exact)
     return _described(search, search.best(curves, starts), curves, len(free))
 
 

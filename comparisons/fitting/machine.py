@@ -118,6 +118,6 @@ class Machine:
         x, load = self.far
         loads = np.interp(position, x, load)
         # The attraction falls like the square of the gap, which is -x far away.
-        with np.errstate(divide="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore"):
             beyond = load[0] * (x[0] / np.minimum(position, x[0])) ** 2
         return np.where(position < x[0], beyond, loads)

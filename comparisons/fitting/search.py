@@ -60,7 +60,7 @@ class Curves:
     model : str
         "fscm" or "jkr".
     exact : bool
-        Of the FSCM: whether each problem has a path of its own.
+        Of the FSCM: whether each problem has a path of its own, which takes seconds.
     factor : float
         On all loads.
     """
@@ -111,8 +111,10 @@ class Search:
         loads = self.observed.record.load
         force = float(np.median(loads[self._unloaded()]) - loads.min())
         if _ADHESION in numbers:
-            stated = evaluate("jkr", "pull_off_force", self.problem).value
-            numbers[_ADHESION] = math.log(force / stated) if stated and force > 0.0 else 0.0
+            posed = Problem.dimensionless(n=self.problem.posed.n, k=self.problem.posed.k, mu=mu)
+            # The unit of the load is proportional to the work of adhesion.
+            stated = float(evaluate("fscm", "pull_off_force", posed)) * self.problem.units["load"]
+            numbers[_ADHESION] = math.log(force / stated) if force > 0.0 else 0.0
         moduli = [key.name for key in self.keys if key.section == "solid" and key.logarithmic]
         if moduli:
             logs = []
@@ -126,13 +128,15 @@ class Search:
     def best(self, curves: Curves, starts: Sequence[dict[str, float]]) -> Any:
         """Return the best result of lmfit from several starts.
 
-        From each the search has a coarse and a fine step.
+        Raises
+        ------
+        comparisons.model.ComputationFailed
+            If none of them leads to numbers that describe the record.
         """
         results, refusal = [], ComputationFailed("no values of the free keys describe the curve")
         for start in starts:
             try:
-                coarse = self.values(self.minimised(curves, start, _STEPS[0]))
-                results.append(_best(self.minimised(curves, each, _STEPS[1]) for each in (start, coarse)))
+                results.append(self._from(curves, start))
             except ComputationFailed as error:
                 refusal = error
             if results and results[-1].redchi < _DESCRIBED:
@@ -140,6 +144,13 @@ class Search:
         if not results:
             raise refusal
         return _best(results)
+
+    def _from(self, curves: Curves, start: dict[str, float]) -> Any:
+        """The result from one start; of curves that cost no time also from where a coarse search ends."""
+        if curves.exact:
+            return self.minimised(curves, start, _STEPS[1])
+        coarse = self.values(self.minimised(curves, start, _STEPS[0]))
+        return _best(self.minimised(curves, each, _STEPS[1]) for each in (start, coarse))
 
     def scaled(self, curves: Curves, result: Any, factor: float) -> dict[str, float]:
         """Return the numbers that a result becomes if all loads of the model are larger by a factor."""

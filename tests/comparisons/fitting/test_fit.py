@@ -18,7 +18,7 @@ from comparisons.fitting.fit import fit_record
 from comparisons.fitting.machine import Machine
 from comparisons.fitting.parameters import free_keys
 from comparisons.fitting.record import Record
-from comparisons.problem import Problem
+from comparisons.problem import Problem, Section
 from comparisons.problem.uncertain import Uncertainty
 
 from .synthetic import Instrument, contact, of_tabor_number, wrong
@@ -51,6 +51,17 @@ def test_known_values_are_found_from_a_wrong_start(mu, k):
     assert max(map(abs, deviations(problem, result))) < 3.5
     assert all(row.determined and row.u < 0.1 * row.value for row in result.parameters.values())
     assert result.residual == pytest.approx(result.noise, rel=0.2)
+
+
+@pytest.mark.parametrize("E", [1e8, 2e9])
+def test_a_cone_whose_force_by_jkr_depends_on_its_modulus_is_fitted(E):
+    """Tabor numbers of 3 and 0.15: far from the second one JKR has no force near that of the record."""
+    problem = contact(E, 0.05)
+    cone = replace(problem, punch=Section("cone", {"half_angle": 1.2}))
+    record = Instrument(noise=0.01).record(cone, np.random.default_rng(3))
+    result = fitted(cone, record, wrong(cone, 1.6))
+    assert max(map(abs, deviations(cone, result))) < 3.5
+    assert all(row.u < 0.01 * row.value for row in result.parameters.values())
 
 
 @pytest.mark.heavy
