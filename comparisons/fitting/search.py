@@ -18,7 +18,7 @@ from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.problem import Problem
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["Curves", "Search", "dotted", "plain"]
+__all__ = ["Curves", "Search", "derivatives", "dotted", "plain"]
 
 Array = NDArray[np.float64]
 
@@ -210,7 +210,7 @@ class Search:
             return np.concatenate([errors, np.zeros(len(worst) - len(errors))])
 
         def jacobian(parameters: lmfit.Parameters) -> Array:
-            return _jacobian(residuals, parameters, step)
+            return derivatives(residuals, parameters, step)
 
         result = lmfit.minimize(residuals, parameters, method="leastsq", Dfun=jacobian, max_nfev=40 * len(parameters))
         if not result.chisqr < _REFUSED**2:
@@ -255,8 +255,8 @@ def _best(results: Iterable[Any]) -> Any:
     return min(results, key=lambda result: float(result.chisqr))
 
 
-def _jacobian(residuals: Callable[[lmfit.Parameters], Array], parameters: lmfit.Parameters, step: float) -> Array:
-    """Derivatives of residuals by differences over a step, shape (m, number of parameters).
+def derivatives(residuals: Callable[[lmfit.Parameters], Array], parameters: lmfit.Parameters, step: float) -> Array:
+    """Return derivatives of residuals by differences over a step, shape (m, number of parameters).
 
     A step over the fold of a branch changes some residuals at once.  Only one of the steps to both sides goes over
     it, so the smaller of both derivatives is that of the residual.
