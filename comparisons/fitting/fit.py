@@ -17,24 +17,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from comparisons.description.assumptions import assumptions
+from comparisons.fitting.equilibria import distance_of_jkr, is_limit
 from comparisons.fitting.machine import Observations
 from comparisons.fitting.parameters import Key, changed, free_keys, uncertain_keys
 from comparisons.fitting.record import Record, read_records
 from comparisons.fitting.search import Curves, Search, dotted, plain
-from comparisons.numerics.bounds import relative_difference
 from comparisons.problem import Problem
 from comparisons.runs.tasks import evaluate
 
 __all__ = ["Fit", "FittedValue", "fit", "fit_record"]
 
 Array = NDArray[np.float64]
-
-#: The JKR limit stands for the FSCM where its pull-off force is so near; its distance is in the budget.
-_LIMIT = 2e-4
-
-#: Tabor numbers at which that distance is computed; beyond, it falls at least as 1/mu (measured for n from 1 to 10, k
-#: from 0 to 0.8: as mu^-1.29 at the slowest, n = 5, k = 0; two numbers, because it may change its sign near one).
-_KNOWN = (10.0, 20.0)
 
 #: A value is called undetermined where its standard deviation is a larger share of it.
 _UNDETERMINED = 0.5
@@ -189,28 +182,11 @@ def fit_record(record: Record, problem: Problem, free: Sequence[Key], model: str
     starts = search.starts() if has_limit else [{}]
     if model is None:
         at_start = changed(problem, search.keys, {key.name: starts[0].get(key.name, 0.0) for key in search.keys})
-        model = "jkr" if has_limit and _distance_of_jkr(at_start) < _LIMIT else "fscm"
+        model = "jkr" if has_limit and is_limit(at_start) else "fscm"
     # The paths of a fit in n or k have no Tabor numbers in common.
     exact = not has_limit or any(key.name in ("solid.k", "punch.n") for key in search.keys)
     curves = Curves(model, exact=model == "fscm" and exact)
     return _described(search, search.best(curves, starts), curves, len(free))
-
-
-def _distance_of_jkr(problem: Problem) -> float:
-    """Bound on the relative distance of the pull-off forces of JKR and the FSCM; infinite where none is known."""
-    posed = problem.posed
-    if posed.mu < _KNOWN[-1]:
-        nearer = [problem]
-    else:
-        nearer = [Problem.dimensionless(n=posed.n, k=posed.k, mu=mu) for mu in _KNOWN]
-    distances = []
-    for case in nearer:
-        limit, force = (evaluate(model, "pull_off_force", case).value for model in ("jkr", "fscm"))
-        if limit is None or force is None:
-            return math.inf
-        share = 1.0 if case is problem else case.posed.mu / posed.mu
-        distances.append(share * abs(relative_difference(limit, force)))
-    return max(distances)
 
 
 def _described(search: Search, result: Any, curves: Curves, count: int) -> Fit:
@@ -261,7 +237,7 @@ def _shifts(
     """What the errors of the model and of the assumptions in the load change, as fitted numbers."""
     errors: dict[str, float | None] = {"model": 0.0, "assumptions": None}
     if curves.model == "jkr":
-        distance = _distance_of_jkr(problem)
+        distance = distance_of_jkr(problem)
         errors["model"] = distance if math.isfinite(distance) else None
     # The error of small strains is unknown for a graded solid, whose force takes long at large Tabor numbers, and for a
     # contact that the curve does not determine.

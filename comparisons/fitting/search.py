@@ -11,7 +11,7 @@ import lmfit
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.fitting.equilibria import Equilibria, by_fscm, by_jkr
+from comparisons.fitting.equilibria import Equilibria, by_fscm, by_jkr, is_limit
 from comparisons.fitting.machine import Machine, Observations
 from comparisons.fitting.parameters import Key, changed
 from comparisons.model import ComputationFailed, NotApplicable
@@ -29,7 +29,10 @@ _SHARES = (0.1, 10.0, 0.01, 100.0)
 #: determines, and holds the others within a few powers of ten.
 _VAGUE = 5.0
 
-#: And Tabor numbers at which it begins where that limit does not describe the curve.
+#: The limit is near the values of contacts of larger Tabor numbers even where it does not describe the curve.
+_SOFT = 0.5
+
+#: Tabor numbers at which the search begins where that limit does not describe the curve.
 _STIFF = (0.5, 0.1, 3.0, 0.02)
 
 #: The key on which every pull-off force depends.
@@ -38,6 +41,9 @@ _ADHESION = "law.work_of_adhesion"
 #: Errors of the equilibria between Tabor numbers of the grid, as a share of the pull-off force (measured worst 8e-4, at
 #: a fold; a tenth of that elsewhere): a record without noise does not ask for more.
 _MODEL_ERROR = 3e-4
+
+#: The load far away changes less than this share of the pull-off force over a twentieth of a record.
+_FLAT = 0.1
 
 #: A model describes a record where its residuals are at most twice the noise.
 _DESCRIBED = 4.0
@@ -70,8 +76,9 @@ class Curves:
     factor: float = 1.0
 
     def equilibria(self, problem: Problem, largest: float) -> Equilibria:
-        """Return those of a problem up to a load in N."""
-        of_model = by_jkr(problem, largest) if self.model == "jkr" else by_fscm(problem, largest, self.exact)
+        """Return those of a problem up to a load in N; a search for those of the FSCM may pass through its limit."""
+        by_limit = self.model == "jkr" or (problem.is_of_the_paper("solid", "punch", "law") and is_limit(problem))
+        of_model = by_jkr(problem, largest) if by_limit else by_fscm(problem, largest, self.exact)
         return Equilibria(of_model.displacement, of_model.load * self.factor)
 
 
@@ -90,12 +97,13 @@ class Search:
         self._has_both = bool(record.approach.any() and not record.approach.all())
 
     def starts(self) -> list[dict[str, float]]:
-        """Return where the search may begin: at the best fit of the JKR limit, which takes no time.
+        """Return where the search may begin: at the fit of the JKR limit, which takes no time.
 
-        Stiff solids are not near that limit.  Where it does not describe the record, the search begins at the pull-off
-        force of the record and several Tabor numbers.
+        If that does not describe the record, the search may also begin at the pull-off force of the record and several
+        Tabor numbers, and only there if that of the limit is small.
         """
         free = [key.name for key in self.keys if key.logarithmic and key.prior is None]
+        near_limit = []
         for shift in ({}, *({name: math.log(share)} for share in _SHARES for name in free)):
             try:
                 result = _best(self.minimised(Curves("jkr"), shift, step) for step in _STEPS)
@@ -103,13 +111,22 @@ class Search:
                 continue
             if result.redchi < _DESCRIBED:
                 return [self.values(result)]
-        return [self._of_pull_off(mu) for mu in _STIFF]
+            near_limit.append(result)
+        starts = [self._of_pull_off(mu) for mu in _STIFF]
+        if near_limit:
+            values = self.values(_best(near_limit))
+            if self._problem_of(values).posed.mu > _SOFT:
+                return [values, *starts]
+        return starts
+
+    def _problem_of(self, values: dict[str, float]) -> Problem:
+        return changed(self.problem, self.keys, values)
 
     def _of_pull_off(self, mu: float) -> dict[str, float]:
         """Return numbers with the pull-off force of the record and, if a modulus is free, a Tabor number."""
         numbers = dict.fromkeys((key.name for key in self.keys), 0.0)
         loads = self.observed.record.load
-        force = float(np.median(loads[self._unloaded()]) - loads.min())
+        force = self._load_zero() - float(loads.min())
         if _ADHESION in numbers:
             posed = Problem.dimensionless(n=self.problem.posed.n, k=self.problem.posed.k, mu=mu)
             # The unit of the load is proportional to the work of adhesion.
@@ -162,7 +179,7 @@ class Search:
 
     def machine(self, values: dict[str, float], curves: Curves) -> Machine:
         """Return the stable sections of the problem of fitted numbers."""
-        problem = changed(self.problem, self.keys, values)
+        problem = self._problem_of(values)
         largest = float(self.observed.record.load.max()) - values.get("load", 0.0) * self.load_range
         return Machine.of(curves.equilibria(problem, 1.2 * largest), self.observed.record.stiffness)
 
@@ -187,8 +204,7 @@ class Search:
             value = start.get(key.name, 0.0)
             room = {} if math.isinf(low) and math.isinf(high) else {"min": low, "max": high}
             parameters.add(plain(key.name), value=value, **room)
-        loads, far = self.observed.record.load, self._unloaded()
-        parameters.add("load", value=start.get("load", float(np.median(loads[far])) / self.load_range))
+        parameters.add("load", value=start.get("load", self._load_zero() / self.load_range))
         if "displacement" in start:
             displacement = start["displacement"]
         else:
@@ -217,9 +233,13 @@ class Search:
             raise ComputationFailed("no values of the free keys describe the curve")
         return result
 
-    def _unloaded(self) -> NDArray[np.bool_]:
-        """Points of the tenth that is farthest from the solid."""
-        return np.asarray(self._position <= np.quantile(self._position, 0.1))
+    def _load_zero(self) -> float:
+        """The load of the tenth that is farthest from the solid; zero if it changes there as in contact."""
+        load = self.observed.record.load[np.argsort(self._position)]
+        farther, nearer = np.array_split(load[: max(len(load) // 10, 2)], 2)
+        zero = float(np.median([*farther, *nearer]))
+        changes = abs(float(np.median(farther) - np.median(nearer))) > _FLAT * (zero - float(load.min()))
+        return 0.0 if changes else zero
 
     def _aligned(self, machine: Machine, values: dict[str, float]) -> float:
         """The zero of the position at which the record has the load of the model: the best of those along it."""

@@ -14,11 +14,10 @@ from scipy.stats import binom
 import fem_reference
 from comparisons import fit
 from comparisons.cli.main import main
-from comparisons.fitting.equilibria import by_fscm
+from comparisons.fitting.equilibria import Equilibria, by_fscm
 from comparisons.fitting.fit import fit_record
 from comparisons.fitting.machine import Machine
 from comparisons.fitting.parameters import free_keys
-from comparisons.fitting.record import Record
 from comparisons.fitting.search import derivatives
 from comparisons.problem import Problem, Section
 from comparisons.problem.uncertain import Uncertainty
@@ -69,15 +68,15 @@ def test_a_cone_whose_force_by_jkr_depends_on_its_modulus_is_fitted(E):
 @pytest.mark.heavy
 def test_a_record_of_the_finite_elements_gives_its_values():
     problem = contact(5e8, 0.05)
-    path = fem_reference.trace(problem.build(fem_reference))
-    rising = Machine.of(by_fscm(problem, path.load.max(), True), math.inf)
-    x = np.linspace(rising.contact[0, 0], path.displacement.max(), 200)[1:]
-    branch = path.displacement[int(np.argmin(path.load)) :], path.load[int(np.argmin(path.load)) :]
-    load = np.interp(x, *branch)
-    record = Record("fem", x[::-1], load[::-1], np.zeros(x.size, bool))
-    result = fitted(problem, record)
-    assert result.parameters["solid.E0"].value == pytest.approx(5e8, rel=2e-3)
-    assert result.parameters["law.work_of_adhesion"].value == pytest.approx(0.05, rel=2e-3)
+    path = fem_reference.trace(problem.build(fem_reference), largest_turn=1.0)
+    machine = Machine.of(Equilibria(path.displacement, path.load), math.inf)
+    far, touching = machine.far, machine.contact
+    loading = np.column_stack([far, touching[:, touching[0] > far[0, -1]]])
+    unloading = np.column_stack([far[:, far[0] < touching[0, 0]], touching])
+    cycle = loading, unloading, -path.load.min(), touching[0, 0] - 4e-9
+    result = fitted(problem, Instrument(noise=0.005).record(problem, np.random.default_rng(8), cycle=cycle))
+    assert max(map(abs, deviations(problem, result))) < 3.0
+    assert all(row.u < 2e-3 * row.value for row in result.parameters.values())
 
 
 def test_a_cantilever_jumps_where_its_stiffness_says():
