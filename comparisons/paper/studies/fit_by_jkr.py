@@ -69,7 +69,7 @@ def fitted_by_jkr(k: float, largest_load: float, mu: float) -> dict[str, float]:
     force = float(evaluate("fscm", "pull_off_force", problem))
     retreat = Machine.of(by_fscm(problem, largest_load * force, True), math.inf)
     x = np.linspace(retreat.contact[0, 0], np.interp(largest_load * force, *_rising(retreat.contact)), _POINTS)[::-1]
-    beyond = np.linspace(x[-1], x[-1] - 0.2 * float(np.ptp(x)), _POINTS // 4)[1:]
+    beyond = np.linspace(x[-1], x[-1] - float(np.ptp(x)), _POINTS)[1:]
     loads = [np.interp(x, *retreat.contact), np.interp(beyond, *retreat.far)]
     record = Record("retreat", np.concatenate([x, beyond]), np.concatenate(loads), np.zeros(x.size + beyond.size, bool))
     fitted = fit_record(record, problem, free_keys(problem, [*_KEYS.values()]), "jkr")
