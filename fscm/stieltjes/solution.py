@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -24,6 +25,12 @@ _SAFETY = 2.0
 
 #: The quantities at one event of the path.
 STIELTJES_QUANTITIES = {name: row for name, row in TABLE.items() if isinstance(row, AtEvent)}
+
+
+@lru_cache(maxsize=2)
+def _scheme(problem: Problem, segments: int, **settings: float) -> StieltjesScheme:
+    """Scheme whose path serves every quantity of a problem: the last one and that on half as many segments."""
+    return StieltjesScheme(problem, segments, **settings)
 
 
 @one_thread()
@@ -58,10 +65,10 @@ def stieltjes_solution(problem: Problem, quantity: str, segments: int = 2500, **
         raise ValueError(f"unknown quantity {quantity!r}; known are {', '.join(STIELTJES_QUANTITIES)}")
     start = time.perf_counter()
     row = STIELTJES_QUANTITIES[quantity]
-    scheme = StieltjesScheme(problem, segments, **settings)
+    scheme = _scheme(problem, segments, **settings)
     state = find_event(scheme, row.event)
     value = row.functional(state)
-    coarse = row.functional(find_event(StieltjesScheme(problem, segments // 2, **settings), row.event))
+    coarse = row.functional(find_event(_scheme(problem, segments // 2, **settings), row.event))
     parts = Parts(mesh=_SAFETY * abs(value - coarse), tail=_SAFETY * _beyond(scheme, state, row))
     iterations = sum(s.iterations for s in scheme.path)
     return Solution(value, parts, segments, iterations, state.change, time.perf_counter() - start)
