@@ -76,7 +76,9 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
         for name in ("citation.json", "software_references.json")
     )
     note = f"version {_version(record['package']) if record else version}"
-    cited = [_work("fscm-bench", cff | {"author": _names(cff["authors"]), "note": note})]
+    cited = [
+        _work("fscm-bench", cff | {"author": _names(cff["authors"]), "year": cff["date-released"][:4], "note": note})
+    ]
     for paper in cff["references"]:
         key = f"{paper['authors'][0].get('family-names', '')}-{paper['title'].split()[0]}".lower()
         pages = "--".join(str(paper[name]) for name in ("start", "end") if name in paper)

@@ -127,7 +127,7 @@ class Kind:
 
 def _coating(solver: ModuleType, solid: Section) -> Any:
     ratios = solid.get("nu_coating", solid.get("nu")), solid.get("nu_substrate")
-    interface = solid["thickness"], solid["transition"]
+    interface = solid["thickness"], solid.get("transition", 0.0)
     return solver.Coating(solid["E_coating"], solid["E_substrate"], *interface, *ratios)
 
 

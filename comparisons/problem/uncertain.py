@@ -5,14 +5,18 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from uncertainties import ufloat_fromstr
+
 from comparisons.problem.units import NUMBER, NotAValue, in_si
 
 __all__ = ["Uncertainty", "is_uncertain", "uncertain_in_si"]
 
 _SIGN = re.compile(r"\+/-|\+-|±")
 _INTERVAL = re.compile(rf"\s*\[\s*({NUMBER})\s*,\s*({NUMBER})\s*\]\s*(.*?)\s*")
-_BRACKETS = re.compile(r"\s*\(([^()]*)\)\s*(.+?)\s*")
-_PERCENT = re.compile(rf"\s*({NUMBER})\s*%\s*")
+#: A value with the digits of its standard deviation in brackets, and its unit.
+_DIGITS = re.compile(r"\s*([+-]?\d+\.?\d*\(\d+\.?\d*\)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+_BRACKETS = re.compile(r"^\s*\(([^()]*)\)")
+_PERCENT = re.compile(rf"\s*({NUMBER})\s*%\s*(.*?)\s*")
 _PLAIN = re.compile(rf"\s*{NUMBER}\s*")
 
 
@@ -48,10 +52,12 @@ def is_uncertain(value: object) -> bool:
 
     Examples
     --------
-    >>> [is_uncertain(value) for value in ("2 GPa", "2 GPa +- 5 %", "[1.8, 2.2] GPa", 2e9)]
-    [False, True, True, False]
+    >>> [is_uncertain(value) for value in ("2 GPa", "2 GPa +- 5 %", "[1.8, 2.2] GPa", "2.0(1) GPa", 2e9)]
+    [False, True, True, True, False]
     """
-    return isinstance(value, str) and bool(_SIGN.search(value) or value.lstrip().startswith("["))
+    if not isinstance(value, str):
+        return False
+    return bool(_SIGN.search(value) or _DIGITS.fullmatch(value)) or value.lstrip().startswith("[")
 
 
 def uncertain_in_si(text: str, target: str, power: float = 1.0) -> tuple[float, Uncertainty]:
@@ -60,8 +66,9 @@ def uncertain_in_si(text: str, target: str, power: float = 1.0) -> tuple[float, 
     Parameters
     ----------
     text : str
-        ``2 +- 0.1 GPa``, ``(2 +- 0.1) GPa``, ``2 GPa +- 100 MPa``, ``2 GPa +- 5 %`` (standard deviations) or
-        ``[1.8, 2.2] GPa``; without a unit for a plain number.  The sign may be ``±`` or ``+/-``.
+        ``2 +- 0.1 GPa``, ``(2 +- 0.1) GPa``, ``2 GPa +- 100 MPa``, ``2 GPa +- 5 %``, ``2 +- 5 % GPa``, ``2.0(1) GPa``
+        (standard deviations) or ``[1.8, 2.2] GPa``; without a unit for a plain number.  The sign may be ``±`` or
+        ``+/-``.
     target : str
         The unit in SI; nothing for a plain number.
     power : float
@@ -83,16 +90,18 @@ def uncertain_in_si(text: str, target: str, power: float = 1.0) -> tuple[float, 
             raise NotAValue("has an interval whose first end is not below the second")
         # The middle of 1.8 and 2.2 is 2 to all digits.
         return float(f"{0.5 * (low + high):.15g}"), Uncertainty(0.5 * (high - low), True, text)
-    brackets = _BRACKETS.fullmatch(text)
-    if brackets and _SIGN.search(brackets[1]):
-        texts = [f"{number} {brackets[2]}" for number in _SIGN.split(brackets[1])]
+    if digits := _DIGITS.fullmatch(text):
+        number = ufloat_fromstr(digits[1])
+        texts = [f"{part} {digits[2]}" for part in (number.nominal_value, number.std_dev)]
     else:
-        texts = _SIGN.split(text)
+        texts = _SIGN.split(_BRACKETS.sub(r"\1 ", text))
     if len(texts) != 2:
         raise NotAValue("is no value +- standard deviation and no [interval] with a unit behind it")
     mean, deviation = texts
     percent = _PERCENT.fullmatch(deviation)
-    if not percent and _PLAIN.fullmatch(mean) and not _PLAIN.fullmatch(deviation):
+    if percent:
+        mean += f" {percent[2]}"
+    elif _PLAIN.fullmatch(mean) and not _PLAIN.fullmatch(deviation):
         # One unit behind both numbers.
         mean += re.sub(rf"^\s*{NUMBER}", "", deviation)
     value = _si(mean, target, power)

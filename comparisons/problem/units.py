@@ -17,6 +17,8 @@ NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _NAME = r"[A-Za-zµμΩÅ°]+(?:\s*(?:\^|\*\*)\s*\(?[+-]?\d{1,2}(?:\.\d{1,4})?\)?)?"
 #: A product of powers of units, and nothing else: pint would also calculate.
 _UNIT = re.compile(rf"(?:1\s*/\s*)?{_NAME}(?:\s*[*/·]\s*{_NAME}|\s+{_NAME})*")
+#: Signs of a unit that pint does not read.
+_SIGNS = str.maketrans({"·": "*", "²": "^2", "³": "^3"})
 _VALUE = re.compile(rf"\s*({NUMBER})\s*(.*?)\s*")
 
 #: Prefixes by which text shows a number, and their powers of ten: moduli of 1e9 Pa, energies of contacts of 1e-18 J.
@@ -58,12 +60,13 @@ def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
     """
     if unit.startswith(","):
         raise NotAValue("has a comma in place of a decimal point")
-    if not _UNIT.fullmatch(unit):
+    plain = unit.translate(_SIGNS)
+    if not _UNIT.fullmatch(plain):
         raise NotAValue(f"has the unit {shown(unit)}, which is no product of units")
     registry = _registry()
     aim = registry.Unit(target) ** power
     try:
-        source_unit = registry.Unit(unit.replace("·", "*"))
+        source_unit = registry.Unit(plain)
     except Exception:  # pint has several for what it does not know, and the tokens of Python others
         raise NotAValue(f"has the unknown unit {shown(unit)}") from None
     # An angle has no dimension, nor has a percentage: their root units differ.

@@ -47,6 +47,7 @@ def test_without_a_run_it_names_fscm_bench_and_the_paper():
     cited = entries(as_bibtex(works("1.2.3")))
     assert list(cited) == ["fscm-bench", "zhu-adhesion"]
     assert cited["fscm-bench"]["author"] == "{The fscm-bench developers}"
+    assert re.fullmatch("20[0-9]{2}", cited["fscm-bench"]["year"])
     assert cited["fscm-bench"]["note"] == "version 1.2.3"
     assert cited["zhu-adhesion"]["author"].startswith("Zhu, Yudong and ")
     work = Work("a", {"author": "A, B. and others", "title": "T", "journal": "J", "year": "2022", "doi": "10.1/x_y"})

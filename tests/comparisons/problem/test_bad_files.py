@@ -43,7 +43,7 @@ def layers(moduli, ratios, thicknesses):
 #: Values of keys of GOOD that are refused, and what the sentence says besides line and key.
 BAD_VALUES = [
     *[(3, "E0", value, "has no unit") for value in ('"2"', '"[1, 2]"', '"2 GPa +- 0.1"')],
-    *[(3, "E0", f'"{text}"', "unit nm") for text in ("2 nm", "2 GPa +- 1 nm")],
+    *[(3, "E0", f'"{text}"', "unit nm") for text in ("2 nm", "2 GPa +- 1 nm", "2(1) nm", "2 +- 5 % nm")],
     (3, "E0", '"2 GPascals"', "GPascals"),
     (3, "E0", f'"2 {"G" * 5000}Pa"', "GGG..."),
     (3, "E0", '"2 m**9**9**9"', "product of units"),

@@ -92,6 +92,13 @@ def test_both_solvers_have_the_same_problem(solid, punch, law, written):
         assert np.allclose(ratio, 1.0, rtol=1e-12)
 
 
+def test_a_coating_is_sharp_unless_its_transition_is_stated(written):
+    read = written('transition = "1 nm"\n', "", solid="coating", punch="sphere", law="mie")
+    z = np.array([9.999e-9, 10.001e-9])
+    assert read.build(fem_reference).solid.modulus(z).tolist() == [1e9, 3e9]
+    assert (read.posed.graded.modulus(z / read.units["radius"])[1] / read.posed.graded.modulus(0.0)) == 3.0
+
+
 #: Heights of the punches of `SECTIONS` at the radius r in nm, in nm.
 HEIGHTS = {
     "sphere": lambda r: r**2 / 200,
