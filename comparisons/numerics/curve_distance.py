@@ -9,6 +9,7 @@ without points counts as a distance of its length.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -50,17 +51,13 @@ class CurveDistance:
     u_interpolation: float
 
 
-def curve_distance(
-    x: Array, y: Array, reference_x: Array, reference_y: Array, *, interpolated: bool = True
-) -> CurveDistance:
+def curve_distance(x: Array, y: Array, reference_x: Array, reference_y: Array) -> CurveDistance:
     """Return the distance of a curve from a reference.
 
     Parameters
     ----------
     x, y, reference_x, reference_y : ndarray
         Points in the order of each curve; at least eight of each over the common range of x.
-    interpolated : bool
-        Whether to estimate the interpolation error.
 
     Raises
     ------
@@ -74,6 +71,38 @@ def curve_distance(
     >>> bool(0.009 < found.value < 0.011), found.u_interpolation < 1e-5
     (True, True)
     """
+    compared = _compared(x, y, reference_x, reference_y)
+    value = max(compared.largest, compared.missing if compared.missing > _LONGEST_PART else 0.0)
+    return CurveDistance(value, _interpolation_error(compared.reference, compared.inside))
+
+
+def mesh_difference(coarse_x: Array, coarse_y: Array, x: Array, y: Array) -> float:
+    """Bound the distance of computed points from the exact curve by that of a coarser computation.
+
+    A long step of both, as far away or in compression, is no error of their points.
+
+    Examples
+    --------
+    >>> t, s = np.linspace(0, 1, 21), np.linspace(0, 1, 61)
+    >>> bool(0.0 < mesh_difference(t, np.sin(3 * t) + 1e-3, s, np.sin(3 * s)) < 2e-3)
+    True
+    """
+    return _SAFETY * _compared(coarse_x, coarse_y, x, y).largest
+
+
+class _Compared(NamedTuple):
+    """Largest distance of a point, longest part of the reference without one, and the scaled reference.
+
+    `inside` tells which points of the reference are in the common range.
+    """
+
+    largest: float
+    missing: float
+    reference: Array
+    inside: NDArray[np.bool_]
+
+
+def _compared(x: Array, y: Array, reference_x: Array, reference_y: Array) -> _Compared:
     curve, reference = (_checked(a, b) for a, b in ((x, y), (reference_x, reference_y)))
     low = max(curve[:, 0].min(), reference[:, 0].min())
     high = min(curve[:, 0].max(), reference[:, 0].max())
@@ -83,24 +112,11 @@ def curve_distance(
     span = np.ptp(reference[reference_inside], axis=0)
     if not (span > 0.0).all():
         raise ValueError("the reference is a point or a line along an axis: it has no range to scale by")
-    curve, reference = curve[inside] / span, reference / span
+    reference = reference / span
     polyline = _dense(reference)
-    distances, segments = _nearest(curve, polyline)
+    distances, segments = _nearest(curve[inside] / span, polyline)
     missing = _longest_part(polyline, segments, low / span[0], high / span[0])
-    value = max(float(distances.max()), missing if missing > _LONGEST_PART else 0.0)
-    return CurveDistance(value, _interpolation_error(reference, reference_inside) if interpolated else 0.0)
-
-
-def mesh_difference(coarse_x: Array, coarse_y: Array, x: Array, y: Array) -> float:
-    """Bound the distance of computed points from the exact curve by that of a coarser computation.
-
-    Examples
-    --------
-    >>> t, s = np.linspace(0, 1, 21), np.linspace(0, 1, 61)
-    >>> bool(0.0 < mesh_difference(t, np.sin(3 * t) + 1e-3, s, np.sin(3 * s)) < 2e-3)
-    True
-    """
-    return _SAFETY * curve_distance(coarse_x, coarse_y, x, y, interpolated=False).value
+    return _Compared(float(distances.max()), missing, reference, reference_inside)
 
 
 def _checked(x: Array, y: Array) -> Array:

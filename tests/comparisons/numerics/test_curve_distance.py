@@ -59,9 +59,11 @@ def test_what_is_no_curve_is_refused(x, y, why):
         curve_distance(t, t, t, np.ones(20))
 
 
-def test_the_difference_of_two_meshes_counts_twice():
-    t = np.linspace(0.0, 1.0, 41)
+@pytest.mark.parametrize("end", [1.0, 3.0])
+def test_the_difference_of_two_meshes_counts_twice(end):
+    """However long the last step is."""
+    t = np.append(np.linspace(0.0, 0.9, 40), end)
     shift = 1e-3
     distance = mesh_difference(t, 2.0 * t + shift, t, 2.0 * t)
-    # The ordinate is scaled by its range of 2; beyond the end of the reference its end is the nearest point.
-    assert distance == pytest.approx(2.0 * shift / 2.0, rel=1e-6)
+    # The ordinate is scaled by its range; beyond the end of the reference its end is the nearest point.
+    assert distance == pytest.approx(2.0 * shift / (2.0 * end), rel=1e-6)
