@@ -90,7 +90,8 @@ def examine(model: AnyExternalModel) -> list[Finding]:
 
 def _keys(model: AnyExternalModel) -> Iterator[_Key]:
     if isinstance(model, DataModel):
-        yield from ((quantity, Problem.dimensionless(*case)) for quantity, *case in list(model.rows)[:_MOST_ROWS])
+        for quantity, *cells in list(model.rows)[:_MOST_ROWS]:
+            yield quantity, model.problems[cells[0]] if model.problems else Problem.dimensionless(*cells)
         return
     for number, case in enumerate([*_CASES, *_CALIBRATION]):
         for quantity in QUANTITIES if number < _ALL_QUANTITIES else (_FORCE,):

@@ -2,7 +2,8 @@
 
 For codes that cannot be shipped and for measurements. The form of `model.toml` is in docs/judge_your_model.md and
 `comparisons/data/model.schema.json`. The CSV has the columns quantity, n, k, mu, value, u_num and one row for each case
-that is covered, no other. `u_num` bounds the numerical error of the value (for a measurement, its uncertainty).
+that is covered, no other. For problem files, with values in SI, the column problem stands in place of n, k, mu. `u_num`
+bounds the numerical error of the value (for a measurement, its uncertainty).
 """
 
 from __future__ import annotations
@@ -10,7 +11,8 @@ from __future__ import annotations
 import csv
 import hashlib
 import math
-from itertools import product
+from collections.abc import Mapping, Sequence
+from itertools import product, starmap
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +23,9 @@ from comparisons.data.validation import known_name, validated
 from comparisons.domain import Domain
 from comparisons.external.text_rules import model_name, one_line
 from comparisons.model import NotApplicable, Result
+from comparisons.numerics.number_text import case_text
 from comparisons.problem import Problem
+from comparisons.problem.variation import Variation, problems_of
 from comparisons.quantities import QUANTITIES
 
 __all__ = ["MANIFEST", "DataModel"]
@@ -29,10 +33,11 @@ __all__ = ["MANIFEST", "DataModel"]
 #: Name of the file that describes a model in a folder.
 MANIFEST = "model.toml"
 
-#: quantity, n, k, mu
-Key = tuple[str, float, float, float]
+#: The quantity with n, k and mu, or with the name of a problem.
+Key = tuple[Any, ...]
 
-_COLUMNS = ["quantity", "n", "k", "mu", "value", "u_num"]
+#: Columns of a case, or else of one of a problem file, and of its value.
+_NUMBERS, _PROBLEM, _VALUES = ("n", "k", "mu"), ("problem",), ("value", "u_num")
 _MOST_CASES = 1_000_000
 
 #: So many cases more than the CSV has lines are still built: the sentence then names the first that is missing.
@@ -49,7 +54,9 @@ class DataModel:
     Attributes
     ----------
     rows : dict
-        (quantity, n, k, mu) -> (value, u_num).
+        (quantity, n, k, mu), or (quantity, name of the problem) -> (value, u_num), of a problem in SI.
+    problems : dict
+        The problems of files by their names; empty where the cases are n, k and mu.
 
     Raises
     ------
@@ -59,13 +66,14 @@ class DataModel:
 
     #: Its manifest lists the cases.
     applies_to = Domain(())
+    checks_problems = True
 
     def __init__(self, folder: Path) -> None:
         try:
             manifest = _manifest(folder)
             content = _content(folder, manifest)
-            covered = _covered_cases(manifest, len(content.splitlines()))
-            self.rows = _rows(folder / manifest["predictions"], covered)
+            covered, self.problems = _covered_cases(folder, manifest, len(content.splitlines()))
+            self.rows = _rows(folder / manifest["predictions"], covered, _PROBLEM if self.problems else _NUMBERS)
         except ValueError as error:
             raise ValueError(f"{one_line(str(folder), 200)}: {one_line(str(error))}") from None
         except OSError as error:
@@ -79,10 +87,12 @@ class DataModel:
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the prediction, or raise `NotApplicable` for a case that the submission does not cover."""
-        key = (quantity, problem.n, problem.k, problem.mu)
-        if key not in self.rows:
+        case = (problem.name,) if self.problems else (problem.n, problem.k, problem.mu)
+        if (quantity, *case) not in self.rows or (self.problems and self.problems[problem.name] != problem):
             raise NotApplicable("the submission does not cover this case")
-        return Result(*self.rows[key])
+        value, u_num = self.rows[quantity, *case]
+        unit = problem.units[QUANTITIES[quantity].scale] if self.problems else 1.0
+        return Result(value / unit, u_num / unit)
 
     def close(self) -> None:
         """Do nothing: there is no process."""
@@ -103,10 +113,14 @@ def _manifest(folder: Path) -> dict[str, Any]:
         known_name("quantity", quantity, QUANTITIES, f"{MANIFEST}: [[covers]]")
     if manifest["units"].keys() != quantities:
         raise ValueError(f"{MANIFEST}: [units] must have exactly {', '.join(sorted(quantities))}")
+    forms = {frozenset(table) - {"quantities", "vary"} for table in manifest["covers"]}
+    if forms not in ({frozenset(_NUMBERS)}, {frozenset(_PROBLEM)}):
+        raise ValueError(f"{MANIFEST}: each [[covers]] has n, k and mu, or each has problem and perhaps vary")
     for name, unit in manifest["units"].items():
-        if unit != (compared := QUANTITIES[name].unit):
+        compared = QUANTITIES[name].si_unit if frozenset(_PROBLEM) in forms else QUANTITIES[name].unit
+        if unit != compared:
             raise ValueError(
-                f'{MANIFEST}: {name} has the unit "{unit}" but is compared in "{compared}": divide the values by that'
+                f'{MANIFEST}: {name} has the unit "{unit}" but is compared in "{compared}": state the values in that'
             )
     return manifest
 
@@ -126,35 +140,50 @@ def _content(folder: Path, manifest: dict[str, Any]) -> bytes:
     return content
 
 
-def _covered_cases(manifest: dict[str, Any], lines: int) -> set[Key]:
-    """Return the cases that the [[covers]] tables promise, for a CSV with so many lines."""
+def _covered_cases(folder: Path, manifest: dict[str, Any], lines: int) -> tuple[set[Key], dict[str, Problem]]:
+    """Return the cases that the [[covers]] tables promise, for a CSV with so many lines, and the problems of files."""
+    tables = manifest["covers"]
     # Nothing is built before it is known how many cases there are: a short file can promise very many.
-    names = ("quantities", "n", "k", "mu")
-    lists = [[list(dict.fromkeys(table[name])) for name in names] for table in manifest["covers"]]
+    lists = [[list(dict.fromkeys(values)) for values in _lists(table)] for table in tables]
     sizes = [math.prod(map(len, columns)) for columns in lists]
     if sum(sizes) > _MOST_CASES or max(sizes) > lines + _NAMED_MISSING:
         raise ValueError(
             f"{MANIFEST}: the [[covers]] tables promise {sum(sizes)} cases, but the predictions have {lines} "
             f"lines, and at most {_MOST_CASES} cases are read: each case needs a row"
         )
-    promised = ((quantity, Problem.dimensionless(*case)) for columns in lists for quantity, *case in product(*columns))
-    keys = {(quantity, problem.n, problem.k, problem.mu) for quantity, problem in promised}
+    keys: set[Key] = set()
+    problems: dict[str, Problem] = {}
+    for table, (quantities, *columns) in zip(tables, lists, strict=True):
+        if "problem" in table:
+            variations = [Variation.of_values(key, values) for key, values in table.get("vary", {}).items()]
+            of_file = problems_of(path_inside(folder, table["problem"]), variations, table["problem"])
+            names = {problem.name: problem for problem in of_file}
+            problems |= names
+            keys.update(product(quantities, names))
+        else:
+            cases = starmap(Problem.dimensionless, product(*columns))
+            keys.update((name, case.n, case.k, case.mu) for case in cases for name in quantities)
     if not keys:
         raise ValueError(f"{MANIFEST}: [[covers]] has no case")
-    return keys
+    return keys, problems
 
 
-def _rows(path: Path, covered: set[Key]) -> dict[Key, tuple[float, float]]:
-    """Return the predictions of a CSV, one for each covered case."""
+def _lists(table: Mapping[str, Any]) -> list[list[Any]]:
+    return [table["quantities"], *(table[name] for name in _NUMBERS if name in table), *table.get("vary", {}).values()]
+
+
+def _rows(path: Path, covered: set[Key], case: Sequence[str]) -> dict[Key, tuple[float, float]]:
+    """Return the predictions of a CSV, one for each covered case, whose columns are given."""
     rows: dict[Key, tuple[float, float]] = {}
+    columns = ["quantity", *case, *_VALUES]
     text = read_text(path, "the predictions", LARGEST_TABLE)
     # strict: a quotation mark that is not closed is an error, not the rest of the file.
     reader = csv.reader(text.splitlines(keepends=True), strict=True)
     try:
-        if next(reader, []) != _COLUMNS:
-            raise ValueError(f"the first line must be {','.join(_COLUMNS)}")
+        if next(reader, []) != columns:
+            raise ValueError(f"the first line must be {','.join(columns)}")
         for cells in filter(None, reader):
-            key, prediction = _prediction(cells)
+            key, prediction = _prediction(cells, columns)
             if key not in covered or key in rows:
                 why = "has a second row" if key in rows else "is not among the cases that [[covers]] promises"
                 raise ValueError(f"{_label(key)} {why}")
@@ -169,13 +198,13 @@ def _rows(path: Path, covered: set[Key]) -> dict[Key, tuple[float, float]]:
     return rows
 
 
-def _prediction(cells: list[str]) -> tuple[Key, tuple[float, float]]:
-    if len(cells) != len(_COLUMNS):
-        raise ValueError(f"{len(cells)} cells, not {len(_COLUMNS)}")
-    n, k, mu, value, u_num = map(_number, _COLUMNS[1:], cells[1:])
+def _prediction(cells: list[str], columns: Sequence[str]) -> tuple[Key, tuple[float, float]]:
+    if len(cells) != len(columns):
+        raise ValueError(f"{len(cells)} cells, not {len(columns)}")
+    (quantity, *case), (value, u_num) = cells[:-2], map(_number, _VALUES, cells[-2:])
     if u_num < 0:
         raise ValueError(f"u_num = {u_num:g} is outside [0, inf): it bounds an error")
-    return (cells[0], n, k, mu), (value, u_num)
+    return (quantity, *(case if len(case) == 1 else map(_number, _NUMBERS, case))), (value, u_num)
 
 
 def _number(name: str, cell: str) -> float:
@@ -190,5 +219,6 @@ def _number(name: str, cell: str) -> float:
 
 
 def _label(key: Key) -> str:
-    quantity, n, k, mu = key
-    return f"{one_line(quantity, 60)} at n = {n:g}, k = {k:g}, mu = {mu:g}"
+    quantity, *case = key
+    text = case[0] if len(case) == 1 else case_text(dict(zip(_NUMBERS, case, strict=True)))
+    return f"{one_line(quantity, 60)} at {one_line(text, 200)}"

@@ -114,13 +114,12 @@ class JKRSphere(ClosedForm):
     name = "jkr-sphere"
     citation = "Maugis, Langmuir 11 (1995) 679, with the sphere of Sneddon, Int. J. Eng. Sci. 3 (1965) 47"
     domain = "a ball on a homogeneous solid, contact radius up to 0.95 R; exact as mu -> infinity"
-    #: Kinds of punches that it takes, none of them of the paper (`comparisons.problem.evaluation`).
-    punches: ClassVar[tuple[str, ...]] = ("ball",)
+    checks_problems: ClassVar[bool] = True
     limits: ClassVar[Limits | None] = None
 
     def check(self, problem: Problem) -> None:
         """Raise `NotApplicable` unless the punch is a ball and the solid homogeneous."""
-        if problem.punch.kind not in self.punches:
+        if problem.punch.kind != "ball":
             raise NotApplicable(f"{self.name} is for the punch of the kind ball, not for {problem.punch.kind}")
         if not problem.is_of_the_paper("solid") or problem.posed.k != 0.0:
             raise NotApplicable(f"{self.name} is for a homogeneous solid, not for the {problem.solid.kind} solid given")

@@ -39,8 +39,7 @@ class LargeStrain(SolverModel):
     )
     package = fem_reference
     quantities = fem_reference.LARGE_STRAIN_QUANTITIES
-    #: It checks them itself (`comparisons.problem.evaluation`).
-    punches: ClassVar[tuple[str, ...]] = ()
+    checks_problems: ClassVar[bool] = True
 
     def _result(self, problem: Problem, quantity: str) -> Result:
         solution = fem_reference.solve_large_strain(_body(problem), quantity)

@@ -24,6 +24,8 @@ from comparisons.output.table import (
     words,
 )
 from comparisons.output.terminal import rich_table
+from comparisons.problem.units import si_text
+from comparisons.quantities import QUANTITIES
 from comparisons.runs import rows as stored_rows
 from comparisons.runs.case_columns import varied_of, with_problem
 
@@ -54,7 +56,10 @@ def _error_text(model: str, row: Record) -> str:
 def _reference_text(row: Record) -> str:
     """Return the value of the reference to seven decimals, or digits, at most."""
     value, u = row["reference_value"], row["u_reference"]
-    return value_text(value, max(u, _LEAST_REFERENCE * min(abs(value), 1.0))) or "none"
+    shown_u = max(u, _LEAST_REFERENCE * min(abs(value), 1.0))
+    if row["problem"] and not pd.isna(value):
+        return si_text(value, shown_u, QUANTITIES[row["quantity"]].si_unit)
+    return value_text(value, shown_u) or "none"
 
 
 def case_tables(table: pd.DataFrame) -> Iterator[Table]:

@@ -19,6 +19,11 @@ REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas", "f
 SOLVERS = ("fscm", "fem")
 
 
+def _checks_problems(model: Model) -> bool:
+    """Whether a model states itself, by an attribute of this name, which solids, punches and laws it takes."""
+    return getattr(model, "checks_problems", model.name in SOLVERS)
+
+
 def unit_of(problem: Problem, quantity: str) -> str:
     """Return the unit of a quantity of a problem.
 
@@ -49,7 +54,8 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     """
     row = ALL_QUANTITIES[quantity]
     only_the_solid_differs = problem.is_of_the_paper("punch", "law") and not problem.is_of_the_paper("solid")
-    if quantity in QUANTITIES and model.name not in REFERENCES and only_the_solid_differs:
+    takes_solid = model.name in REFERENCES or _checks_problems(model)
+    if quantity in QUANTITIES and only_the_solid_differs and not takes_solid:
         return _with_equivalent_solid(problem, model, quantity)
     _check(problem, model, quantity)
     return row.in_units(row.evaluate(model, problem), problem.units)  # type: ignore[arg-type]
@@ -75,7 +81,7 @@ def _check(problem: Problem, model: Model, quantity: str) -> None:
         domain = declared_domain(model)
         if domain is not None and not domain.contains(quantity, problem.numbers):
             raise NotApplicable(domain.refusal(quantity))
-    elif model.name not in SOLVERS and not hasattr(model, "punches"):  # one with other punches checks them itself
+    elif not _checks_problems(model):
         raise NotApplicable(
             f"{model.name} takes a power-law or homogeneous solid, a sphere, cone or power-law punch and the 9-3 law; "
             f"this problem has a {problem.solid.kind} solid, a {problem.punch.kind} punch and a {problem.law.kind} law"

@@ -143,11 +143,13 @@ ROWS = [
 
 @pytest.fixture
 def write_data(tmp_path):
-    """Return a function that writes a folder of predictions; `change` maps texts of the manifest."""
+    """Return a function that writes a folder of predictions; `change` maps texts of the manifest, `more` has files."""
 
-    def write(rows=ROWS, change=(), digest=None, header="quantity,n,k,mu,value,u_num", wrap=str.encode):
+    def write(rows=ROWS, change=(), digest=None, header="quantity,n,k,mu,value,u_num", wrap=str.encode, more=()):
         folder = tmp_path / "data"
         folder.mkdir(exist_ok=True)
+        for name, text in dict(more).items():
+            (folder / name).write_text(text)
         content = wrap("\n".join([header, *rows]) + "\n")
         (folder / "predictions.csv").write_bytes(content)
         unit = QUANTITIES["pull_off_force"].unit

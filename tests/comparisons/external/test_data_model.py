@@ -4,10 +4,15 @@ import os
 
 import pytest
 
+from comparisons.cli.main import main
 from comparisons.external import data_model
 from comparisons.external.data_model import DataModel
 from comparisons.model import Model
+from comparisons.problem import Problem
+from comparisons.problem.variation import Variation, problems_of
+from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
+from comparisons.runs.tasks import evaluate
 
 from .conftest import FORCE, ROWS, row_of
 
@@ -28,6 +33,38 @@ def with_row(text):
     return [ROWS[0], text, *ROWS[2:]]
 
 
+CASES = "n = [2]\nk = [0, 0.4]\nmu = [0.1, 1]\n"
+UNIT = QUANTITIES["pull_off_force"].unit
+#: Changes of the manifest, and the rows, of two coated pads.
+PADS = {
+    "change": {UNIT: "N", CASES: 'problem = "pad.toml"\nvary = { "solid.thickness" = ["12 nm", "35 nm"] }\n'},
+    "header": "quantity,problem,value,u_num",
+    "rows": [f"pull_off_force,pad.toml; solid.thickness={h} nm,{force},1e-9" for h, force in ((12, 3e-8), (35, 4e-8))],
+}
+PAD = """
+solid = { kind = "coating", E_coating = "1 GPa", E_substrate = "3 GPa", thickness = "20 nm", nu = 0.3 }
+punch = { kind = "sphere", R = "100 nm" }
+law = { kind = "lennard-jones-9-3", work_of_adhesion = "50 mJ/m^2", z0 = "0.4 nm" }
+"""
+
+
+def test_numbers_in_newtons_are_those_of_a_problem_file(write_data):
+    folder = write_data(**PADS, more={"pad.toml": PAD})
+    model = create(str(folder))
+    vary = [Variation.of_values("solid.thickness", ["12 nm", "35 nm"])]
+    problems = list(problems_of(folder / "pad.toml", vary))
+    rows = [evaluate(model, "pull_off_force", problem) for problem in problems]
+    assert [row.unit for row in rows] == ["N", "N"]
+    assert [row.value for row in rows] == pytest.approx([3e-8, 4e-8], rel=1e-14)
+    assert [row.u_num for row in rows] == pytest.approx([1e-9, 1e-9], rel=1e-14)
+    assert main(["check-model", str(folder)]) == 0
+    # Another problem of the same name, another quantity, another kind of case.
+    (folder / "pad.toml").write_text(PAD.replace("100 nm", "99 nm"))
+    others = [("pull_off_force", problem) for problem in problems_of(folder / "pad.toml", vary)]
+    others += [("jump_in_gap", problems[0]), ("pull_off_force", Problem.dimensionless(2, 0, 1))]
+    assert {evaluate(model, *case).status for case in others} == {"not-applicable"}
+
+
 MANY = ", ".join(str(number) for number in range(2, 90))
 TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4]\nmu = [{MANY}]\n'
 
@@ -40,7 +77,7 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
         ({"change": {"k = [0, 0.4]": "k = [0, 1.4]"}}, "[0, 1]"),
         ({"change": {"k = [0, 0.4]": "k = []"}}, "no case"),
         ({"change": {'name = "': "x = " + "[" * 5000 + "]" * 5000 + '\nname = "'}}, "nested too deeply"),
-        ({"change": {'"pi Q': '"2 pi Q'}}, "divide the values by that"),
+        ({"change": {'"pi Q': '"2 pi Q'}}, "state the values in that"),
         ({"change": {'pull_off_force = "': 'jump_in_gap = "'}}, "[units] must have exactly pull_off_force"),
         ({"change": {'"predictions.csv"': '"../data/predictions.csv"'}}, "must be the name of a .csv file"),
         ({"change": {'"predictions.csv"': '"other.csv"'}}, "there is no file other.csv"),
@@ -58,6 +95,17 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
         ({"rows": with_row("pull_off_force,2,0,1,1.6")}, "line 3: 5 cells, not 6"),
         ({"rows": with_row('"pull_off_force,2,0,1,1.6,0')}, "predictions.csv, line"),
         ({"header": "quantity,k,n,mu,value,u_num"}, "the first line must be"),
+        ({"change": {"n = [2]": 'problem = "pad.toml"'}}, "n, k and mu"),
+        (
+            {"change": {CASES: f'problem = "pad.toml"\n[[covers]]\nquantities = ["pull_off_force"]\n{CASES}'}},
+            "n, k and mu",
+        ),
+        (PADS | {"change": PADS["change"] | {UNIT: "mN"}}, 'is compared in "N"'),
+        (
+            PADS | {"more": {"pad.toml": PAD}, "rows": [PADS["rows"][0].replace("12", "13")]},
+            "line 2: pull_off_force at pad.toml; solid.thickness=13 nm",
+        ),
+        (PADS | {"more": {"pad.toml": PAD.replace("GPa", "nm")}}, "pad.toml, line 2"),
     ],
 )
 def test_what_is_wrong_is_refused_with_its_place(write_data, refused, monkeypatch, wrong, sentence):
