@@ -37,6 +37,8 @@ OPTIONS = (
 def call(args: argparse.Namespace) -> int:
     """Fit and print; return the exit status."""
     problem = Problem.load(args.problem)
+    if missing := [path for path in args.curves if not path.exists()]:
+        raise ValueError(f"there is no file {missing[0]}; check the name")
     instrument = {name: _si(name, getattr(args, name), unit) for name, unit in _INSTRUMENT.items()}
     with waiting(f"{len(args.curves)} curves" if len(args.curves) > 1 else str(args.curves[0])):
         items = fit_files(

@@ -25,6 +25,8 @@ OPTIONS = (
 
 def call(args: argparse.Namespace) -> int:
     """Read, lay out and write; return the exit status."""
+    if (args.folder / "fits.json").is_file():
+        raise ValueError(f"{args.folder} has fits, which have no page: fits.csv, fits.tex and the pictures are in it")
     page = make_page(read_folder(args.folder))
     path = _page_path(args.folder, args.out)
     write_page(render(page), path, "report")

@@ -192,11 +192,14 @@ def test_many_curves_share_a_folder_that_is_resumed(files, capsys):
     assert sorted(set(table["curve"])) == ["curve1.csv", "curve2.csv"]
     assert {path.name for path in (folder / "fits").glob("*.png")} == {"curve1.png", "curve2.png"}
     assert "\\toprule" in (folder / "fits" / "fits.tex").read_text()
+    assert main(["report", str(folder / "fits")]) == 2
+    assert "fits.csv" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
     ("text", "options", "sentence"),
     [
+        (None, [], "no file"),
         ("displacement [nm],load [nN]\n1,2\n", [], "fewer than 20"),
         ("displacement,load [nN]\n1,2\n", [], "has no unit"),
         ("displacement [nm],load [nm]\n1,2\n", [], "load has the unit nm"),
@@ -212,7 +215,8 @@ def test_many_curves_share_a_folder_that_is_resumed(files, capsys):
 )
 def test_bad_input_is_one_sentence(tmp_path, capsys, text, options, sentence):
     (tmp_path / "probe.toml").write_text(PROBE)
-    (tmp_path / "curve.csv").write_text(text)
+    if text is not None:
+        (tmp_path / "curve.csv").write_text(text)
     arguments = ["--problem", str(tmp_path / "probe.toml"), "--free", "solid.E0"]
     assert main(["fit", str(tmp_path / "curve.csv"), *arguments, *options]) == 2
     error = capsys.readouterr().err

@@ -69,4 +69,4 @@ def test_a_tabor_number_is_printed_where_its_modulus_is_that_of_the_contact():
     equivalent = equivalent_power_law(pad, force)
     assert equivalent["surface_compliance_deviation"] < 0.1
     assert equivalent["k"] == pytest.approx(0.0, abs=0.02)
-    assert "of the surface" in description_text(pad, overview(pad, force), equivalent, [], None).splitlines()[1]
+    assert "of the surface" in description_text(pad, overview(pad, force), equivalent, [], None).splitlines()[2]
