@@ -160,7 +160,8 @@ class Model(Protocol):
 
     Attributes are plain data; `evaluate` is a pure function of its arguments.  A model may have the attribute
     `applies_to`, the domain for which it promises a result (`comparisons.domain`): it is not evaluated outside, and
-    inside `NotApplicable` counts as a failure.
+    inside `NotApplicable` counts as a failure.  One of this repository has `checks_problems = True` if it checks itself
+    which kinds of solids, punches and laws it takes (`comparisons.problem.evaluation`).
 
     Examples
     --------

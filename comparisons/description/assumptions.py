@@ -67,7 +67,7 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
         ``contact_radius`` in m, where the tension is largest.  ``geometry``, ``strain`` and ``total`` have ``error``,
         ``u_num`` and ``reason``: relative errors of the force of small strains against that of a neo-Hookean solid and
         the exact shape, without friction; None where they are unknown.  ``recommendable`` is false where the contact is
-        larger than the sphere.  None where there is no pull-off force.
+        larger than the sphere, ``by_solution`` the argument.  None where there is no pull-off force.
     """
     if force.value is None:
         return None
@@ -90,6 +90,7 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
         "strain": strain,
         "total": _product((geometry, strain)),
         "recommendable": not is_too_large,
+        "by_solution": by_solution,
     }
 
 

@@ -53,6 +53,7 @@ class FiniteElements(SolverModel):
     """
 
     name: ClassVar[str] = "fem"
+    checks_problems: ClassVar[bool] = True
     citation: ClassVar[str] = "This package: axisymmetric elements on the graded half-space, solved with pyamg"
     domain: ClassVar[str] = "n >= 1, 0 <= k <= 0.9, 0 <= nu < 0.5; power-law punch and 9-3 law"
     package = fem_reference

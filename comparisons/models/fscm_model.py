@@ -44,6 +44,7 @@ class FullSelfConsistent(SolverModel):
     """
 
     name: ClassVar[str] = "fscm"
+    checks_problems: ClassVar[bool] = True
     citation: ClassVar[str] = "Zhu, Zheng, Huang & Yu, Eqs. 24-33, by adaptive panels and product integration"
     domain: ClassVar[str] = "n > 2/3, 0 <= k <= 1; to the digits of u_num where the cohesive edge is wider than 1e-6"
     package = fscm

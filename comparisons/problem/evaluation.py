@@ -10,18 +10,10 @@ from comparisons.model import Model, NotApplicable, Result
 from comparisons.problem.problem import Problem
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, Points
 
-__all__ = ["REFERENCES", "SOLVERS", "dimensionless_result", "evaluated", "unit_of"]
+__all__ = ["REFERENCES", "dimensionless_result", "evaluated", "unit_of"]
 
 #: Models that solve the equations; every other one is a closed form or another approximation.
 REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas", "fem-large-strain")
-
-#: Those that take every solid, punch and law.
-SOLVERS = ("fscm", "fem")
-
-
-def _checks_problems(model: Model) -> bool:
-    """Whether a model states itself, by an attribute of this name, which solids, punches and laws it takes."""
-    return getattr(model, "checks_problems", model.name in SOLVERS)
 
 
 def unit_of(problem: Problem, quantity: str) -> str:
@@ -54,8 +46,8 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     """
     row = ALL_QUANTITIES[quantity]
     only_the_solid_differs = problem.is_of_the_paper("punch", "law") and not problem.is_of_the_paper("solid")
-    takes_solid = model.name in REFERENCES or _checks_problems(model)
-    if quantity in QUANTITIES and only_the_solid_differs and not takes_solid:
+    is_closed_form = model.name not in REFERENCES and not getattr(model, "checks_problems", False)
+    if quantity in QUANTITIES and only_the_solid_differs and is_closed_form:
         return _with_equivalent_solid(problem, model, quantity)
     _check(problem, model, quantity)
     return row.in_units(row.evaluate(model, problem), problem.units)  # type: ignore[arg-type]
@@ -81,7 +73,7 @@ def _check(problem: Problem, model: Model, quantity: str) -> None:
         domain = declared_domain(model)
         if domain is not None and not domain.contains(quantity, problem.numbers):
             raise NotApplicable(domain.refusal(quantity))
-    elif not _checks_problems(model):
+    elif not getattr(model, "checks_problems", False):
         raise NotApplicable(
             f"{model.name} takes a power-law or homogeneous solid, a sphere, cone or power-law punch and the 9-3 law; "
             f"this problem has a {problem.solid.kind} solid, a {problem.punch.kind} punch and a {problem.law.kind} law"

@@ -14,6 +14,7 @@ from comparisons.description.assumptions import SMALL, assumptions
 from comparisons.description.forces import reference_force
 from comparisons.description.overview import overview
 from comparisons.description.strain_errors import Change, beyond, strain_change
+from comparisons.description.text import description_text
 from comparisons.problem import Section
 from tests.comparisons.problem.strain_table import forces_of_a_ball
 from tests.comparisons.problems import on_solid
@@ -50,6 +51,13 @@ def test_a_bead_on_a_soft_solid(bead):
     errors = {row["model"]: row["error"] for row in bead["total_errors"]}
     assert errors["jkr"] == pytest.approx(assumed["total"]["error"], abs=1e-4)
     assert errors["jkr-sphere"] == pytest.approx(assumed["strain"]["error"], abs=1e-4)
+
+
+@pytest.mark.parametrize("by_solution", [False, True])
+def test_finite_strain_is_proposed_until_it_was_tried(bead, by_solution):
+    strain = {"error": None, "u_num": None, "reason": "unknown"}
+    changed = bead | {"assumptions": bead["assumptions"] | {"strain": strain, "by_solution": by_solution}}
+    assert ("--large-strain" in description_text(BEAD, changed, None, [], None)) is not by_solution
 
 
 def test_no_model_is_recommended_where_the_assumptions_exceed_the_limit():
