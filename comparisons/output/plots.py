@@ -15,7 +15,7 @@ from comparisons.output.style import MODEL_ORDER, model_styles
 from comparisons.output.table import Column, Record, columns, key_columns, key_text, physical_text, words
 from comparisons.problem.problem import split_name
 from comparisons.problem.units import prefixed_unit
-from comparisons.quantities import ALL_QUANTITIES, CURVES, CurveQuantity, Kind, title_of
+from comparisons.quantities import ALL_QUANTITIES, CURVES, Axis, CurveQuantity, Kind, title_of
 from comparisons.runs.case_columns import unit_in, varied_of, with_problem
 from comparisons.runs.rows import CASE
 
@@ -218,7 +218,8 @@ def curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
     """
     x, y = quantity.x.symbol, quantity.y.symbol
     choices = [words("case")]
-    points = _points(rows, choices, lambda row: f"{x} = {row['x']:.6g}, {y} = {row['y']:.6g}", rows["x"], rows["y"])
+    (x_label, abscissas), (y_label, ordinates) = (_scaled(quantity.x, rows["x"]), _scaled(quantity.y, rows["y"]))
+    points = _points(rows, choices, lambda row: f"{x} = {row['x']:.6g}, {y} = {row['y']:.6g}", abscissas, ordinates)
     views = {
         group: _tension_view(of_group)
         for group, of_group in (points.groupby("group") if quantity.kind is Kind.CURVE else ())
@@ -226,8 +227,8 @@ def curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
     return Plot(
         id=f"plot-{quantity.name.replace('_', '-')}",
         title=quantity.title.capitalize(),
-        x_label=quantity.x.label,
-        y_label=quantity.y.label,
+        x_label=x_label,
+        y_label=y_label,
         mark="line",
         choices=choices,
         points=points,
@@ -235,6 +236,14 @@ def curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
         caption=quantity.caption,
         views={group: view for group, view in views.items() if view},
     )
+
+
+def _scaled(axis: Axis, values: pd.Series) -> tuple[str, pd.Series]:
+    """The label of an axis and its values; in SI with the prefix of their size."""
+    if not axis.is_in_si:
+        return axis.label, values
+    power, unit = prefixed_unit(float(values.abs().max()), axis.unit)
+    return f"{axis.title} {axis.symbol} ({unit})", values * 10.0**-power
 
 
 def _tension_view(points: pd.DataFrame) -> list[float] | None:

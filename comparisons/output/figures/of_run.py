@@ -118,6 +118,8 @@ def _panel(axes: Axes, plot: plots.Plot, rows: pd.DataFrame, styles: Mapping[str
     texts = [f"{column.heading}\u00a0=\u00a0{text}" if number_parts(text) else text for column, text in options]
     axes.set_title(textwrap.fill(", ".join(texts), _LINE), fontsize=8)
     axes.set(xscale=plot.x_scale, xlabel=plot.x_label, ylabel=textwrap.fill(plot.y_label, _LINE))
+    if plot.x_label == "case":
+        axes.locator_params("x", integer=True)
     if view := plot.views.get(str(rows["group"].iloc[0])):
         axes.set(xlim=view[:2], ylim=view[2:])
     return handles

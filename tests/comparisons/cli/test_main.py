@@ -173,16 +173,16 @@ def test_curve_writes_and_draws_the_surface_at_pull_off(tmp_path, capsys, quanti
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
-def test_a_curve_of_a_problem_file_is_drawn_in_si(tmp_path, monkeypatch):
+def test_a_curve_of_a_problem_file_is_drawn_in_its_units(tmp_path, monkeypatch):
     figures = []
     monkeypatch.setattr("comparisons.cli.commands.curve.save", lambda figure, path: figures.append(figure))
     (tmp_path / "pad.toml").write_text(PAD)
     arguments = ["curve", "--model", "jkr", "--problem", str(tmp_path / "pad.toml"), "--plot", str(tmp_path / "a.png")]
     assert main(arguments) == 0
     axes = figures[0].axes[0]
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("displacement δ (m)", "load P (N)")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("displacement δ (nm)", "load P (nN)")
     (line,) = axes.containers[0].lines[:1]
-    assert -line.get_ydata().min() == pytest.approx(1.5 * np.pi * 1e-6 * 0.05, rel=1e-3)
+    assert -line.get_ydata().min() == pytest.approx(1.5 * np.pi * 1e3 * 0.05, rel=1e-3)
 
 
 @pytest.mark.parametrize(("model", "status"), [("refuses", 0), ("fails", 4)])

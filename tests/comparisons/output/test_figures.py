@@ -77,3 +77,4 @@ def test_a_comparison_has_a_panel_for_each_case_and_a_legend_inside_the_figure()
     # More panels than a figure has room for: the cases are points of one.
     (axes,) = draw_comparison(errors(["jkr"], np.arange(1.0, 14.0), np.arange(1.0, 15.0))).axes
     assert axes.get_xlabel() == "case"
+    assert not np.any(axes.get_xticks() % 1.0)
