@@ -66,6 +66,7 @@ def test_numbers_in_newtons_are_those_of_a_problem_file(write_data):
 
 
 MANY = ", ".join(str(number) for number in range(2, 90))
+MANY_PADS = f'problem = "pad.toml"\nvary = {{ "law.m" = [{MANY}], "law.n" = [{MANY}] }}\n'
 TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4]\nmu = [{MANY}]\n'
 
 
@@ -100,6 +101,7 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
             {"change": {CASES: f'problem = "pad.toml"\n[[covers]]\nquantities = ["pull_off_force"]\n{CASES}'}},
             "n, k and mu",
         ),
+        (PADS | {"change": PADS["change"] | {CASES: MANY_PADS}}, "promise 7744 cases"),
         (PADS | {"change": PADS["change"] | {UNIT: "mN"}}, 'is compared in "N"'),
         (
             PADS | {"more": {"pad.toml": PAD}, "rows": [PADS["rows"][0].replace("12", "13")]},

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import pandas as pd
 import pytest
@@ -107,9 +108,10 @@ def test_stored_results_count_only_for_the_content_of_the_file_and_the_folder_ha
     assert main(["judge", str(tmp_path / "out")]) == 2
 
 
-def test_a_comparison_has_the_problems(run, tmp_path):
-    command = ["compare", "jkr", "--grid", str(tmp_path / "cases.toml"), "--jobs", "1", "--quiet"]
+def test_a_comparison_has_the_problems(run, tmp_path, capsys):
+    command = ["compare", "jkr", "--grid", str(tmp_path / "cases.toml"), "--jobs", "1"]
     assert main([*command, "--out", str(tmp_path / "compared")]) == 0
+    assert re.search(r"solid.E=1 MPa +314\.159\d*\(\d+\) nN", capsys.readouterr().out)
     table = pd.read_csv(tmp_path / "compared" / "comparison.csv")
     assert table["kappa"].to_numpy() == pytest.approx(-0.25, abs=1e-9)
     assert table["problem"].isna().sum() == 1
