@@ -11,8 +11,6 @@ if __name__ == "__main__" and not sys.flags.safe_path:
 
 from comparisons.console.exit_status import guarded
 
-__all__ = ["main"]
-
 
 def main() -> int:
     """Run the command line; return the exit status."""

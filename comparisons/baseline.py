@@ -40,8 +40,6 @@ from comparisons.runs.csv_format import csv_text, read_table
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.rows import CASE
 
-__all__ = ["BASELINE", "check", "drift", "read_baseline", "renew"]
-
 #: Folder of the committed results, in a clone of the repository.
 BASELINE = BASELINE_FOLDER
 

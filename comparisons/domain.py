@@ -21,8 +21,6 @@ from comparisons.data.validation import known_name
 from comparisons.problem import PARAMETERS
 from comparisons.quantities import ALL_QUANTITIES
 
-__all__ = ["MOST_TABLES", "Domain", "Range", "declared_domain"]
-
 #: The most tables of a domain.  A domain is to be read by people; thousands of points would be a table of results.
 MOST_TABLES = 20
 

@@ -17,8 +17,6 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from comparisons.problem.problem import Problem
 
-__all__ = ["ComputationFailed", "Curve", "HasCurve", "HasProfile", "Model", "NotApplicable", "RadialField", "Result"]
-
 Array = NDArray[np.float64]
 
 #: Fields are stored out to this gap, in z0, where the traction has fallen to 0.2 % of its largest.

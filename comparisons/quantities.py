@@ -15,8 +15,6 @@ from comparisons.model import HasCurve, HasProfile, Model, NotApplicable, Result
 if TYPE_CHECKING:
     from comparisons.problem.problem import Problem
 
-__all__ = ["ALL_QUANTITIES", "CURVES", "QUANTITIES", "CurveQuantity", "Kind", "Points", "ScalarQuantity", "title_of"]
-
 _TABLES = tomllib.loads(files("comparisons.data").joinpath("quantities.toml").read_text(encoding="utf-8"))
 
 

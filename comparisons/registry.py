@@ -21,16 +21,6 @@ from comparisons.domain import Domain, declared_domain
 from comparisons.external.model_source import load_model, source_of
 from comparisons.model import Model
 
-__all__ = [
-    "COMPARABLE",
-    "MODELS",
-    "ExternalIdentity",
-    "create",
-    "declared_models",
-    "depends_on_poisson_ratio",
-    "identify",
-]
-
 _FOLDER = "comparisons.models"
 _LITERAL = re.compile(r"^MODELS = (\{.*?\})$", flags=re.MULTILINE | re.DOTALL)
 

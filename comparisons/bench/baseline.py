@@ -9,8 +9,6 @@ from comparisons.bench.run import parts_of
 from comparisons.data.file_names import BENCH, BENCH_SUMMARY
 from comparisons.paper.baseline import replace_files
 
-__all__ = ["BENCH_BASELINE", "has_bench", "renew"]
-
 #: Folder of the committed benchmark, in a clone of the repository.
 BENCH_BASELINE = Path("results", "baseline", "bench")
 

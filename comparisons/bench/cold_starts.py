@@ -15,8 +15,6 @@ import pandas as pd
 from comparisons.bench.part import Numbers, Part, Settings
 from comparisons.external.template import write_template
 
-__all__ = ["BARE", "COLD_STARTS"]
-
 #: An interpreter that does nothing, to which the others are compared.
 BARE = "python -c pass"
 _OWN_MODEL = "run --model my.py:My"

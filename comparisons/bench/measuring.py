@@ -11,8 +11,6 @@ from typing import TypeVar
 from comparisons.bench.part import Measurement, Numbers, Part, Settings
 from comparisons.runs.workers import processes
 
-__all__ = ["cpu_seconds", "measured", "peak_memory"]
-
 Output = TypeVar("Output")
 
 #: Computations of one measurement: the least CPU time of them counts, because other programs only add to it.

@@ -10,8 +10,6 @@ from typing import Any, TypedDict
 import pandas as pd
 from matplotlib.figure import Figure
 
-__all__ = ["Measurement", "Numbers", "Part", "Settings", "key", "table_of"]
-
 #: What a measurement is made with: values that JSON holds, by name.
 Settings = dict[str, Any]
 #: What a measurement gives: values that JSON holds, by name.

@@ -13,8 +13,6 @@ from comparisons.models.fem_model import FiniteElements
 from comparisons.problem import Problem
 from fscm.stieltjes import StieltjesScheme, find_event
 
-__all__ = ["measure"]
-
 #: The first problem of a process is a neighbouring one: its Tabor number differs by this factor.
 _NEIGHBOUR = 1.1
 #: Repetitions have Tabor numbers that differ by this much, so that no stored solution serves them.

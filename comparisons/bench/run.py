@@ -22,8 +22,6 @@ from comparisons.runs.csv_format import csv_text
 from comparisons.runs.environment import environment
 from comparisons.runs.store import Form, Store
 
-__all__ = ["FORM", "PARTS", "FinishedBench", "parts_of", "run_bench"]
-
 #: Parts by name, in the order in which they are measured: the shortest first.
 PARTS = {part.name: part for part in (COLD_STARTS, WORK_PRECISION)}
 

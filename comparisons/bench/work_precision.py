@@ -14,8 +14,6 @@ from comparisons.bench.pull_off import measure
 from comparisons.output.style import COLOURS, MARKERS, new_figure, styled
 from comparisons.paper.drawing import panels
 
-__all__ = ["CERTIFIED", "WORK_PRECISION", "time_ratios"]
-
 #: Tabor number -> centre and radius of an interval that contains the pull-off force for n = 2, k = 0, from
 #: docs/certified_value.md; the proof is tests/certified.
 CERTIFIED = {

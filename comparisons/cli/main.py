@@ -24,8 +24,6 @@ from typing import Any, NoReturn
 
 from comparisons.console.exit_status import FAILED, guarded
 
-__all__ = ["main"]
-
 #: Command -> its line of the help.  Its module is imported when it is called.
 _COMMANDS = {
     "run": "compute the standing cases and judge them",

@@ -1,19 +1,19 @@
-"""Output of the commands on stdout: lines, tables and pages."""
+"""Output of the commands: lines, tables and pages, and the end of a command that computes rows."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from comparisons.console.exit_status import writing_stdout
+from comparisons.console.exit_status import FAILED, OK, writing_stdout
 from comparisons.console.printable import printable
-from comparisons.console.progress import log
+from comparisons.console.progress import log, note
 from comparisons.console.safe_console import SafeConsole
+from comparisons.output.summaries import failure_lines
 from comparisons.runs.atomic_files import atomic
-
-__all__ = ["output", "print_lines", "write_page"]
+from comparisons.runs.rows import Row
 
 #: Columns of a table when stdout is no terminal: the same text in every log and file.
 _WIDTH = 80
@@ -41,3 +41,11 @@ def write_page(text: str, path: Path, name: str) -> None:
     with atomic(path) as page:
         page.write(text.encode())
     log(f"the {name} is {path}")
+
+
+def print_end(failures: Sequence[Row], folder: Path, files: str = "results are") -> int:
+    """Print the first failures and where the files are; return the exit status without gates."""
+    for line in failure_lines(failures):
+        log(line)
+    note(f"{files} in {folder}")
+    return FAILED if failures else OK

@@ -12,8 +12,6 @@ from comparisons.judging.summary import summarise
 from comparisons.output.verdicts import declared_sentence, gate_lines, gates_sentence, unexpected
 from comparisons.pipeline.judgement import Judgement
 
-__all__ = ["STATUS", "print_verdicts"]
-
 #: Verdict over all gates -> exit status.
 STATUS = {
     Verdict.ERROR: FAILED,

@@ -18,20 +18,6 @@ from typing import TextIO
 
 from comparisons.console.printable import printable
 
-__all__ = [
-    "EXTRAS",
-    "FAILED",
-    "FAILS",
-    "INCONCLUSIVE",
-    "OK",
-    "TRACEBACK",
-    "WRONG_INPUT",
-    "Terminated",
-    "full_disk",
-    "guarded",
-    "writing_stdout",
-]
-
 #: Exit statuses: 0 done, and all gates pass; 1 a gate fails; 2 wrong input; 3 a gate is inconclusive; 4 a computation
 #: or an output failed, a gate is in error, or there was nothing to judge.
 OK, FAILS, WRONG_INPUT, INCONCLUSIVE, FAILED = 0, 1, 2, 3, 4

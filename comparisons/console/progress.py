@@ -10,9 +10,6 @@ from rich import progress
 
 from comparisons.console.safe_console import SafeConsole
 
-__all__ = ["counting", "log", "note", "quiet", "waiting"]
-
-
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 
 

@@ -10,8 +10,6 @@ from rich.segment import Segment
 
 from comparisons.console.printable import printable
 
-__all__ = ["SafeConsole"]
-
 
 class SafeConsole(Console):
     """Console of rich that shows control characters of texts by their numbers, and raises `BrokenPipeError`."""

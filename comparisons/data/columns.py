@@ -7,8 +7,6 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any, NamedTuple
 
-__all__ = ["FILES", "Column", "column"]
-
 #: Files of the descriptions; the columns that the first one states for every table hold in the tables of all files.
 FILES = ("columns.toml", "columns_of_figures.toml", "columns_of_solvers.toml")
 

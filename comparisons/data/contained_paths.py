@@ -5,8 +5,6 @@ from __future__ import annotations
 import os
 from pathlib import Path, PurePath
 
-__all__ = ["path_inside", "refuse_link"]
-
 
 def path_inside(folder: Path, name: str) -> Path:
     """Return the path of a file that another file names.

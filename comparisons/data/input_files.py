@@ -7,8 +7,6 @@ import os
 import stat
 from pathlib import Path
 
-__all__ = ["LARGEST_ROWS", "LARGEST_TABLE", "LARGEST_TEXT", "check_regular", "read_bytes", "read_text"]
-
 #: Most bytes of a text in TOML: ninety times the standing gates, and read in seconds.
 LARGEST_TEXT = 4_000_000
 

@@ -8,8 +8,6 @@ from dataclasses import dataclass, field
 from importlib.resources import files
 from typing import Any
 
-__all__ = ["PaperStatement", "paper_statements"]
-
 
 @dataclass(frozen=True, slots=True)
 class PaperStatement:

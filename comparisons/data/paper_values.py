@@ -11,8 +11,6 @@ from dataclasses import dataclass
 from decimal import Decimal
 from importlib.resources import files
 
-__all__ = ["TRUNCATED", "PaperValue", "paper_values"]
-
 #: Verdict on a number that has the printed digits only if its further digits are dropped.
 TRUNCATED = "agrees if truncated"
 

@@ -7,8 +7,6 @@ import tomllib
 from collections.abc import Iterator
 from typing import Any
 
-__all__ = ["LONGEST_WORD", "is_real", "parse"]
-
 #: Most characters of a key or of a text; the longest of our files has 330.  The search for the known name nearest to an
 #: unknown one, and the reading of a unit, take minutes for a megabyte.
 LONGEST_WORD = 10_000

@@ -22,8 +22,6 @@ from jsonschema.validators import extend
 
 from comparisons.data.toml_text import is_real
 
-__all__ = ["known_name", "label", "shipped_validator", "shown", "validated"]
-
 #: What is refused first in one table: a misspelt key is also a missing one.
 _ORDER = ("additionalProperties", "required")
 

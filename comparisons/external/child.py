@@ -20,8 +20,6 @@ from comparisons.external.start import MEMORY_LIMIT, TIME_LIMIT, limit_of_enviro
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed
 
-__all__ = ["Child", "Overdue"]
-
 #: Seconds in which a fresh interpreter must have imported the worker, before any code of a model; 0.5 are usual.
 _START = 120.0
 

@@ -14,8 +14,6 @@ import sys
 import tempfile
 import time
 
-__all__ = ["PREFIX"]
-
 #: How the name of every scratch folder begins.
 PREFIX = "fscm-bench-"
 

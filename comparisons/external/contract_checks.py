@@ -18,8 +18,6 @@ from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 
-__all__ = ["FAILED", "OK", "SKIPPED", "WRONG", "Finding", "examine"]
-
 #: A quantity in a case, and what its evaluation gave.
 _Key = tuple[str, Problem]
 _Outcomes = dict[_Key, Result | NotApplicable | ComputationFailed]

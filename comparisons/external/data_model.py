@@ -28,8 +28,6 @@ from comparisons.problem import Problem
 from comparisons.problem.variation import Variation, problems_of
 from comparisons.quantities import QUANTITIES
 
-__all__ = ["MANIFEST", "DataModel"]
-
 #: Name of the file that describes a model in a folder.
 MANIFEST = "model.toml"
 

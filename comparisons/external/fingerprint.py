@@ -17,8 +17,6 @@ from comparisons.data.file_names import RECORD, STORE
 from comparisons.external.cleaner import PREFIX
 from comparisons.external.text_rules import one_line
 
-__all__ = ["MOST_BYTES", "MOST_FILES", "SITES", "fingerprint"]
-
 #: A folder is small, and hashed as a whole, up to these.
 MOST_FILES, MOST_BYTES = 200, 20_000_000
 #: What a model declares may be larger; it is read again for every process of the model.

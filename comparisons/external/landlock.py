@@ -13,8 +13,6 @@ import platform
 import sys
 from pathlib import Path
 
-__all__ = ["write_only_in"]
-
 # The numbers of the system calls are the same on every architecture but Alpha.
 _CREATE_RULESET, _ADD_RULE, _RESTRICT_SELF = 444, 445, 446
 _VERSION_FLAG, _RULE_PATH_BENEATH, _NO_NEW_PRIVILEGES = 1, 1, 38

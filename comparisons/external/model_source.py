@@ -21,8 +21,6 @@ from comparisons.external.data_model import MANIFEST, DataModel
 from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import one_line
 
-__all__ = ["GROUP", "AnyExternalModel", "close_models", "installed", "load_again", "load_model", "source_of"]
-
 #: A model of the user: a class or program, or a table of data.
 AnyExternalModel = ExternalModel | DataModel
 

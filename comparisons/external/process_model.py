@@ -16,8 +16,6 @@ from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 
-__all__ = ["PATIENCE", "ExternalModel", "connect", "contradiction"]
-
 _Reply = TypeVar("_Reply", Result, Curve)
 
 #: Requests in a row that may run out of time; later ones are not sent, because a run of hundreds must end.

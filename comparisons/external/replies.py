@@ -18,8 +18,6 @@ from comparisons.external.fingerprint import fingerprint
 from comparisons.external.text_rules import model_name, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 
-__all__ = ["Malformed", "curve_of", "described", "result_of"]
-
 #: Status of a reply without a result -> the exception that it means.
 _REFUSALS = {"not-applicable": NotApplicable, "failed": ComputationFailed}
 

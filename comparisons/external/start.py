@@ -16,8 +16,6 @@ from typing import Any
 
 from comparisons.external.landlock import write_only_in
 
-__all__ = ["MEMORY_LIMIT", "TIME_LIMIT", "limit_of_environment", "start"]
-
 #: Names of the environment variables.
 TIME_LIMIT, MEMORY_LIMIT = "FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"
 _DEFAULTS = {TIME_LIMIT: 60.0, MEMORY_LIMIT: 4096.0}

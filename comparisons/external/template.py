@@ -12,8 +12,6 @@ from pathlib import Path
 from comparisons.console.exit_status import full_disk
 from comparisons.external.text_rules import model_name
 
-__all__ = ["write_template"]
-
 #: What the model or its tools import, or take for their own file, and would find beside the model instead.
 _SHADOWED = {"comparisons", "fem_reference", "fscm", "numpy", "scipy", "pandas", "pytest", "setup", "conftest"}
 _IMPORTED = {"NotApplicable", "Result"}

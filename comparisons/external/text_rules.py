@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import re
 
-__all__ = ["TEXTS", "model_name", "one_line"]
-
 #: Texts that every model states of itself.
 TEXTS = ("name", "version", "citation", "domain")
 

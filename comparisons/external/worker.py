@@ -24,8 +24,6 @@ from comparisons.external.text_rules import TEXTS, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from fscm.problem import Problem
 
-__all__ = ["serve"]
-
 #: Packages of this program, which has a version of its own.
 _OURS = ("comparisons", "fscm", "fem_reference")
 _FOLDER = Path(__file__).resolve().parents[1]

@@ -17,18 +17,6 @@ from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.judge import Judged, verdict_table
 from comparisons.problem import PARAMETERS
 
-__all__ = [
-    "CARD",
-    "DIFFERS",
-    "SAME_AGAIN",
-    "every_verdict",
-    "judge_cards",
-    "judge_digits",
-    "overall",
-    "verdict_on_model",
-    "without_card_gates",
-]
-
 #: How the ids of these gates begin.
 CARD = "CARD-"
 #: Ids of the gates on a second evaluation of a model, and on the digits of its values beside those of the reference.

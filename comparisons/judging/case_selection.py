@@ -11,8 +11,6 @@ from comparisons.problem import PARAMETERS, Problem
 from comparisons.problem.kinds import KINDS
 from comparisons.problem.units import NotAValue, in_si
 
-__all__ = ["has_parameters", "in_si_units"]
-
 #: The number of an entry of a list: "solid.thickness.2" is the second thickness.
 _ENTRY = re.compile(r"\.[1-9]\d{0,2}$")
 

@@ -13,8 +13,6 @@ from enum import StrEnum
 
 from comparisons.numerics.number_text import exact
 
-__all__ = ["Verdict", "crossing", "decide", "expecting_failure", "roll_up"]
-
 
 class Verdict(StrEnum):
     """Outcome of a gate in one case, or rolled up over its cases; the first is the worst.

@@ -27,8 +27,6 @@ from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.cases import TIERS, Grid
 from comparisons.runs.tasks import Task, plan
 
-__all__ = ["RANDOM", "FreshCases", "Part", "draw"]
-
 #: The end of the id of a gate that is judged in fresh cases, and the tag of their grids.
 RANDOM = "-RANDOM"
 _TAG = "random"

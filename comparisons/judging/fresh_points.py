@@ -18,8 +18,6 @@ from comparisons.problem.problem import split_name
 from comparisons.problem.variation import parse_variation, problems_of
 from comparisons.runs.case_columns import unit_in
 
-__all__ = ["REACH", "Sample", "sample"]
-
 #: The smallest and the largest value of parameters.
 _Box = Mapping[str, tuple[float, float]]
 

@@ -12,8 +12,6 @@ from comparisons.problem import Problem
 if TYPE_CHECKING:
     from comparisons.judging.gates import Gate
 
-__all__ = ["LARGEST_MARGIN", "defects", "plain_text"]
-
 #: Size of the ends of a measured range over the worst error measured. The difference of two accurate references is
 #: numerical noise, of which another machine has several times as much; beyond ten times the code has changed.
 LARGEST_MARGIN = 10.0

@@ -22,8 +22,6 @@ from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import MODELS
 from comparisons.runs.cases import TIERS, Grid
 
-__all__ = ["GIVEN", "METRICS", "Gate", "gates_text", "load_gates", "of_tier"]
-
 #: The candidate of a gate for every model that is named in a run.
 GIVEN = "given"
 

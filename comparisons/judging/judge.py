@@ -24,8 +24,6 @@ from comparisons.runs.case_columns import without_empty_problem
 from comparisons.runs.cases import Grid
 from comparisons.runs.tasks import problem_for
 
-__all__ = ["NO_EVENT", "OUTSIDE", "Judged", "judge", "verdict_table"]
-
 #: What to change in a gate with a case to which a model does not apply.
 _REMEDY = 'name the cases it applies to in the gate, e.g. cases = { k = [0, 0] }, or state not_applicable = "leave-out"'
 

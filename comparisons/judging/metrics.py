@@ -11,8 +11,6 @@ from comparisons.judging.stored_results import GateResults, UnusableResult
 from comparisons.numerics.bounds import combined, relative_difference
 from comparisons.problem import Problem
 
-__all__ = ["CaseError", "case_error", "reference_range"]
-
 
 @dataclass(frozen=True, slots=True)
 class CaseError:

@@ -14,8 +14,6 @@ from comparisons.judging.summary import coverage, coverage_text, worst_first
 from comparisons.numerics.number_text import error_text
 from comparisons.runs.case_columns import with_problem
 
-__all__ = ["card_lines", "given_models", "verdict_sentence"]
-
 
 def card_lines(
     name: str, verdicts: pd.DataFrame, card: Mapping[str, Any] | None, domain: Domain | None

@@ -13,8 +13,6 @@ from comparisons.runs.cases import Grid
 from comparisons.runs.rows import Key
 from comparisons.runs.tasks import plan, problem_for
 
-__all__ = ["cases_of", "key_of", "load_user_gates", "needed_keys", "promised", "relevant", "skipped_gates"]
-
 
 def relevant(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> list[Gate]:
     """Return the gates a run can judge, one for each given model where a gate is for all of them.

@@ -18,8 +18,6 @@ from comparisons.problem import Problem
 from comparisons.runs.case_columns import keys_in
 from comparisons.runs.rows import Key
 
-__all__ = ["CURVE", "NUMBER", "GateResults", "UnusableResult", "rows_by_key"]
-
 #: Columns of a table of scalars that are judged.
 NUMBER = ("status", "reason", "value", "u_num")
 #: The same of a table of curves.

@@ -12,8 +12,6 @@ import pandas as pd
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.runs.case_columns import with_problem
 
-__all__ = ["COVERAGE", "coverage", "coverage_text", "summarise", "worst_first"]
-
 #: Numbers of cases in which a candidate was evaluated, has a value (or there is none), is not applicable, has failed or
 #: has no row, and was not evaluated since they are outside its domain.
 COVERAGE = ("asked", "answered", "not_applicable", "failed", "outside")

@@ -14,8 +14,6 @@ from comparisons.model import Curve, NotApplicable, Result
 from comparisons.problem import Problem
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES
 
-__all__ = ["ClosedForm", "Limits", "monomial"]
-
 EPS = 2.0**-52
 
 # Relative error of one Gamma or Beta function of scipy over the arguments in use: measured worst 2e-15

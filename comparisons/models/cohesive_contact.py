@@ -45,8 +45,6 @@ from comparisons.model import ComputationFailed
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.quadrature import COARSE, FINE, UnitRule
 
-__all__ = ["CohesiveContact", "ContactState", "EdgeIntegrals"]
-
 Array = NDArray[np.float64]
 
 _NEWTON_STEPS = 60

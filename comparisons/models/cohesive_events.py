@@ -17,8 +17,6 @@ from comparisons.models.closed_form import EPS
 from comparisons.models.cohesive_contact import CohesiveContact, ContactState
 from comparisons.models.quadrature import COARSE
 
-__all__ = ["CohesiveEvents", "Event"]
-
 Array = NDArray[np.float64]
 
 # Rounding of displacement, load and Griffith's relation relative to the magnitude of their terms: measured

@@ -31,8 +31,6 @@ from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
-__all__ = ["CohesiveModel", "DoubleHertz", "MaugisDugdaleImproved", "MaugisDugdaleJin", "MaugisDugdaleOriginal"]
-
 MODELS = {
     "md-original": "MaugisDugdaleOriginal",
     "md-improved": "MaugisDugdaleImproved",

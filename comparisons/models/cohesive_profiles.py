@@ -21,8 +21,6 @@ from comparisons.models.cohesive_contact import CohesiveContact, ContactState
 from comparisons.models.graded_punch import Scales
 from comparisons.models.quadrature import FINE
 
-__all__ = ["PROFILE_ROUNDING", "CohesiveProfiles", "cohesive_profiles", "gap", "pressure"]
-
 Array = NDArray[np.float64]
 
 #: Bound on the error of pressure and gap as a fraction of their ranges: measured worst 1.2e-13 against 25 digits.

@@ -16,8 +16,6 @@ from scipy.special import gammaln, zeta
 
 from comparisons.model import NotApplicable
 
-__all__ = ["SMALLEST_SHAPE_INDEX", "THEORETICAL_STRENGTH", "eta"]
-
 #: Largest tension of the 9-3 law (Eq. 73).
 THEORETICAL_STRENGTH = 16.0 * math.sqrt(3.0) / 27.0
 

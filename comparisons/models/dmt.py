@@ -23,8 +23,6 @@ from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
-__all__ = ["DMT", "DMTStrength", "dmt_pull_off"]
-
 MODELS = {"dmt": "DMT", "dmt-strength": "DMTStrength"}
 
 

@@ -23,8 +23,6 @@ from fscm.problem import Problem as PosedProblem
 if TYPE_CHECKING:
     from fem_reference import export
 
-__all__ = ["FiniteElements", "built"]
-
 MODELS = {"fem": "FiniteElements"}
 
 #: Meshes of a curve: the coarser one, which gives its uncertainty, and that of its points.

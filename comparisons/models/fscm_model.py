@@ -16,8 +16,6 @@ from fscm.interpolation.storage import data_digest
 from fscm.states import radial_field
 from fscm.stieltjes import STIELTJES_QUANTITIES, StieltjesScheme, stieltjes_solution
 
-__all__ = ["Atlas", "CoarseStieltjesModel", "FullSelfConsistent", "StieltjesModel"]
-
 MODELS = {
     "fscm": "FullSelfConsistent",
     "fscm-stieltjes": "StieltjesModel",

@@ -13,8 +13,6 @@ from comparisons.model import FARTHEST_GAP, Curve, RadialField
 from fscm.gibson import GibsonSolid, LocalEquilibrium, root
 from fscm.problem import Problem
 
-__all__ = ["gibson_curve", "gibson_profile"]
-
 Array = NDArray[np.float64]
 
 #: Points of each part of a curve and of each side of the front of a profile.

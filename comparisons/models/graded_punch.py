@@ -25,8 +25,6 @@ from scipy.special import beta
 from comparisons.model import Curve
 from comparisons.problem import Problem
 
-__all__ = ["GradedPunch", "Scales"]
-
 Array = NDArray[np.float64]
 
 

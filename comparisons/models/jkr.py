@@ -17,8 +17,6 @@ from comparisons.models.closed_form import EPS, POINTS, ClosedForm, monomial
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
-__all__ = ["JKR"]
-
 MODELS = {"jkr": "JKR"}
 
 

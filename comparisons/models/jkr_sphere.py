@@ -24,8 +24,6 @@ from comparisons.model import Curve, NotApplicable, Result
 from comparisons.models.closed_form import EPS, POINTS, ClosedForm, Limits
 from comparisons.problem import Problem
 
-__all__ = ["LARGEST_CONTACT", "JKRSphere"]
-
 MODELS = {"jkr-sphere": "JKRSphere"}
 
 

@@ -29,8 +29,6 @@ from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, attraction_coefficient
 from comparisons.problem import Problem
 
-__all__ = ["JumpAsymptotes"]
-
 MODELS = {"jump-asymptotes": "JumpAsymptotes"}
 
 

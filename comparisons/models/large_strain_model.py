@@ -14,8 +14,6 @@ from comparisons.models.solver import SolverModel, curve_of, result_of
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 
-__all__ = ["LargeStrain"]
-
 MODELS = {"fem-large-strain": "LargeStrain"}
 
 

@@ -12,8 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["COARSE", "FINE", "UnitRule"]
-
 Array = NDArray[np.float64]
 
 # exp(-40) = 4e-18 truncates a bounded end, exp(-76/2) = 3e-17 an end as singular as 1 / sqrt(1 - z).

@@ -21,8 +21,6 @@ from comparisons.models.bradley import rigid_load
 from comparisons.models.closed_form import EPS, POINTS, ClosedForm, Limits, monomial
 from comparisons.problem import Problem
 
-__all__ = ["SemiRigid", "attraction_coefficient", "jump_in_coefficient"]
-
 MODELS = {"semi-rigid": "SemiRigid"}
 
 

@@ -13,9 +13,6 @@ from comparisons.model import ComputationFailed, Curve, NotApplicable, RadialFie
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.problem import Problem
 
-__all__ = ["SolverModel", "curve_of", "result_of", "surface_of", "translated"]
-
-
 _ONES = {"radius": 1.0, "traction": 1.0, "gap": 1.0}
 
 

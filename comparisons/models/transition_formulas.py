@@ -46,16 +46,6 @@ from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
-__all__ = [
-    "LAMBDA_OVER_MU",
-    "CarpickOgletreeSalmeron",
-    "PietrementTroyon",
-    "Schwarz",
-    "maugis_parameter",
-    "short_range_share",
-    "transition_parameter",
-]
-
 MODELS = {
     "carpick-ogletree-salmeron": "CarpickOgletreeSalmeron",
     "pietrement-troyon": "PietrementTroyon",

@@ -25,8 +25,6 @@ from typing import TypeVar
 
 import pandas as pd
 
-__all__ = ["combined", "relative_difference", "relative_uncertainty"]
-
 _Numbers = TypeVar("_Numbers", float, pd.Series)
 
 

@@ -15,8 +15,6 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-__all__ = ["CurveDistance", "curve_distance", "mesh_difference"]
-
 Array = NDArray[np.float64]
 
 #: Samples of the spline between neighbouring points; the chords between samples are off by a thousandth of

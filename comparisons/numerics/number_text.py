@@ -8,8 +8,6 @@ from collections.abc import Iterable, Mapping
 from decimal import ROUND_CEILING, ROUND_HALF_EVEN, Decimal
 from typing import Any
 
-__all__ = ["LEAST_SHOWN", "case_text", "error_text", "exact", "limits_text", "percent_text", "short", "value_text"]
-
 #: A double has 17 digits; where the uncertainty is far below the last of them, zeros in between have no meaning.
 _MOST_DIGITS = 20
 

@@ -9,11 +9,7 @@ from importlib.resources import files
 from typing import Any, NamedTuple
 
 from comparisons.output.latex import escaped
-
-__all__ = ["Work", "as_bibtex", "as_text", "methods", "works"]
-
-#: Commit and digest are shortened to this many characters, as Git does.
-_SHORT = 12
+from comparisons.runs.environment import DIGITS, version_of
 
 #: Entries of a work, in the order of BibTeX.
 _ENTRIES = ("author", "title", "journal", "volume", "pages", "year", "doi", "url", "note")
@@ -75,7 +71,7 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
         json.loads(files("comparisons.data").joinpath(name).read_text(encoding="utf-8"))
         for name in ("citation.json", "software_references.json")
     )
-    note = f"version {_version(record['package']) if record else version}"
+    note = f"version {version_of(record['package']) if record else version}"
     cited = [
         _work("fscm-bench", cff | {"author": _names(cff["authors"]), "year": cff["date-released"][:4], "note": note})
     ]
@@ -120,10 +116,10 @@ def methods(record: Mapping[str, Any], references: Mapping[str, float]) -> str:
     reference = "; ".join(limits)
     used = ["numpy", "scipy", *(["scikit-fem", "pyamg"] if "fem" in models else [])]
     libraries = ", ".join(f"{name} {record['dependencies'][name]}" for name in used)
-    digest = f", code with the SHA-256 {package['code_sha256'][:_SHORT]}" if "code_sha256" in package else ""
+    digest = f", code with the SHA-256 {package['code_sha256'][:DIGITS]}" if "code_sha256" in package else ""
     verdict = record["verdicts"].get("all")
     sentences = [
-        f"The errors of {judged} were computed with fscm-bench {_version(package)}{digest}." if judged else "",
+        f"The errors of {judged} were computed with fscm-bench {version_of(package)}{digest}." if judged else "",
         f"The reference is {reference}." if reference else "",
         "Errors are kappa = (model - reference) / |reference|; the bounds on the numerical errors of model and "
         "reference add to the bound on kappa.",
@@ -167,10 +163,3 @@ def _names(authors: Sequence[Mapping[str, str]]) -> str:
         f"{author['family-names']}, {author['given-names']}" if "family-names" in author else f"{{{author['name']}}}"
         for author in authors
     )
-
-
-def _version(package: Mapping[str, Any]) -> str:
-    if not package.get("commit"):
-        return str(package["version"])
-    changed = " with changes" if package.get("dirty") else ""
-    return f"{package['version']} (commit {package['commit'][:_SHORT]}{changed})"

@@ -22,8 +22,6 @@ from comparisons.runs.cases import Grid
 from comparisons.runs.rows import CASE
 from comparisons.runs.tasks import Task, problem_for
 
-__all__ = ["COLUMNS", "agreement", "comparison_table", "error_summary", "largest", "relative_error", "worst_rows"]
-
 _CASE = ["quantity", *CASE]
 _SERIES = ["quantity", "model", "n", "k"]
 _VALUES = ("value", "u_num", "reference_value", "u_reference")

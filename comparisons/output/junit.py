@@ -14,8 +14,6 @@ from comparisons.judging.summary import coverage
 from comparisons.numerics.number_text import limits_text
 from comparisons.problem import PARAMETERS
 
-__all__ = ["junit", "numbers_text"]
-
 #: Verdict -> element inside the test case; those not here are passes.  An inconclusive gate did not show
 #: what it requires, and is a failure; an expected failure counts as skipped, as in pytest.
 _ELEMENTS = {

@@ -14,8 +14,6 @@ import pandas as pd
 
 from comparisons.numerics.number_text import aligned, number_parts
 
-__all__ = ["UPRIGHT_WIDTH", "escaped", "latex", "latex_parts"]
-
 _PACKAGES = r"% The document needs \usepackage{array,booktabs,longtable,pdflscape,siunitx}"
 
 #: Shorter texts do not wrap; the space between two columns, in characters.

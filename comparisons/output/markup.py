@@ -15,8 +15,6 @@ from comparisons.judging.decision import Verdict
 from comparisons.output.style import VERDICT_SYMBOLS
 from comparisons.output.table import Column, Record, Table
 
-__all__ = ["badge", "html_table", "markdown"]
-
 #: What a table, HTML or Markdown takes for its own, and the starts of addresses that become links without any mark.
 _OWN = {
     **{"&": "&amp;", "<": "&lt;", ">": "&gt;", "|": "\\|", "\n": " "},

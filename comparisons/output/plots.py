@@ -19,8 +19,6 @@ from comparisons.quantities import ALL_QUANTITIES, CURVES, Axis, CurveQuantity, 
 from comparisons.runs.case_columns import unit_in, varied_of, with_problem
 from comparisons.runs.rows import CASE
 
-__all__ = ["Plot", "agreement", "curve", "curves", "in_registry", "kappa", "values_over_keys"]
-
 #: Ratio of the largest and the smallest abscissa from which an axis is logarithmic.
 _LOG = 30.0
 

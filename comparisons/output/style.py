@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["COLOURS", "LINES", "MARKERS", "MODEL_LINES", "MODEL_ORDER", "ModelStyle", "model_styles", "save", "styled"]
-
 #: Okabe and Ito's colours that stay apart for every kind of colour vision and, in this order, in grey.
 COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666")
 #: Markers of the points, in the order of `COLOURS`; the same in Bokeh, and as characters.

@@ -29,8 +29,6 @@ from comparisons.quantities import QUANTITIES
 from comparisons.runs import rows as stored_rows
 from comparisons.runs.case_columns import varied_of, with_problem
 
-__all__ = ["case_tables", "largest_errors", "side_by_side", "summary_tables", "sweep_tables", "terminal_tables"]
-
 #: Columns of the tables where no terminal states its own; rows that a terminal shows; spaces between columns.
 WIDTH, _ROWS, _GAP = 80, 40, 2
 

@@ -21,8 +21,6 @@ from comparisons.problem.units import si_text
 from comparisons.quantities import title_of
 from comparisons.runs.case_columns import unit_in
 
-__all__ = ["CASE", "Column", "Record", "Table", "columns", "key_columns", "key_text", "physical_text", "words"]
-
 #: A stored row.
 Record = Mapping[str, Any]
 

@@ -14,8 +14,6 @@ from rich.text import Text
 from comparisons.console.printable import printable
 from comparisons.numerics.number_text import aligned
 
-__all__ = ["records", "rich_table"]
-
 
 def rich_table(table: pd.DataFrame, title: str, formats: Mapping[str, str] | None = None) -> RenderableType:
     """Return a table for the terminal: numbers on the right, texts folded between words, blank where missing.

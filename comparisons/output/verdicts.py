@@ -26,8 +26,6 @@ from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import write_table
 
-__all__ = ["GATE_COLUMNS", "command", "gate_lines", "gates_sentence", "unexpected", "verdict_counts", "write_verdicts"]
-
 #: Names of gates that are listed in one sentence.
 _NAMES = 12
 

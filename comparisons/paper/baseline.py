@@ -12,8 +12,6 @@ from comparisons.paper.registry import paper_figures
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.committed import committed
 
-__all__ = ["PAPER_BASELINE", "changes", "check", "has_figures", "renew", "replace_files"]
-
 #: Folder of the committed figures, in a clone of the repository.
 PAPER_BASELINE = BASELINE_FOLDER / "paper"
 

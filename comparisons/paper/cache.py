@@ -16,8 +16,6 @@ from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.runs.store import Form, Store
 from comparisons.runs.workers import LOST, each
 
-__all__ = ["CachedCall", "MadeCalls", "Outcome", "make_calls"]
-
 
 @dataclass(frozen=True, slots=True)
 class CachedCall:

@@ -12,8 +12,6 @@ from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, LINES, MODEL_LINES, lettered
 
-__all__ = ["LABELS", "beside_fem", "by_model", "legend_below", "level", "lines_by", "panels"]
-
 #: Labels of axes, by what is on them.
 LABELS = {
     "n": "shape index $n$",

@@ -19,8 +19,6 @@ from comparisons.paper.cache import CachedCall, Outcome
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["FIGURES", "PaperFigure", "Plan", "Tables", "keyed", "paper_figure", "result_of", "rows_of", "together"]
-
 T = TypeVar("T")
 K = TypeVar("K")
 

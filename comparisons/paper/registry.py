@@ -8,8 +8,6 @@ from pkgutil import iter_modules
 
 from comparisons.paper.paper_figure import FIGURES, PaperFigure
 
-__all__ = ["NAMES", "paper_figures"]
-
 for _folder in ("figures", "values", "statements", "studies"):
     for _module in iter_modules(import_module(f"comparisons.paper.{_folder}").__path__):
         import_module(f"comparisons.paper.{_folder}.{_module.name}")

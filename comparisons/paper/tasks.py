@@ -32,8 +32,6 @@ from fscm import Problem as FscmProblem
 from fscm.laws import LennardJones
 from fscm.solution import FLOOR, SAFETY, EventPair, State
 
-__all__ = ["cohesive_surface", "curve", "jumps", "named_points", "near_critical", "profile", "quantity", "surface"]
-
 Json = dict[str, Any]
 
 #: Shape indices of the paper.

@@ -23,8 +23,6 @@ from comparisons.runs.atomic_files import atomic, prepare_folder
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.store import rows_in
 
-__all__ = ["INDEX", "Board", "make_board"]
-
 #: The first page of the site, and the file that names the code of its results.
 INDEX, _CODE = "index.html", "code.txt"
 

@@ -27,8 +27,6 @@ from comparisons.runs.rows import Row
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["ALL", "Comparison", "compare"]
-
 #: In place of a name: every model of fscm-bench that is not only a check of `fscm`.
 ALL = "all"
 

@@ -14,8 +14,6 @@ from comparisons.registry import create
 from comparisons.runs.frames import frame
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["errors"]
-
 
 def errors(
     models: Iterable[Model | str], cases: Iterable[Problem], quantity: str = "pull_off_force", reference: str = "fscm"

@@ -15,8 +15,6 @@ from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import checked_jobs
 from comparisons.runs.record import now, record_content, write_record
 
-__all__ = ["FinishedFigure", "make_figures"]
-
 
 @dataclass(frozen=True, slots=True)
 class FinishedFigure:

@@ -22,8 +22,6 @@ from comparisons.runs.computation import Completed
 from comparisons.runs.record import read_record, record_content, write_record
 from comparisons.runs.rows import Row
 
-__all__ = ["FinishedRun", "described", "kept_texts", "write_run"]
-
 
 @dataclass(frozen=True, slots=True)
 class FinishedRun:

@@ -24,18 +24,6 @@ from comparisons.registry import MODELS, ExternalIdentity, create
 from comparisons.runs.cases import TIERS, VERIFICATION, Grid, cases_text, grids, grids_for, load_grids
 from comparisons.runs.tasks import Task, plan
 
-__all__ = [
-    "Cases",
-    "Gates",
-    "RunInputs",
-    "cases_of_problem",
-    "domains_of",
-    "grid_text",
-    "load_cases",
-    "read_gates",
-    "stored_inputs",
-]
-
 #: The name of a text that is in no file, for messages and for the record.
 _TEXT = "a text"
 

@@ -26,8 +26,6 @@ from comparisons.runs.csv_format import read_table
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
 
-__all__ = ["Judgement", "judge_and_write", "judge_folder"]
-
 
 @dataclass(frozen=True, slots=True)
 class Judgement:

@@ -11,8 +11,6 @@ from comparisons.output.report.stored_run import read_folder
 from comparisons.pipeline.inputs import stored_inputs
 from comparisons.runs.tasks import plan
 
-__all__ = ["entry_of", "leaderboard"]
-
 
 def leaderboard(folders: Sequence[Path], mixed: bool = False) -> str:
     """Return the page of a leaderboard as HTML, one file without any other.

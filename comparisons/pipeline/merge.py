@@ -19,8 +19,6 @@ from comparisons.runs.rows import Key, Row
 from comparisons.runs.store import Store, rows_in
 from comparisons.runs.tasks import Task
 
-__all__ = ["merge"]
-
 
 def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
     """Put the rows of finished shards of one sweep into one folder, and write its tables and record.

@@ -16,8 +16,6 @@ from comparisons.pipeline.run import run
 from comparisons.problem import PARAMETERS
 from comparisons.runs.atomic_files import prepare_folder
 
-__all__ = ["named_verdicts"]
-
 _LOCK = ".pytest.lock"
 
 

@@ -20,8 +20,6 @@ from comparisons.runs.environment import computing_environment
 from comparisons.runs.rows import Key, Row
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["AGAIN", "make_cards"]
-
 #: Results of each external model that are evaluated again, at most; and for how long, by the times of the first ones.
 AGAIN, _SECONDS = 8, 60.0
 #: So many are evaluated again however long they take: two can change places.

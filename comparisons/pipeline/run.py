@@ -16,8 +16,6 @@ from comparisons.runs.computation import checked_jobs, complete, folder_for
 from comparisons.runs.record import now
 from comparisons.runs.shards import parse_shard, tasks_of_shard
 
-__all__ = ["run"]
-
 #: Most fresh cases for each model and gate.
 _MOST_FRESH = 10_000
 

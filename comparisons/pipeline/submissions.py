@@ -14,8 +14,6 @@ from comparisons.data.validation import validated
 from comparisons.output.report.board import Submission
 from comparisons.registry import MODELS
 
-__all__ = ["MANIFEST", "read_submission", "submission_folders"]
-
 #: Describes a submission.
 MANIFEST = "submission.toml"
 

@@ -20,8 +20,6 @@ from comparisons.runs.frames import curve_frame, frame
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import plan
 
-__all__ = ["RunTables", "make_tables", "write_pictures", "write_tables"]
-
 #: The two references, which are compared whenever a run has both.
 REFERENCE, SECOND_REFERENCE = "fscm", "fem"
 

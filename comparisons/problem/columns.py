@@ -12,8 +12,6 @@ from comparisons.data.validation import known_name, shown
 from comparisons.problem.kinds import Form
 from comparisons.problem.units import NotAValue, in_si, unit_factor
 
-__all__ = ["read_columns"]
-
 _HEADING = re.compile(r"\s*([A-Za-z_]\w*)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*")
 
 

@@ -23,8 +23,6 @@ from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.problem.problem import Problem
 from fscm.graded.compliance import compliance
 
-__all__ = ["EnergySpectrum", "energy_spectrum"]
-
 Array = NDArray[np.float64]
 
 #: Wave numbers beside the inverse of the mean radius of the load, and points for each decade.  The shares fall as xi

@@ -18,8 +18,6 @@ from comparisons.problem.elastic_energy import EnergySpectrum, energy_spectrum
 from comparisons.problem.problem import Problem, Section
 from fscm.solids import PowerLaw
 
-__all__ = ["LARGEST_DEVIATION", "LARGEST_K", "equivalent_solids", "least_wrong", "power_law_of"]
-
 #: Largest exponent of the power law: both references take it.
 LARGEST_K = 0.9
 

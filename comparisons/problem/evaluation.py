@@ -10,8 +10,6 @@ from comparisons.model import Model, NotApplicable, Result
 from comparisons.problem.problem import Problem
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, Points
 
-__all__ = ["REFERENCES", "dimensionless_result", "evaluated", "unit_of"]
-
 #: Models that solve the equations; every other one is a closed form or another approximation.
 REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas", "fem-large-strain")
 

@@ -11,8 +11,6 @@ from comparisons.problem.source import Source
 from comparisons.problem.uncertain import Uncertainty, is_uncertain, uncertain_in_si
 from comparisons.problem.units import NotAValue, in_si
 
-__all__ = ["kind_of", "values_in_si"]
-
 
 def kind_of(section: str, table: object, source: Source) -> Kind:
     """Return the kind of a section as it is in the file, whose keys are those of the kind.

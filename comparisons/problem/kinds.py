@@ -20,8 +20,6 @@ from comparisons.problem.punch_shapes import RoundedFlat, SmoothedProfile
 if TYPE_CHECKING:
     from comparisons.problem.problem import Section
 
-__all__ = ["KINDS", "SECTIONS", "Form", "Kind", "kind_rows"]
-
 #: The sections of a file, all required.
 SECTIONS = ("solid", "punch", "law")
 

@@ -19,8 +19,6 @@ from comparisons.numerics.number_text import case_text
 from comparisons.problem.kinds import KINDS, SECTIONS
 from comparisons.problem.uncertain import Uncertainty
 
-__all__ = ["PARAMETERS", "Problem", "Section", "split_name"]
-
 #: Parameters of a dimensionless problem; nu is optional.
 PARAMETERS = ("n", "k", "mu", "nu")
 

@@ -13,8 +13,6 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-__all__ = ["RoundedFlat", "SmoothedProfile"]
-
 Array = NDArray[np.float64]
 
 #: Rows that a smoothed profile needs: a cubic spline has four coefficients.

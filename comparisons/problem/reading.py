@@ -21,8 +21,6 @@ from comparisons.problem.problem import Problem, Section
 from comparisons.problem.source import Source
 from fscm.punch import unit_of_radii
 
-__all__ = ["document_of", "load_problem", "problem_of"]
-
 #: A whole number that Python does not read.
 _MANY_DIGITS = re.compile(rf"\d{{{sys.int_info.default_max_str_digits + 1},}}")
 

@@ -9,8 +9,6 @@ from uncertainties import ufloat_fromstr
 
 from comparisons.problem.units import NUMBER, NotAValue, in_si
 
-__all__ = ["Uncertainty", "is_uncertain", "uncertain_in_si"]
-
 _SIGN = re.compile(r"\+/-|\+-|±")
 _INTERVAL = re.compile(rf"\s*\[\s*({NUMBER})\s*,\s*({NUMBER})\s*\]\s*(.*?)\s*")
 #: A value with the digits of its standard deviation in brackets, and its unit.

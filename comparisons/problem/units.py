@@ -10,8 +10,6 @@ from typing import Any
 from comparisons.data.validation import shown
 from comparisons.numerics.number_text import short
 
-__all__ = ["NUMBER", "NotAValue", "in_si", "prefixed_unit", "si_text", "unit_factor"]
-
 #: A decimal number in a text.
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _NAME = r"[A-Za-zµμΩÅ°]+(?:\s*(?:\^|\*\*)\s*\(?[+-]?\d{1,2}(?:\.\d{1,4})?\)?)?"

@@ -19,8 +19,6 @@ from comparisons.problem.problem import BETWEEN, Problem
 from comparisons.problem.reading import document_of, problem_of
 from comparisons.problem.units import NUMBER
 
-__all__ = ["RANGE", "Variation", "parse_variation", "parse_variations", "problems_of", "spaced"]
-
 #: Most problems of one variation, and most values of a range.
 _MOST = 100_000
 

@@ -12,8 +12,6 @@ from typing import IO, Any
 
 from comparisons.console.exit_status import full_disk
 
-__all__ = ["atomic", "prepare_folder", "writable_file", "write_json", "writing"]
-
 _ELSEWHERE = "choose another place"
 
 

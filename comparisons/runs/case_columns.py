@@ -9,8 +9,6 @@ from comparisons.problem.kinds import SECTIONS
 from comparisons.problem.problem import split_name
 from comparisons.runs.rows import CASE, DIMENSIONLESS, Key, none_if_nan
 
-__all__ = ["in_case_order", "keys_in", "unit_in", "varied_of", "with_problem", "without_empty_problem"]
-
 
 def keys_in(table: pd.DataFrame) -> list[Key]:
     """Return the key of each row of a table with the columns model, quantity and `CASE`.

@@ -25,8 +25,6 @@ from comparisons.problem.variation import Variation, problems_of
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS
 
-__all__ = ["TIERS", "VERIFICATION", "Grid", "cases_text", "grids", "grids_for", "load_grids"]
-
 #: Ways in which a grid states its cases.
 _FORMS = 'lists n, k, mu (and nu); cases = [{n = 2, k = 0, mu = 1}, ...]; or problem = "FILE" (and vary)'
 

@@ -6,8 +6,6 @@ from pathlib import Path
 
 from comparisons.data.file_names import BASELINE_FOLDER
 
-__all__ = ["committed"]
-
 #: The clone whose packages run.
 _CLONE = Path(__file__).resolve().parents[2]
 

@@ -17,8 +17,6 @@ from comparisons.runs.store import rows_in
 from comparisons.runs.tasks import Task, batches, evaluate_task, lost_row
 from comparisons.runs.workers import each
 
-__all__ = ["Completed", "checked_jobs", "complete", "compute", "folder_for", "is_row_of"]
-
 
 def checked_jobs(jobs: int) -> int:
     """Return the number of processes; `ValueError` if there are none."""

@@ -14,8 +14,6 @@ from comparisons.data.input_files import LARGEST_ROWS, read_bytes
 from comparisons.problem import PARAMETERS
 from comparisons.runs.atomic_files import atomic
 
-__all__ = ["csv_text", "read_table", "write_table"]
-
 #: Start of a text that a spreadsheet evaluates, or that `csv_text` has marked already: both get an apostrophe, so that
 #: a reader can take away one.
 _FORMULA = re.compile(r"[\s']*[=+\-@\t]")

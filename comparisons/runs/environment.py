@@ -11,21 +11,11 @@ import os
 import platform
 import re
 import subprocess
+from collections.abc import Mapping
 from importlib.metadata import distribution, requires, version
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any
-
-__all__ = [
-    "NOT_INSTALLED",
-    "code_digest",
-    "computing_environment",
-    "differences",
-    "environment",
-    "fingerprint",
-    "package_version",
-    "version_text",
-]
 
 DISTRIBUTION = "fscm-bench"
 _PACKAGES = ("fscm", "fem_reference", "comparisons")
@@ -36,8 +26,8 @@ _CODE = {".py", ".toml"}
 #: Folders that are not installed, or elsewhere.
 NOT_INSTALLED = tuple(Path("comparisons", name) for name in ("pytest_entry", "start_entry"))
 
-#: Digits of a commit in the text of the version.
-_DIGITS = 12
+#: Digits of a commit or digest in a text, as Git shortens them.
+DIGITS = 12
 
 
 def package_version() -> str:
@@ -47,11 +37,21 @@ def package_version() -> str:
 
 def version_text() -> str:
     """Return the version, and the commit where it is known."""
-    commit = _commit()
-    if commit["commit"] is None:
-        return package_version()
-    changes = ", with changes" if commit["dirty"] else ""
-    return f"{package_version()} (commit {commit['commit'][:_DIGITS]}{changes})"
+    return version_of({"version": package_version(), **_commit()})
+
+
+def version_of(package: Mapping[str, Any]) -> str:
+    """Return the version that a record states, and the commit where it is known.
+
+    Examples
+    --------
+    >>> version_of({"version": "0.1.0", "commit": "0123456789abcdef", "dirty": True})
+    '0.1.0 (commit 0123456789ab, with changes)'
+    """
+    if not package.get("commit"):
+        return str(package["version"])
+    changes = ", with changes" if package.get("dirty") else ""
+    return f"{package['version']} (commit {package['commit'][:DIGITS]}{changes})"
 
 
 def code_digest(root: Path | None = None) -> str:

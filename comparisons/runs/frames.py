@@ -14,8 +14,6 @@ from comparisons.problem import PARAMETERS
 from comparisons.runs.case_columns import in_case_order, without_empty_problem
 from comparisons.runs.rows import DIMENSIONLESS, Row
 
-__all__ = ["COLUMNS", "CURVE_COLUMNS", "curve_frame", "frame"]
-
 # What was evaluated, in either table.
 _EVALUATION = ("model", "model_version", "quantity", *PARAMETERS, "problem")
 

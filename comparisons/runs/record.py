@@ -25,8 +25,6 @@ from comparisons.data.validation import shipped_validator
 from comparisons.runs.atomic_files import write_json
 from comparisons.runs.environment import differences, environment, fingerprint
 
-__all__ = ["FORMAT", "check_files", "now", "read_record", "record_content", "warn_of_other_code", "write_record"]
-
 #: Version of the schema.
 FORMAT = 6
 

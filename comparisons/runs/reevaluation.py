@@ -17,8 +17,6 @@ from comparisons.runs.rows import Key, Row
 from comparisons.runs.store import Store
 from comparisons.runs.tasks import Task, evaluate_task
 
-__all__ = ["AT_MOST", "drop_changed", "same"]
-
 #: Stored tasks of each external model that are evaluated again.
 AT_MOST = 3
 

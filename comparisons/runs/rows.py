@@ -10,8 +10,6 @@ from typing import Any
 from comparisons.numerics.number_text import case_text, short
 from comparisons.problem import PARAMETERS
 
-__all__ = ["CASE", "DIMENSIONLESS", "Key", "Row", "none_if_nan"]
-
 #: Columns that identify a problem: n, k, mu, nu and its name (empty for a dimensionless one).
 CASE = (*PARAMETERS, "problem")
 

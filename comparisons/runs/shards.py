@@ -7,8 +7,6 @@ from collections.abc import Iterable
 
 from comparisons.runs.tasks import Task
 
-__all__ = ["parse_shard", "tasks_of_shard"]
-
 
 def parse_shard(text: str) -> tuple[int, int]:
     """Return the number of a shard, from 1, and that of all shards.

@@ -28,8 +28,6 @@ from comparisons.model import ComputationFailed
 from comparisons.runs.environment import computing_environment, differences, fingerprint
 from comparisons.runs.rows import Row
 
-__all__ = ["Form", "Store", "rows_in"]
-
 _Item = TypeVar("_Item")
 
 #: A write-ahead log needs no wait for the disk after each entry (0.1 ms in place of 2 to 13 ms), and a loss of power

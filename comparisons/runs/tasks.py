@@ -24,8 +24,6 @@ from comparisons.runs.cases import Grid
 from comparisons.runs.rows import DIMENSIONLESS, Key, Row
 from comparisons.runs.workers import LOST
 
-__all__ = ["Task", "batches", "evaluate", "evaluate_task", "lost_row", "plan", "problem_for"]
-
 
 @dataclass(frozen=True, slots=True)
 class Task:

@@ -17,8 +17,6 @@ from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import log
 
-__all__ = ["LOST", "each", "one_thread", "processes", "usable_cores"]
-
 Item = TypeVar("Item")
 Output = TypeVar("Output")
 

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 #: Folder of the pages, relative to the documents.
 FOLDER = "_generated/api"
+_LEFT_OUT = (*NOT_INSTALLED, Path("comparisons/cli/commands"))
 
 
 @cache
@@ -41,9 +42,9 @@ def exported(package: str) -> list[str]:
 
 
 def modules(package: str) -> list[str]:
-    """Public modules of a package: no part of their name begins with an underscore, and they state their names.
+    """Public modules of a package: no part of their name begins with an underscore, and they have public names.
 
-    The folders that are not installed are left out.
+    Folders that are not installed are left out, and the commands, which are read as text.
 
     Examples
     --------
@@ -54,7 +55,7 @@ def modules(package: str) -> list[str]:
     """
     found = []
     for path in sorted((ROOT / package).rglob("*.py")):
-        if any(path.is_relative_to(ROOT / folder) for folder in NOT_INSTALLED):
+        if any(path.is_relative_to(ROOT / folder) for folder in _LEFT_OUT):
             continue
         name = _module_of(path)
         if not any(part.startswith("_") for part in name.split(".")) and public_names(path):
@@ -68,12 +69,18 @@ def _module_of(path: Path) -> str:
 
 @cache
 def public_names(path: Path) -> list[str]:
-    """The literal `__all__` of a module, which is read without importing it; empty if there is none."""
-    for statement in ast.parse(path.read_text(encoding="utf-8")).body:
+    """The literal `__all__` of a module, or what it defines with a text and without an underscore before its name.
+
+    The module is read without importing it.
+    """
+    body = ast.parse(path.read_text(encoding="utf-8")).body
+    for statement in body:
         match statement:
             case ast.Assign(targets=[ast.Name(id="__all__")], value=ast.List(elts=elements)):
                 return [str(element.value) for element in elements if isinstance(element, ast.Constant)]
-    return []
+    defined = [one for one in body if isinstance(one, ast.FunctionDef | ast.ClassDef) and ast.get_docstring(one)]
+    named = [*(one.name for one in defined), *(name for name, text in texts_of(path, imported=False).items() if text)]
+    return sorted(name for name in named if not name.startswith("_"))
 
 
 def names_of(module: str) -> list[str]:

@@ -14,8 +14,8 @@ PACKAGES = ("fscm", "fem_reference", "comparisons")
 
 
 @cache
-def texts_of(path: Path) -> dict[str, str]:
-    """Text of each datum of a module: the comment ``#:`` before it, or that where it comes from.
+def texts_of(path: Path, *, imported: bool = True) -> dict[str, str]:
+    """Text of each datum of a module: the comment ``#:`` before it, or that where it comes from if it is imported.
 
     Examples
     --------
@@ -31,7 +31,7 @@ def texts_of(path: Path) -> dict[str, str]:
                 pass
             case ast.AnnAssign(target=target):
                 targets = [target]
-            case ast.ImportFrom(module=str(module), level=0) if module.partition(".")[0] in PACKAGES:
+            case ast.ImportFrom(module=str(module), level=0) if imported and module.partition(".")[0] in PACKAGES:
                 found |= _imported(module, {alias.asname or alias.name: alias.name for alias in statement.names})
                 continue
             case _:

@@ -6,8 +6,7 @@ import argparse
 from itertools import chain
 
 from comparisons.cli.options import JOBS, MODEL_SPEC, OUT, QUIET, file, numbers, option, several
-from comparisons.cli.run_screen import print_end
-from comparisons.cli.screen import output
+from comparisons.cli.screen import output, print_end
 from comparisons.console.exit_status import FAILED
 from comparisons.console.progress import log
 from comparisons.output.summaries import terminal_tables

@@ -6,8 +6,7 @@ import argparse
 from shlex import quote
 
 from comparisons.cli.options import JOBS, OUT, QUIET, VERBOSE, file, option, several
-from comparisons.cli.run_screen import print_end
-from comparisons.cli.screen import output, print_lines
+from comparisons.cli.screen import output, print_end, print_lines
 from comparisons.cli.verdict_screen import STATUS, print_verdicts
 from comparisons.console.progress import note
 from comparisons.output import summaries

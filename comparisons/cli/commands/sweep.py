@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 
 from comparisons.cli.options import JOBS, OUT, QUIET, file, option, several
-from comparisons.cli.run_screen import print_end
-from comparisons.cli.screen import output
+from comparisons.cli.screen import output, print_end
 from comparisons.output.summaries import sweep_tables
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.inputs import cases_of_problem

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["draw_comparison", "draw_plots", "figures_of"]
-
 #: Quantity, gradient exponent and models of the figure of errors, as in Fig. 16(b) of the paper.
 _QUANTITY, _K, _MODELS = "pull_off_force", 0.4, ("md-original", "md-improved")
 

@@ -14,8 +14,6 @@ from comparisons.output.report.leaderboard import Entry, standing
 from comparisons.output.report.page import Block, Page
 from comparisons.output.table import CASE, SHORT_PERCENT, Table, columns, percents, words
 
-__all__ = ["BoardEntry", "Submission", "board_page", "standings"]
-
 #: Regions of the cases, by the headings of their columns.
 _REGIONS: dict[str, Callable[[pd.DataFrame], pd.Series]] = {
     "μ ≤ 0.1": lambda kappa: kappa["mu"] <= 0.1,

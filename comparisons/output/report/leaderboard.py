@@ -16,8 +16,6 @@ from comparisons.output.report.stored_run import Stored
 from comparisons.output.table import CASE, Column, Table, columns, numbers, words
 from comparisons.runs.rows import Key
 
-__all__ = ["Entry", "case_sets", "leaderboard_html", "standing"]
-
 _BOUND = Column("bound (%)", lambda row: "" if pd.isna(row["u"]) else f"{100 * row['u']:.1e}", "u")
 _LAYOUT = (
     *columns("model", "quantity", "verdict", "largest |κ| (%)", *CASE, "rms κ (%)"),

@@ -23,8 +23,6 @@ from comparisons.output.verdicts import gates_sentence
 from comparisons.quantities import title_of
 from comparisons.runs.rows import CASE
 
-__all__ = ["Block", "File", "Page", "Section", "make_page", "texts"]
-
 
 class File(NamedTuple):
     """The text of a file."""

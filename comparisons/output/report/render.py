@@ -25,8 +25,6 @@ from comparisons.output.style import model_styles
 from comparisons.output.table import Table
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["render", "script_json"]
-
 #: Bokeh draws the plots: of the well-kept libraries that pip installs and that can draw a curve which turns
 #: back, zoom it and read it off, it is the smallest (1.4 MB, plotly.js 4.8 MB), and needs no `eval`.
 _BOKEH = ("server/static/js/bokeh.min.js", "server/static/js/bokeh-api.min.js")

@@ -24,8 +24,6 @@ from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
 from comparisons.runs.record import check_files, read_record, warn_of_other_code
 from comparisons.runs.rows import CASE, DIMENSIONLESS, Key
 
-__all__ = ["Stored", "read_folder"]
-
 #: Table -> its columns; seconds are in no file.  A folder of a sweep has no verdicts, and only that of a comparison has
 #: a comparison.
 _TABLES: dict[str, Sequence[str]] = {

@@ -28,8 +28,6 @@ from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, re
 from comparisons.paper.statements.paths import turning_points
 from comparisons.paper.tasks import GRADIENTS, curve, named_points, quantity
 
-__all__ = ["curves", "loop"]
-
 Range = tuple[float, float]
 
 #: Fig. 3: the case, and the ranges of the axes: the approach continues beyond them.

@@ -15,8 +15,6 @@ from comparisons.paper.drawing import LABELS, by_model, held, legend_below, leve
 from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, rows_of, together
 from comparisons.paper.tasks import SHAPES, TRACTION
 
-__all__ = ["RATIOS", "dugdale", "kernel_functions"]
-
 #: Gradient exponents; at k = 1, the Gibson limit, both functions are steps at s = 1.
 _GRADIENTS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 _FARTHEST = 3.0

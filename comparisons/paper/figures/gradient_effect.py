@@ -14,8 +14,6 @@ from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, re
 from comparisons.paper.tasks import SHAPES
 from comparisons.problem import Problem
 
-__all__ = ["LAST_K", "chi", "insensitive_regions", "largest_chi"]
-
 #: Last gradient exponent with which the search gives all eight numbers of Fig. 11 with the printed digits; the paper
 #: does not state it.  Three of which the end of the second region is shown, and that end as it is printed.
 LAST_K = 0.999

@@ -15,8 +15,6 @@ from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, re
 from comparisons.paper.statements.measures import named, table_of_terms
 from comparisons.paper.tasks import GRADIENTS, SHAPES, jumps, near_critical, quantity, values_of
 
-__all__ = ["TABOR_NUMBERS", "asymptotes", "coefficients"]
-
 _N, _K = 2.0, 0.4
 #: Above the critical Tabor numbers, which are between 0.69 and 0.79.
 TABOR_NUMBERS = (0.85, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0)

@@ -20,8 +20,6 @@ from comparisons.paper.drawing import LABELS, by_model, dashed, held, label_of, 
 from comparisons.paper.paper_figure import Plan, Tables, paper_figure, together
 from comparisons.paper.tasks import GRADIENTS, values_of
 
-__all__ = ["TABOR_NUMBERS", "by_limit"]
-
 #: Range of the pull-off force of each panel of Fig. 10, by shape index: a panel spans less than two decades.
 _SHAPES = {1.0: (2.0, 80.0), 1.5: (1.5, 7.0), 2.0: (1.45, 2.05), 5.0: (0.25, 2.2)}
 _TRANSITION = (0.01, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)

@@ -7,8 +7,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
-__all__ = ["Evidence", "Number", "by_clause", "clauses", "flips", "verdict"]
-
 T = TypeVar("T")
 K = TypeVar("K")
 

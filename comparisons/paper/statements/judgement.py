@@ -25,8 +25,6 @@ from comparisons.paper.statements.evidence import (
 )
 from comparisons.paper.statements.kinds import comparisons_of
 
-__all__ = ["decisive", "judged", "paper_statements"]
-
 _TITLE = "Statements of the paper, judged"
 _NOTES = (
     "Statements in words of our own. True: every comparison holds by more than the sum of the bounds; false: none of "

@@ -12,8 +12,6 @@ from comparisons.paper.paper_figure import Plan, together
 from comparisons.paper.statements.evidence import READING, Evidence, Number, grouped
 from comparisons.paper.statements.measures import Case, is_refused, label, measured, model_of
 
-__all__ = ["comparisons_of", "extrapolated", "vanishes"]
-
 Test = Mapping[str, Any]
 #: Parameters of a case; s is the distance from s = 1 of a ratio of radii.
 _PARAMETERS = ("n", "k", "mu", "s")

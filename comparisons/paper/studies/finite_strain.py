@@ -23,8 +23,6 @@ from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, ro
 from comparisons.paper.tasks import quantity
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["MODELS", "force_of_a_ball", "meeting_points"]
-
 #: Models of a paraboloid on a linear solid.
 MODELS = ("fscm", "md-improved", "jkr")
 _SOFTNESS = tuple(float(f"{softness:.3g}") for softness in np.geomspace(1e-5, 0.1, 17))

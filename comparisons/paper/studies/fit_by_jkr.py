@@ -24,8 +24,6 @@ from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, ro
 from comparisons.problem import Problem, Section
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["fitted_by_jkr", "sphere_of_tabor_number"]
-
 _GRADIENTS = (0.0, 0.4)
 #: Largest load of a curve, in units of the pull-off force.
 _LARGEST_LOADS = (1.0, 10.0)

@@ -27,8 +27,6 @@ from comparisons.paper.values.tabor_curve import TaborCurve, largest_error, tabo
 from comparisons.problem import Problem
 from fscm.laws import LennardJones
 
-__all__ = ["COMPUTED", "Computed", "cohesive_forces", "first_or_last_step", "judged", "paper_values"]
-
 _K = 0.4
 #: Rounding of chi in percent, and of the ends of its regions, which are roots to 1e-10.
 _CHI_ROUNDING, _REGION_ROUNDING = 1e-11, 1e-9

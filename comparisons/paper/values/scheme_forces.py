@@ -16,8 +16,6 @@ from comparisons.model import ComputationFailed
 from fscm.solution import State
 from fscm.stieltjes import StieltjesScheme, StieltjesState
 
-__all__ = ["HEIGHT", "SEGMENTS", "exact_force", "scheme_force"]
-
 #: f(r_max) of the paper, and the segments of its mesh.
 HEIGHT, SEGMENTS = 50.0, 2500
 

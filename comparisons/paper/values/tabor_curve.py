@@ -8,8 +8,6 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-__all__ = ["RANGE", "Extreme", "TaborCurve", "largest_error", "tabor_numbers"]
-
 Array = NDArray[np.float64]
 
 #: The paper shows mu from 0.01 to a few; beyond 10 the differences vanish.
