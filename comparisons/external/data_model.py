@@ -111,11 +111,12 @@ def _manifest(folder: Path) -> dict[str, Any]:
         known_name("quantity", quantity, QUANTITIES, f"{MANIFEST}: [[covers]]")
     if manifest["units"].keys() != quantities:
         raise ValueError(f"{MANIFEST}: [units] must have exactly {', '.join(sorted(quantities))}")
-    forms = {frozenset(table) - {"quantities", "vary"} for table in manifest["covers"]}
-    if forms not in ({frozenset(_NUMBERS)}, {frozenset(_PROBLEM)}):
+    forms = {frozenset(table) - {"quantities"} for table in manifest["covers"]}
+    of_files = all(form - {"vary"} == {*_PROBLEM} for form in forms)
+    if not of_files and forms != {frozenset(_NUMBERS)}:
         raise ValueError(f"{MANIFEST}: each [[covers]] has n, k and mu, or each has problem and perhaps vary")
     for name, unit in manifest["units"].items():
-        compared = QUANTITIES[name].si_unit if frozenset(_PROBLEM) in forms else QUANTITIES[name].unit
+        compared = QUANTITIES[name].si_unit if of_files else QUANTITIES[name].unit
         if unit != compared:
             raise ValueError(
                 f'{MANIFEST}: {name} has the unit "{unit}" but is compared in "{compared}": state the values in that'

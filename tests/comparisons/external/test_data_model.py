@@ -97,6 +97,7 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
         ({"rows": with_row('"pull_off_force,2,0,1,1.6,0')}, "predictions.csv, line"),
         ({"header": "quantity,k,n,mu,value,u_num"}, "the first line must be"),
         ({"change": {"n = [2]": 'problem = "pad.toml"'}}, "n, k and mu"),
+        ({"change": {"n = [2]": 'n = [2]\nvary = { "solid.nu" = [0.3] }'}}, "n, k and mu"),
         (
             {"change": {CASES: f'problem = "pad.toml"\n[[covers]]\nquantities = ["pull_off_force"]\n{CASES}'}},
             "n, k and mu",
