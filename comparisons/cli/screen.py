@@ -11,7 +11,6 @@ from comparisons.console.exit_status import FAILED, OK, writing_stdout
 from comparisons.console.printable import printable
 from comparisons.console.progress import log, note
 from comparisons.console.safe_console import SafeConsole
-from comparisons.output.summaries import failure_lines
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.rows import Row
 
@@ -45,6 +44,9 @@ def write_page(text: str, path: Path, name: str) -> None:
 
 def print_end(failures: Sequence[Row], folder: Path, files: str = "results are") -> int:
     """Print the first failures and where the files are; return the exit status without gates."""
+    # Imported here: what prints no table does not need its library.
+    from comparisons.output.summaries import failure_lines
+
     for line in failure_lines(failures):
         log(line)
     note(f"{files} in {folder}")

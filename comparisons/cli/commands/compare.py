@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from itertools import chain
 
 from comparisons.cli.options import JOBS, MODEL_SPEC, OUT, QUIET, file, numbers, option, several
 from comparisons.cli.screen import output, print_end
@@ -46,7 +45,7 @@ def call(args: argparse.Namespace) -> int:
     if args.grid is not None and args.quantity is not None:
         raise ValueError("--grid states the quantities; leave out --quantity")
     finished = compare(
-        [*args.models, *chain(args.model or ())],
+        [*args.models, *(args.model or ())],
         args.grid,
         n=args.n,
         k=args.k,

@@ -19,7 +19,7 @@ EXAMPLES = (
 
 OPTIONS = (
     file("file", nargs="?", help="[[grid]] tables as in comparisons/data/cases.toml, without a tier"),
-    file("--problem", help="in place of these: a problem file, whose keys are varied; in SI"),
+    file("--problem", help="in place of these: a problem file, whose keys may be varied; in SI"),
     option(
         "--vary",
         metavar="KEY=VALUES",
@@ -50,7 +50,7 @@ def call(args: argparse.Namespace) -> int:
     if args.problem is not None:
         models = args.model or ["fscm"]
         names, _ = identify(models)
-        cases = cases_of_problem(args.problem, args.vary, names, args.quantity or ["pull_off_force"])
+        cases = cases_of_problem(args.problem, args.vary or [], names, args.quantity or ["pull_off_force"])
     finished = run(
         cases,
         models=models,
@@ -64,12 +64,10 @@ def call(args: argparse.Namespace) -> int:
 def _require_one_form(args: argparse.Namespace) -> None:
     """Refuse options of both forms of the command, or of none."""
     if (args.file is None) == (args.problem is None):
-        raise ValueError("a sweep is of one file: FILE with [[grid]] tables, or --problem FILE with --vary KEY=VALUES")
+        raise ValueError("a sweep is of one file: FILE with [[grid]] tables, or --problem FILE")
     if args.problem is None and (args.vary or args.quantity):
         name = "--vary" if args.vary else "--quantity"
         raise ValueError(f"{name} is for --problem FILE; the [[grid]] tables state their cases and quantities")
-    if args.problem is not None and not args.vary:
-        raise ValueError("--problem needs --vary KEY=VALUES; fscm-bench solve --problem computes a single problem")
 
 
 def show(finished: FinishedRun, *, with_summary: bool) -> int:

@@ -37,6 +37,9 @@ def test_every_combination_by_every_model(tmp_path, capsys):
     assert sorted(set(table["law.work_of_adhesion [J/m^2]"])) == [0.02, 0.04, 0.06]
     lines = capsys.readouterr().out.splitlines()
     assert lines[3].split() == ["1", "µm", "20", "mJ/m^2", "bradley", "125.6637061435920(16)", "nN"]
+    # The file as it is.
+    assert sweep(tmp_path / "one", "--model", "bradley", "jkr", vary=()) == 0
+    assert set(read_table(tmp_path / "one" / "results.csv")["problem"]) == {PAD.name}
 
 
 @pytest.mark.parametrize(
@@ -56,7 +59,6 @@ def test_a_bad_key_gives_one_sentence(text, words, refused):
 
 
 def test_bad_combinations_of_options(refused):
-    refused(command("never", vary=()), "needs --vary")
     for options, words in (
         (["--vary", "punch.R=3 um"], "is there twice"),
         (["--quantity", "force"], "unknown quantity 'force'"),
