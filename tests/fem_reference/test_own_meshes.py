@@ -1,13 +1,18 @@
-"""Meshes of their own for the events that the mesh of another event leaves uncertain."""
+"""Meshes along a path: completeness, small spots and narrow edges, and meshes of their own for uncertain events."""
 
+import math
 from dataclasses import replace
 from functools import partial
+from itertools import pairwise
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
+from numpy.polynomial import Polynomial
 
 import fem_reference.solution as solution_module
 from fem_reference import (
+    CustomPunch,
     Exponential,
     LennardJones,
     NotConverged,
@@ -18,8 +23,15 @@ from fem_reference import (
     solve,
     solve_together,
 )
+from fem_reference._contact import completeness
+from fem_reference._contact.completeness import complete_path, displacement_range
+from fem_reference._contact.events import PathEvents
+from fem_reference._contact.mesh_choice import MeshChoice, chosen
+from fem_reference._elastic.mesh import graded_grid
+from fem_reference.accuracy import level_for
 from fem_reference.quantities import TABLE
-from tests.fem_reference.solved_together import sphere_on
+from tests.fem_reference.analytic_branch import AnalyticBranch
+from tests.fem_reference.solved_together import problem_with, sphere_on
 
 FORCE, JUMP_IN, JUMP_OUT = NAMES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
 ROWS = {name: TABLE[name] for name in NAMES}
@@ -79,3 +91,105 @@ def test_the_jumps_of_a_cone_are_as_certain_together_as_alone():
     assert all(together[name].u_num <= 1e-4 * abs(together[name].value) for name in NAMES)
     alone = solve(CONE, JUMP_OUT, "quick")
     assert abs(alone.value - together[JUMP_OUT].value) <= alone.parts["algebra"] + together[JUMP_OUT].parts["algebra"]
+
+
+#: The edge is 1e-10 of its radius wide.
+UNRESOLVED = problem_with(0.8778961468202925, 5.103826446508255, 1.8234594621046147, 0.3894883306671959)
+
+#: At k = 0, mu = 3, by the integral equation; all digits shown.
+CONE_JUMP_OUT_GAP = -0.03186462
+
+
+def test_an_edge_that_no_mesh_resolves_is_refused():
+    with pytest.raises(NotConverged, match="of its radius, and the smallest that are meshed"):
+        solve(UNRESOLVED, "pull_off_force", "quick")
+
+
+def test_far_elements_have_a_share_of_the_density():
+    plain, finer = (graded_grid(1.0, 0.01, 0.01, 1000.0, 1.2, 0.05, far_share=share).r for share in (1.0, 0.5))
+    assert np.array_equal(graded_grid(1.0, 0.01, 0.01, 1000.0, 1.2, 0.05).r, plain)
+    far = finer[finer >= 2.0 * (1.0 - 1e-12)]
+    assert np.max(far[1:] / far[:-1]) <= math.exp(0.6) * (1.0 + 1e-12) < np.max(plain[-5:] / plain[-6:-1])
+    assert (finer[0], finer[-1]) == (0.0, 1000.0)
+    assert 1.0 in finer
+    for share in (0.0, 1.5):
+        with pytest.raises(ValueError, match="share of the density"):
+            graded_grid(far_share=share)
+
+
+@pytest.mark.heavy
+def test_an_edge_that_does_not_settle_is_searched_with_a_mesh_for_each_radius():
+    """A flat end whose edge has the curvature radius 1: the deepest load was elsewhere on each mesh."""
+
+    def outside(r):
+        return np.maximum(r - 0.05, 0.0)
+
+    punch = CustomPunch(lambda r: outside(r) ** 2 / 2.0, 2.0, outside, kinks=(0.05,))
+    problem = Problem(PowerLaw(1.0, 1.0, 0.3, 0.3), punch, LennardJones(0.0005, 0.004))
+    choice, spec, size = MeshChoice(problem, level_for("quick")).adapted(("pull_off",))
+    assert choice.event == "pull_off"
+    assert spec.edge_width > 1e-3
+    finest = choice.traced(spec, size)
+    assert finest.at("pull_off").edge_radius == pytest.approx(size, rel=0.01)
+    assert finest.at("pull_off").state.load == pytest.approx(-3.7757154e-3, rel=1e-5)
+
+
+def test_the_gap_under_the_tip_of_a_cone_is_certain():
+    """The pressure is singular there: with elements at the tip like those of a sphere the bound was 9 % of the gap."""
+    gap = solve(problem_with(0.0, 3.0, n=1.0), "jump_out_gap", "quick")
+    assert gap.u_num <= 1e-3 * abs(gap.value)
+    assert gap.value == pytest.approx(CONE_JUMP_OUT_GAP, abs=gap.u_num)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.013, 0.4])
+def test_a_hidden_pair_of_turning_points_is_found(shift):
+    """A fall over 0.1 of the parameter, in samples 0.8 apart between which the function rises."""
+    turns = np.array([shift - 0.05, shift + 0.05])
+    slope = Polynomial.fromroots(turns) * Polynomial([1.0, 0.1, 0.02])
+    branch = AnalyticBranch(slope.integ(), [0.0, 1.0])
+    points = branch.points(np.arange(-2.2, 2.3, 0.8))
+    assert all(point.displacement_rate > 0 for point in points)
+    complete = complete_path(points)
+    changes = [
+        (a.parameter, b.parameter) for a, b in pairwise(complete) if a.displacement_rate * b.displacement_rate < 0
+    ]
+    assert len(changes) == 2
+    for (low, high), turn in zip(changes, turns, strict=True):
+        assert low <= turn <= high
+
+
+def test_a_path_that_stays_undecided_is_refused(monkeypatch):
+    slope = Polynomial.fromroots([0.0, 1e-3]) * Polynomial([1.0, 0.1, 0.02])
+    points = AnalyticBranch(slope.integ(), [0.0, 1.0]).points(np.arange(-2.2, 2.3, 0.8))
+    assert len(complete_path(points)) > len(points)
+    monkeypatch.setattr(completeness, "ROUNDS", 1)
+    with pytest.raises(NotConverged, match="pair of turning points"):
+        complete_path(points)
+
+
+def test_a_path_that_turns_back_between_the_branches_is_refused():
+    approach = AnalyticBranch(Polynomial([0.0, -1.0]), [0.0, -1.0], touching=False).points([3.0, 2.0, 1.0])
+    touching = AnalyticBranch(Polynomial([-1.0, -1.0]), [-1.0, -1.0]).points([0.0, 1.0, 2.0])
+    with pytest.raises(NotConverged, match="turns back"):
+        complete_path([*approach, *touching])
+
+
+def test_the_range_includes_turning_points_between_samples():
+    low, high = displacement_range(
+        AnalyticBranch(Polynomial([0.0, -1.0, 0.0, 1.0]), [0.0, 1.0]).points([-1.0, 0.0, 1.0])
+    )
+    assert (low, high) == pytest.approx((-2 / 27**0.5, 2 / 27**0.5))
+
+
+def test_a_level_reached_only_at_a_turning_point_between_samples_counts():
+    """The load falls below zero and rises again between two samples with compression."""
+    branch = AnalyticBranch(Polynomial([0.0, 1.0]), Polynomial.fromroots([-3.0, 0.2, 0.3]).coef)
+    events = PathEvents(branch.points([-4.0, -2.0, -1.0, 0.0, 0.5, 1.0, 2.0]))
+    assert events.zero_load.parameter == pytest.approx(0.3)
+
+
+def test_the_path_begins_beyond_the_jump_out_of_contact():
+    """The jump out of a soft solid ends at a distance of 13 lengths of the law; on the coarsest mesh alone."""
+    choice, spec, size = chosen(problem_with(0.0, 8.0), ("zero_load",), "quick")
+    points = choice.search_path(spec, size).points
+    assert points[0].state.displacement < min(p.state.displacement for p in points if p.branch.touching) < -12.0

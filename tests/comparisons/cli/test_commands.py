@@ -1,0 +1,96 @@
+"""Help and the name of the program; the commands `cite` and `fem`."""
+
+import re
+import shlex
+import subprocess
+import sys
+from functools import partial
+
+import meshio
+import numpy as np
+import pytest
+
+import fem_reference
+from comparisons import compare
+from comparisons.cli.main import _COMMANDS, _parser, main
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    path = tmp_path_factory.mktemp("cite") / "comparison"
+    compare(["jkr", "bradley"], n=[2], k=[0.0], mu=[1.0], reference="atlas", folder=path, jobs=1)
+    return path
+
+
+def test_a_comparison_is_cited_with_its_models_and_its_reference(folder, capsys):
+    assert main(["cite", str(folder)]) == 0
+    paragraph = capsys.readouterr().out.splitlines()[0]
+    assert all(name in paragraph for name in ("bradley (version 1)", "jkr (version 1)", "atlas (version "))
+    assert main(["cite", "--format", "bibtex", str(folder)]) == 0
+    assert "@misc{model-jkr," in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("form", ["text", "bibtex"])
+def test_without_a_folder_it_has_the_commit_that_the_version_has(form, capsys):
+    assert main(["--version"]) == 0
+    version = capsys.readouterr().out.strip().removeprefix("fscm-bench ")
+    assert main(["cite", "--format", form]) == 0
+    assert f"version {version}" in capsys.readouterr().out
+
+
+def test_a_changed_table_is_refused(folder, refused):
+    (folder / "results.csv").write_text("model\n")
+    refused(["cite", folder], "results.csv")
+
+
+CASE = ["fem", "--n", "2", "--k", "0.4", "--mu", "0.5"]
+
+
+def test_fields_for_paraview(tmp_path, monkeypatch):
+    """The vtu holds the strength of the law as surface stress, in dimensionless units, and a picture is drawn.
+
+    On the coarsest meshes, which have it to five digits.
+    """
+    monkeypatch.setattr(fem_reference, "event_state", partial(fem_reference.event_state, accuracy="quick"))
+    vtu, picture = tmp_path / "body.vtu", tmp_path / "body.png"
+    assert main([*CASE, "--vtu", str(vtu), "--plot", str(picture)]) == 0
+    mesh = meshio.read(vtu)
+    assert set(mesh.point_data) >= {"displacement", "modulus", "von_mises", "sigma_zz"}
+    surface = np.abs(mesh.points[:, 1]) < 1e-6
+    # Tension at the surface is at most the theoretical strength 16 sqrt(3) / 27, and reaches it at pull-off.
+    assert mesh.point_data["sigma_zz"][surface].max() == pytest.approx(1.0264, abs=5e-3)
+    assert mesh.points[:, 1].max() <= 0.0
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["fem"], "nothing to do"),
+        (["fem", "--vtu", "x.vtu", "--n", "2"], "--k, --mu"),
+        ([*CASE, "--vtu", "x.vtk"], "vtu"),
+        ([*CASE, "--plot", "x.png", "--nu", "0.5"], "nu"),
+        (["fem", "--n", "-1", "--k", "0", "--mu", "1", "--plot", "x.png"], "n = -1"),
+    ],
+)
+def test_bad_input_is_one_sentence(arguments, message, refused, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    refused(arguments, message)
+
+
+@pytest.mark.parametrize("command", ["", *_COMMANDS])
+def test_help_has_examples_that_are_admissible(capsys, command):
+    assert main([command, "--help"] if command else ["--help"]) == 0
+    examples = re.findall(r"^  (fscm-bench .*)", capsys.readouterr().out.partition("\nexample")[2], re.MULTILINE)
+    assert examples
+    for words in map(shlex.split, examples):
+        if "COMMAND" not in words:
+            assert words[1] == command or not command
+            _parser(words[1:2]).parse_args(words[1:])
+
+
+def test_python_m_comparisons_calls_itself_so():
+    for arguments, status in (["dance"], 2), (["list", "-h"], 0):
+        done = subprocess.run([sys.executable, "-m", "comparisons", *arguments], capture_output=True, text=True)
+        assert done.returncode == status
+        assert "python -m comparisons" in done.stdout + done.stderr
