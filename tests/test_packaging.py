@@ -1,6 +1,5 @@
 """Packaging: declared dependencies, a complete source distribution, and a wheel that works outside a clone."""
 
-import ast
 import re
 import runpy
 import shutil
@@ -9,7 +8,6 @@ import sys
 import tarfile
 import tomllib
 import zipfile
-from collections.abc import Iterator
 from fnmatch import fnmatch
 from importlib.metadata import packages_distributions
 from pathlib import Path
@@ -18,9 +16,9 @@ import pytest
 import yaml
 
 from comparisons.runs.environment import NOT_INSTALLED, code_digest
+from tests.test_independence import PACKAGES, imported
 
 ROOT = Path(__file__).resolve().parent.parent
-PACKAGES = ("fscm", "fem_reference", "comparisons")
 CONFIGURATION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = CONFIGURATION["project"]
 RUNTIME, EXTRAS = PROJECT["dependencies"], PROJECT["optional-dependencies"]
@@ -30,8 +28,6 @@ FOR_BUILD = CONFIGURATION["build-system"]["requires"]
 
 #: Files that the build adds.
 BUILT = ("PKG-INFO", "setup.cfg", "*.egg-info/*")
-#: Functions whose first argument is the name of a module.
-BY_NAME = {"files", "import_module", "importorskip", "_script"}
 
 
 def canonical(requirement: str) -> str:
@@ -39,22 +35,11 @@ def canonical(requirement: str) -> str:
     return re.sub(r"[-_.]+", "-", re.split(r"[^A-Za-z0-9._-]", requirement, maxsplit=1)[0]).lower()
 
 
-def roots(source: str) -> Iterator[str]:
-    """The first part of the name of every module that is imported, also by a call such as `import_module("...")`."""
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.Import):
-            yield from (alias.name.partition(".")[0] for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
-            yield node.module.partition(".")[0]
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in BY_NAME:
-            yield from (str(name.value).partition(".")[0] for name in node.args[:1] if isinstance(name, ast.Constant))
-
-
 def external(*folders: str) -> set[str]:
     """The distributions from which the modules of some folders import."""
     sources = [path.read_text(encoding="utf-8") for folder in folders for path in (ROOT / folder).rglob("*.py")]
-    names = {root for source in sources for root in roots(source)} - sys.stdlib_module_names
-    names -= {*PACKAGES, "__main__", "fscm_bench"}
+    names = {name.partition(".")[0] for source in sources for name in imported("", source)} - sys.stdlib_module_names
+    names -= {*PACKAGES, "__main__", "fscm_bench", ""}
     installed = packages_distributions()
     return {canonical(installed.get(name, [name])[0]) for name in names}
 

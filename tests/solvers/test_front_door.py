@@ -65,11 +65,8 @@ def test_what_is_no_real_number_is_named(number):
 
 
 def test_a_fraction_is_a_real_number():
-    number = fscm.Problem(Fraction(2), Fraction(2, 5), 1)
-    assert fscm.solve(number, "pull_off_force", "quick").value == fscm.solve(FSCM, "pull_off_force", "quick").value
-    solid = fem_reference.Homogeneous(Fraction(50), 0.3)
-    exact = fem_reference.solve(fem_reference.Problem(solid, FEM.punch, FEM.law), "pull_off_force", "quick")
-    assert exact.value == fem_reference.solve(FEM, "pull_off_force", "quick").value
+    assert fscm.Problem(Fraction(2), Fraction(2, 5), 1) == FSCM
+    assert fem_reference.Homogeneous(Fraction(50), 0.3) == FEM.solid
 
 
 def test_a_row_is_a_number_with_its_unit():

@@ -1,6 +1,7 @@
 """Both references have the same names with the same arguments for solids, punches and laws; both solve layers."""
 
 import inspect
+import math
 
 import numpy as np
 import pytest
@@ -43,15 +44,31 @@ def test_the_constants_of_layers_are_those_of_their_depth(package):
 
 
 @pytest.mark.parametrize("package", [fscm, fem_reference])
-def test_impossible_layers_are_refused(package):
-    for E, nu, thickness, words in (
-        ([1.0], [0.3], [], "one entry more"),
-        ([1.0, 2.0], [0.3], [1.0], "one entry more"),
-        ([1.0, 2.0, 3.0], [0.3, 0.3], [1.0], "one entry more"),
-        ([1.0, -2.0], [0.3, 0.3], [1.0], r"E\[1\] = -2"),
-        ([1.0, 2.0], [0.3, 0.3], [0.0], r"thickness\[0\] = 0"),
-        ([1.0, 2.0], [0.3, 0.6], [1.0], "0.6"),
-        (1.0, [0.3, 0.3], [1.0], "sequence"),
+def test_impossible_solids_are_refused(package):
+    for name, arguments, words in (
+        ("OffsetPowerLaw", (1.0, 1.0, 1.0, 1.0, 0.3), r"k = 1.0 is outside \[0, 1\)"),
+        ("OffsetPowerLaw", (1.0, 1.0, 0.4, 0.0, 0.3), r"z_s = 0.0 is outside \(0, inf"),
+        ("Exponential", (-1.0, 1.0, 1.0, 0.3), r"E_surface = -1.0 is outside \(0, inf"),
+        ("Exponential", (1.0, -1.0, 1.0, 0.3), "E_depth = -1.0"),
+        ("Exponential", (1.0, 1.0, math.nan, 0.3), "length = nan"),
+        ("Coating", (1.0, 0.0, 1.0, 0.0, 0.3), "E_substrate = 0.0 is outside"),
+        ("Coating", (1.0, 1.0, 1.0, -1.0, 0.3), r"transition = -1.0 is outside \[0, inf"),
+        ("Coating", (1.0, 1.0, 1.0, 0.0, 0.6), r"nu\w* = 0.6 is outside \[0, 0.5"),
+        ("TabulatedModulus", ([0.0], [1.0], 0.3), "no table"),
+        ("TabulatedModulus", ([0.0, 2.0, 1.0], [1.0, 1.0, 1.0], 0.3), "depth.* 1 .*is not above"),
+        ("TabulatedModulus", ([-1.0, 1.0], [1.0, 2.0], 0.3), "depth.* -1.* is outside"),
+        ("TabulatedModulus", ([0.0, 1.0], [1.0, math.nan], 0.3), "nan"),
+        ("TabulatedModulus", ([0.0, 1.0], [1.0, 0.0], 0.3), "modul.* 0.* is outside"),
+        ("TabulatedModulus", ("ab", [1.0, 2.0], 0.3), "number"),
+        ("CustomSolid", (lambda z: 1 - z, 0.3, 1.0), r"modulus .*outside \(0, inf"),
+        ("CustomSolid", (lambda z: 1.0, 0.3, 1.0), "shape"),
+        ("Layers", ([1.0], [0.3], []), "one entry more"),
+        ("Layers", ([1.0, 2.0], [0.3], [1.0]), "one entry more"),
+        ("Layers", ([1.0, 2.0, 3.0], [0.3, 0.3], [1.0]), "one entry more"),
+        ("Layers", ([1.0, -2.0], [0.3, 0.3], [1.0]), r"E\[1\] = -2"),
+        ("Layers", ([1.0, 2.0], [0.3, 0.3], [0.0]), r"thickness\[0\] = 0"),
+        ("Layers", ([1.0, 2.0], [0.3, 0.6], [1.0]), "0.6"),
+        ("Layers", (1.0, [0.3, 0.3], [1.0]), "sequence"),
     ):
         with pytest.raises(ValueError, match=words):
-            package.Layers(E, nu, thickness)
+            getattr(package, name)(*arguments)
