@@ -10,7 +10,7 @@ import pandas as pd
 
 from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, file, option, problem_of, several
 from comparisons.console.exit_status import FAILED, OK
-from comparisons.console.progress import log, waiting
+from comparisons.console.progress import log, note, waiting
 from comparisons.model import ComputationFailed, Model, NotApplicable
 from comparisons.output import plots
 from comparisons.output.figures.of_run import draw_plots
@@ -63,6 +63,8 @@ def call(args: argparse.Namespace) -> int:
         save(draw_plots([plots.curve(quantity, rows)]), args.plot)
     if to_stdout:
         print(csv_text(table), end="")
+    for path in filter(None, (file_of_points, args.plot)):
+        note(f"the curve is in {path}")
     return status
 
 

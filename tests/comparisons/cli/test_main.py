@@ -163,7 +163,8 @@ def test_curve_writes_and_draws_the_surface_at_pull_off(tmp_path, capsys, quanti
     files = ["--csv", str(points), "--plot", str(picture)]
     assert main(["curve", "--model", "fscm", "jkr", "--quantity", quantity, *case, *files]) == 0
     captured = capsys.readouterr()
-    assert (captured.out, "jkr: not-applicable" in captured.err) == ("", True)
+    assert captured.out == ""
+    assert [words for words in ("jkr: not-applicable", *files[1::2]) if words not in captured.err] == []
     # Numbers as texts first: the parser of pandas 2 loses the last bit.
     table = pd.read_csv(points, dtype=str).astype({"radius": float, y: float})
     assert list(table) == ["model", "radius", y]
