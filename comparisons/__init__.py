@@ -29,7 +29,7 @@ _EXPORTS = {
     "create": "comparisons.registry",
     "Problem": "comparisons.problem",
     "evaluate": "comparisons.runs.tasks",
-    "errors": "comparisons.pipeline.errors",
+    "errors": "comparisons.pipeline.compare",
     "compare": "comparisons.pipeline.compare",
     "fit": "comparisons.fitting.fit",
     "run": "comparisons.pipeline.run",

@@ -44,7 +44,6 @@ ALLOWED = {
     "comparisons.models.fscm_model": ("fscm",),
     "comparisons.models.gibson_limit": ("fscm",),
     "comparisons.models.fem_model": ("fem_reference", "fscm.problem", "fscm.punch", "fscm.laws"),
-    "comparisons.models.large_strain_model": ("fem_reference",),
 }
 
 #: First layer to last: the modules and folders of each package.  A module imports from its own layer and those before.

@@ -1,4 +1,4 @@
-"""Function that compares models with a reference in cases of one's own: one table, one figure, a run folder."""
+"""Functions that compare models with a reference: a run folder with one table and one figure, or errors alone."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from comparisons.data.file_names import COMPARISON, RECORD
-from comparisons.output.errors import comparison_table, error_summary
+from comparisons.model import Model
+from comparisons.output.errors import comparison_table, error_summary, relative_error
 from comparisons.output.figures.of_run import draw_comparison
 from comparisons.output.latex import UPRIGHT_WIDTH, latex
 from comparisons.output.markup import html_table
@@ -18,11 +19,14 @@ from comparisons.output.style import save
 from comparisons.output.summaries import case_tables, side_by_side, summary_tables
 from comparisons.pipeline.inputs import Cases, grid_text, load_cases
 from comparisons.pipeline.run import run
-from comparisons.quantities import CURVES
-from comparisons.registry import COMPARABLE
+from comparisons.problem import Problem
+from comparisons.quantities import CURVES, QUANTITIES
+from comparisons.registry import COMPARABLE, create
 from comparisons.runs.csv_format import write_table
+from comparisons.runs.frames import frame
 from comparisons.runs.record import read_record, write_record
 from comparisons.runs.rows import Row
+from comparisons.runs.tasks import evaluate
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -182,3 +186,44 @@ def _check(cases: Cases, specs: Sequence[str]) -> None:
             raise ValueError(
                 f"{grid.reference} is the reference of the grid {grid.id}: name a model to compare with it"
             )
+
+
+def errors(
+    models: Iterable[Model | str], cases: Iterable[Problem], quantity: str = "pull_off_force", reference: str = "fscm"
+) -> pd.DataFrame:
+    """Return kappa = (model - reference) / abs(reference) of every model in every case, with its uncertainty.
+
+    Parameters
+    ----------
+    models : iterable of Model or str
+        Models, or the names of models; the reference may be one of them.
+    cases : iterable of Problem
+    quantity : str
+        A key of `comparisons.quantities.QUANTITIES`.
+    reference : str
+        The name of the model that the others are compared with.
+
+    Returns
+    -------
+    DataFrame
+        As `comparisons.output.errors.relative_error`: one row for each model and case where both have a value.
+
+    Raises
+    ------
+    ValueError
+        If a model, a case or the quantity is not admissible.
+
+    Examples
+    --------
+    >>> table = errors(["jkr"], [Problem.dimensionless(n=2, k=0, mu=1)], reference="bradley")
+    >>> table["kappa"].round(6).tolist()
+    [-0.25]
+    """
+    if quantity not in QUANTITIES:
+        raise ValueError(f"unknown quantity {quantity!r}; the quantities are {', '.join(QUANTITIES)}")
+    created = [create(model) if isinstance(model, str) else model for model in models]
+    by_name = {model.name: model for model in created}
+    if reference not in by_name:
+        by_name[reference] = create(reference)
+    rows = [evaluate(model, quantity, case) for case in cases for model in by_name.values()]
+    return relative_error(frame(rows), reference)

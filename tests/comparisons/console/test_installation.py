@@ -1,13 +1,17 @@
-"""Start of the program: another package of the same name, and extras that are not installed."""
+"""Start of the program and its messages: another package of its name, extras that are missing, bars on a terminal."""
 
 import os
 import subprocess
 import sys
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
+from comparisons.cli.screen import output, print_lines
 from comparisons.console.exit_status import EXTRAS, WRONG_INPUT
+from comparisons.console.progress import counting, log, note
+from comparisons.output.terminal import rich_table
 from tests.comparisons.grid_text import grid_text
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -59,3 +63,24 @@ def test_only_plots_of_a_report_need_the_extra(command):
     program = f"{refused}from comparisons.__main__ import main; sys.exit(main())"
     command = [sys.executable, "-c", program, *command.split()]
     assert subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL).returncode == 0
+
+
+def print_table(text):
+    output().print(rich_table(pd.DataFrame({"reason": [text]}), text))
+
+
+@pytest.mark.parametrize(
+    "write", [log, note, print_table, lambda text: output().print(text), lambda text: print_lines([text])]
+)
+def test_control_characters_do_not_reach_the_terminal(write, capsys):
+    write("fails: \x1b[2J\x1b]0;title\x07 \x9b2K \u202e [red]plain[/] \r gone")
+    printed = "".join(capsys.readouterr())
+    assert "fails" in printed
+    assert "[red]plain[/]" in printed
+    assert [character for character in printed if not character.isprintable() and character != "\n"] == []
+
+
+def test_counting_works_without_a_terminal(capsys):
+    with counting("computing", 1) as advance:
+        advance()
+    assert capsys.readouterr().err == ""

@@ -9,7 +9,7 @@ import pytest
 import fem_reference
 from comparisons.cli.main import main
 from comparisons.description.strain_errors import ball_on
-from comparisons.models.large_strain_model import LargeStrain
+from comparisons.models.fem_model import LargeStrain
 from comparisons.numerics.curve_distance import curve_distance
 
 GEL = ball_on(5e-3, 2.0, 0.3)

@@ -1,0 +1,81 @@
+"""Tables of data: columns, numbers printed in the paper, and the cases that its statements are about."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from comparisons.data.columns import column
+from comparisons.data.paper_statements import PaperStatement
+from comparisons.data.paper_values import PaperValue
+
+
+@pytest.mark.parametrize(
+    ("computed", "u", "verdict"),
+    [(8 / 3, 0.0, "agrees"), (2.6666667, 0.0, "differs"), (2.6666667, 1e-7, "agrees"), (2.67, 1e-7, "differs")],
+)
+def test_a_formula_has_no_last_digit_to_be_generous_with(computed, u, verdict):
+    assert PaperValue("", "", "", "8/3", exact=8 / 3).verdict(computed, u) == verdict
+
+
+@pytest.mark.parametrize(
+    ("text", "computed"),
+    [("40.8", 40.8855), ("1.056", 1.05661), ("3.5", 3.562), ("15.9", 15.9506), ("4.4", 4.499), ("2.880", 2.8809)],
+)
+def test_truncated_digits_are_distinguished_from_rounded_ones(text, computed):
+    printed = PaperValue("", "", "", text)
+    step = 10.0 ** -len(text.partition(".")[2])
+    assert printed.verdict(computed, 1e-9) == "agrees if truncated"
+    assert printed.verdict(printed.value + 0.49 * step, 1e-9) == "agrees"
+    assert printed.verdict(printed.value - 0.49 * step, 1e-9) == "agrees"
+    # Numbers are not truncated upwards.
+    assert printed.verdict(printed.value - 0.51 * step, 1e-9) == "differs"
+    assert printed.verdict(printed.value + 1.01 * step, 1e-9) == "differs"
+
+
+@pytest.mark.parametrize(("computed", "u"), [(3.45, 1e-6), (3.55, 1e-6), (3.6, 1e-6), (9.0, 100.0)])
+def test_a_bound_that_reaches_over_a_border_decides_nothing(computed, u):
+    assert PaperValue("", "", "", "3.5").verdict(computed, u) == "undecided"
+
+
+CASES = [{"n": 1.0, "mu": 1.0}, {"n": 2.0, "k": 0.6, "mu": 3.0}, {"n": 2.0, "mu": 2.0}, {"n": 2.0, "k": 0.4}]
+
+
+@pytest.mark.parametrize(
+    ("entries", "own", "beyond"),
+    [
+        ({"own": {"n": [2], "mu": [1, 3]}}, [False, True, False, True], [True, False, True, False]),
+        # What is stated in general or without cases has no case beyond it.
+        ({"own": {"n": [2]}, "general": True}, [False, True, True, True], [False] * 4),
+        ({}, [False] * 4, [False] * 4),
+    ],
+)
+def test_a_case_is_one_of_the_paper_or_beyond_it(entries, own, beyond):
+    statement = PaperStatement("a", "Sec. 1", "It is so.", [], "It is compared.", "n = 2", "", **entries)
+    assert [statement.is_own(case) for case in CASES] == own
+    assert [statement.is_beyond(case) for case in CASES] == beyond
+
+
+ROOT = Path(__file__).resolve().parents[3]
+
+#: Folders of committed tables.
+FOLDERS = ("results/baseline", "comparisons/data", "fscm/interpolation/data")
+TABLES = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.csv") if path.parent.name != "graded")
+
+
+def header(path):
+    with path.open(newline="", encoding="utf-8") as file:
+        return next(csv.reader(file))
+
+
+@pytest.mark.parametrize("path", TABLES, ids=lambda path: path.relative_to(ROOT).as_posix())
+def test_every_column_of_a_committed_table_has_unit_and_description(path):
+    assert [name for name in header(path) if column(path.stem, name) is None] == []
+    assert all(column(path.stem, name).description for name in header(path))
+
+
+def test_a_column_of_a_figure_does_not_describe_that_of_a_run():
+    assert column("fig03_s_curve_points", "load").unit == "P"
+    assert column("results", "load") is None
+    assert column("a_table_of_my_own", "load") is None
+    assert column("fig10_transition", "mu") == column("results", "mu")
