@@ -36,26 +36,11 @@ def test_a_run_writes_table_figure_and_record(tiny, tmp_path):
     assert (finished.summary[1:], finished.failures) == (["a part for tests:", " size", "    1", "    2"], [])
 
 
-def test_a_resumed_run_measures_what_is_missing_and_keeps_the_record_of_the_machine(tiny, tmp_path, monkeypatch):
+def test_a_later_run_measures_what_is_missing_and_keeps_what_there_is(tiny, tmp_path):
     sizes = []
-
-    def interrupted(settings):
-        if settings["size"] == 2:
-            raise KeyboardInterrupt
-        return measuring_sizes(sizes)(settings)
-
-    tiny(measure=interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        run_bench(tmp_path)
-    assert not (tmp_path / "tiny.csv").exists()
-    monkeypatch.setattr("comparisons.runs.store.computing_environment", lambda: {"host": "another machine"})
     tiny(measure=measuring_sizes(sizes))
     run_bench(tmp_path)
     assert sizes == sizes_in(tmp_path) == [1, 2]
-    parts = json.loads((tmp_path / "bench.json").read_text())["parts"]
-    hosts = sorted((part["computations"], part["host"] == "another machine") for part in parts)
-    assert hosts == [(1, False), (1, True)]
-    # `full` adds sizes to the same folder, and they stay.
     run_bench(tmp_path, full=True)
     run_bench(tmp_path)
     assert sizes == sizes_in(tmp_path) == [1, 2, 8]

@@ -21,6 +21,7 @@ from comparisons.output.style import FORMATS, save
 from comparisons.registry import create
 from comparisons.runs.atomic_files import write_json
 from comparisons.runs.csv_format import write_table
+from tests.comparisons.external.conftest import comes_true, has_ended
 
 ROOT = Path(__file__).resolve().parents[3]
 CASE = ["--n", "2", "--k", "0.4", "--mu", "1"]
@@ -120,7 +121,8 @@ if __name__ == "__main__":
 """
 
 
-def test_sigterm_ends_the_command_and_its_worker_processes(tmp_path):
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 143), (signal.SIGKILL, -signal.SIGKILL)])
+def test_a_signal_ends_the_command_and_its_worker_processes(tmp_path, number, status):
     started = tmp_path / "started"
     started.mkdir()
     (tmp_path / "parent.py").write_text(PARENT)
@@ -129,12 +131,11 @@ def test_sigterm_ends_the_command_and_its_worker_processes(tmp_path):
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment) as process:
         while len(list(started.iterdir())) < 2 and process.poll() is None:
             time.sleep(0.05)
-        process.send_signal(signal.SIGTERM)
-        message = process.stderr.read()
-    assert (process.returncode, message) == (143, "fscm-bench: terminated\n")
-    for file in started.iterdir():
-        with pytest.raises(ProcessLookupError):
-            os.kill(int(file.name), 0)
+        process.send_signal(number)
+        process.wait()
+        assert all(comes_true(lambda file=file: has_ended(file.name)) for file in started.iterdir())
+        assert process.returncode == status
+        assert number == signal.SIGKILL or process.stderr.read() == "fscm-bench: terminated\n"
 
 
 @pytest.fixture
