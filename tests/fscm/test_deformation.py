@@ -1,14 +1,15 @@
-"""Product integration against closed forms, its order, and its symmetry."""
+"""Panels and deformation: closed forms, order, symmetry, transfer between meshes, response blocks that are kept."""
 
 import numpy as np
 import pytest
 from scipy.special import gamma, hyp1f1
 
 from fscm import Problem
+from fscm import _response_store as store
 from fscm._deformation import axis_row, response_matrix
 from fscm._equilibrium import Discretisation
 from fscm._kernel import Kernel
-from fscm._panels import PanelMesh
+from fscm._panels import PanelMesh, gauss_rule
 
 # Relative to the largest displacement; measured worst 7.0e-13 (k = 0.8).
 CLOSED_FORM = 5e-12
@@ -60,3 +61,71 @@ def test_a_mesh_on_which_nothing_is_solved_passes_on_the_blocks_of_its_exponent(
         for mesh in meshes[1:]:
             disc = Discretisation(Problem(2, k, 1.0), mesh, disc)
         np.testing.assert_array_equal(disc.matrix, Discretisation(Problem(2, k, 1.0), PanelMesh(finer, 8)).matrix)
+
+
+def test_transfer_within_panels_below_the_rounding_of_the_radius() -> None:
+    """Half of a panel 4e-15 wide at r = 1: local coordinates must not be taken from rounded radii."""
+    h = 2.0**-48
+    mesh, halves = (
+        PanelMesh(np.array([0.0, 1.0, 1.0 + h]), 4),
+        PanelMesh(np.array([0.0, 1.0, 1 + h / 2, 1 + h]), 4),
+    )
+    u = gauss_rule(4).nodes
+    values = np.concatenate([np.zeros(4), u])
+    np.testing.assert_allclose(mesh.transfer(values, halves)[4:], np.concatenate([u / 2, 0.5 + u / 2]), rtol=1e-13)
+
+
+def test_distances_from_the_origin_are_exact() -> None:
+    """Panels of 1e-20 at s = 1: nodes, values and lengths there, and the same function seen from the axis."""
+    ends = np.array([-1.0, -0.5, 0.0, 1e-20, 3e-20, 2.0])
+    mesh = PanelMesh(ends, 5, origin=1.0)
+    assert mesh.starts[0] == 0.0
+    assert mesh.lengths[2:4] == pytest.approx([1e-20, 2e-20], rel=1e-14)
+    values = np.where((mesh.node_offsets > 0.0) & (mesh.node_offsets < 1e-20), 1e20 * mesh.node_offsets, 0.0)
+    assert mesh.evaluate_at_offsets(values, np.array([0.25e-20]))[0] == pytest.approx(0.25, rel=1e-12)
+    finer = PanelMesh(np.insert(ends, 3, 0.5e-20), 5, origin=1.0)
+    np.testing.assert_allclose(mesh.transfer(values, finer)[10:20], 1e20 * finer.node_offsets[10:20], rtol=1e-12)
+    coarse, seen = PanelMesh(np.array([0.0, 0.5, 3.0]), 5), mesh.nodes**2
+    np.testing.assert_allclose(coarse.transfer(coarse.nodes**2, mesh), seen, rtol=1e-12, atol=1e-15)
+
+
+OFFSETS = np.array([-1.0, -0.5, -0.125, 0.0, 0.0625, 0.25, 1.0, 7.0])
+
+
+def split(mesh: PanelMesh, i: int) -> PanelMesh:
+    return PanelMesh(np.insert(mesh.offsets, i + 1, mesh.middles[i]), mesh.order, mesh.origin)
+
+
+@pytest.fixture(autouse=True)
+def empty() -> None:
+    store.clear()
+
+
+@pytest.mark.parametrize("k", [0.0, 0.4, 0.9])
+def test_known_blocks_give_the_same_matrix_bit_for_bit(k: float) -> None:
+    """Whatever was computed before: a result must not depend on the problems that were solved earlier."""
+    kernel, meshes = Kernel(k), [PanelMesh(OFFSETS, 6, 1.0)]
+    for i in (3, 1, 7, 0):
+        meshes.append(split(meshes[-1], i))
+    matrices = [response_matrix(kernel, mesh) for mesh in meshes]
+    for mesh, matrix in zip(meshes, matrices, strict=True):
+        store.clear()
+        np.testing.assert_array_equal(response_matrix(Kernel(k), mesh), matrix)
+
+
+@pytest.mark.parametrize("bound", [200_000, 2_000_000, 8_000_000])
+def test_memory_is_bounded(monkeypatch: pytest.MonkeyPatch, bound: int) -> None:
+    """By the stated number, after every matrix; a table that is full or thrown away changes no value."""
+    monkeypatch.setattr(store, "BLOCKS_MEMORY", bound)
+    kernels, most = [Kernel(k) for k in (0.1, 0.2, 0.3)], 0
+    for kernel in kernels:
+        mesh = PanelMesh(OFFSETS, 8, 1.0)
+        for i in range(30):
+            mesh = split(mesh, (7 * i) % len(mesh.lengths))
+            response_matrix(kernel, mesh)
+            most = max(most, store.memory())
+            assert store.memory() <= bound
+    assert most > bound // 8 or bound < 1_000_000
+    matrix = response_matrix(kernels[0], mesh)
+    store.clear()
+    np.testing.assert_array_equal(matrix, response_matrix(Kernel(0.1), mesh))

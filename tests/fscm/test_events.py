@@ -1,10 +1,16 @@
-"""Events against reference values, numbers of the paper and the rigid limit."""
+"""Events and quantities: reference values, limits, the short path to a pull-off, several at once, refusals."""
 
 import math
 
+import numpy as np
 import pytest
 
-from fscm import NoSuchEvent, Problem, solve
+from fscm import Analysis, NoSuchEvent, Problem, Solution, profile, solve, solve_together, trace
+from fscm import _pull_off_path as short
+from fscm._meshes import Meshes
+from fscm._threads import one_thread
+from fscm.quantities import TABLE
+from tests.fscm.random_problems import problems
 from tests.fscm.solved_once import analysis_of
 from tests.marks import heavy
 from tests.reference_values import REFERENCE_VALUES, ReferenceValue
@@ -47,3 +53,105 @@ def test_rigid_limit(n: float, k: float) -> None:
         deviations.append(solve(Problem(n, k, mu), "pull_off_force").value - _bradley(n))
     assert abs(deviations[1]) < 1e-3
     assert deviations[0] / deviations[1] == pytest.approx(2.0, rel=1e-3)
+
+
+# Rigid to soft; (2, 0.6, 3), (5, 0.6, 3) and (1.5, 0.4, 5) have several shallow folds before contact.
+CASES = [(1, 0.2, 1), (2, 0.4, 0.5), (2, 0, 0.01), (0.9, 0.1, 2), (2, 0.6, 3), (5, 0.6, 3), (1.5, 0.4, 5)]
+
+
+@pytest.mark.parametrize("case", [*CASES[:2], *(pytest.param(case, marks=pytest.mark.heavy) for case in CASES[2:])])
+def test_the_pull_off_is_that_of_the_whole_path(case: tuple[float, float, float]) -> None:
+    problem = Problem(*case)
+    with one_thread():
+        path = short.pull_off_path(problem, Meshes())
+    assert path is not None
+    analysis, solutions = analysis_of(problem), solve_together(problem, ("pull_off_force", "pull_off_displacement"))
+    assert len(analysis.points) >= len(path)
+    for quantity, solution in solutions.items():
+        expected = analysis.solution(quantity)
+        assert abs(solution.value - expected.value) <= solution.u_num + expected.u_num
+
+
+@pytest.mark.parametrize("case", [*CASES[:2], pytest.param(CASES[4], marks=pytest.mark.heavy)])
+def test_no_state_apart_carries_more_tension_than_the_rigid_solid(case: tuple[float, float, float]) -> None:
+    problem = Problem(*case)
+    states = [point.state for point in analysis_of(problem).points if not point.state.follows_edge]
+    states = [state for state in states if state.central_gap > problem.law.peak_gap]
+    assert states
+    for state in states:
+        assert -state.load <= short.rigid_tension(problem, state.central_gap)
+
+
+def test_the_bound_is_close_to_the_closed_form() -> None:
+    """n = 2: 2 int t(H) dH = 2 [4 / (1 + H)^2 - 1 / (1 + H)^8] / 3."""
+    for gap in (0.3, 1.0, 3.0):
+        exact = 2.0 * (4.0 / (1.0 + gap) ** 2 - 1.0 / (1.0 + gap) ** 8) / 3.0
+        assert exact <= short.rigid_tension(Problem(2, 0.4, 1.0), gap) < 1.05 * exact
+
+
+def test_the_whole_path_is_followed_where_the_rigid_solid_might_carry_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem = Problem(2, 0.4, 0.5)
+    expected = solve(problem, "pull_off_force")
+    monkeypatch.setattr(short, "_start", lambda problem: 0.5)
+    monkeypatch.setattr(short, "rigid_tension", lambda problem, gap: 2.0)
+    with one_thread():
+        assert short.pull_off_path(problem, Meshes()) is None
+    model = Analysis(problem)
+    force = model.solution("pull_off_force")
+    assert "_traced" in model.__dict__
+    assert abs(force.value - expected.value) <= force.u_num + expected.u_num
+
+
+@pytest.mark.parametrize("index", [452, *heavy(456)])
+def test_a_bound_above_the_request_is_reduced(index: int) -> None:
+    """On the meshes of 1e-6 the bounds are 1.3e-6 and 1.9e-6 of the force."""
+    force = solve(problems()[index], "pull_off_force", 1e-6)
+    assert force.u_num <= 1e-6 * force.value
+
+
+# A stiff solid, which does not jump, and a soft one.
+STIFF, SOFT = Problem(2, 0, 0.1), Problem(2, 0.4, 1.0)
+PATH_QUANTITIES = [name for name, row in TABLE.items() if row.needs]
+
+
+def test_quantities_of_one_path_together_are_those_alone() -> None:
+    solutions = solve_together(SOFT, reversed(PATH_QUANTITIES))
+    assert list(solutions) == PATH_QUANTITIES[::-1]
+    for name in ("jump_out_gap", "hysteresis_energy"):
+        solution = solutions[name]
+        assert isinstance(solution, Solution)
+        assert solution.value == pytest.approx(solve(SOFT, name).value, rel=1e-12)
+
+
+@pytest.mark.parametrize("problem", [STIFF, Problem(2, 1, 0.3)], ids=["graded", "Gibson"])
+def test_a_quantity_that_does_not_exist_is_returned_as_the_exception(problem: Problem) -> None:
+    solutions = solve_together(problem, PATH_QUANTITIES)
+    missing = {name for name, solution in solutions.items() if isinstance(solution, NoSuchEvent)}
+    assert missing == {name for name in PATH_QUANTITIES if name.startswith("jump") or name == "hysteresis_energy"}
+    assert solutions["pull_off_force"].value > 0
+
+
+@pytest.mark.parametrize("problem", [STIFF, Problem(2, 1, 0.3)], ids=["graded", "Gibson"])
+def test_an_unknown_quantity_or_accuracy_is_refused_before_anything_is_computed(problem: Problem) -> None:
+    with pytest.raises(ValueError, match="unknown quantity 'weight'; known are pull_off_force"):
+        solve_together(problem, ["pull_off_force", "weight"])
+    with pytest.raises(ValueError, match="unknown accuracy 'best'; it is a relative error or one of quick"):
+        solve(problem, "pull_off_force", accuracy="best")
+
+
+def test_an_unknown_event_is_refused_with_the_known_names() -> None:
+    with pytest.raises(ValueError, match="unknown event 'jump_in_gap'; known are pull_off, jump_in, jump_out, zero"):
+        Analysis(STIFF).event("jump_in_gap")
+    with pytest.raises(ValueError, match="unknown jump 'pull_off'; known are jump_in, jump_out"):
+        Analysis(STIFF).landing("pull_off")
+
+
+def test_paths_and_fields_are_as_accurate_as_requested() -> None:
+    coarse, fine = (trace(SOFT, accuracy) for accuracy in (1e-6, 1e-9))
+    assert fine.u_load < 0.1 * coarse.u_load
+    assert abs(coarse.load.min() - fine.load.min()) <= coarse.u_load + fine.u_load
+    coarse, fine = (profile(SOFT, "zero_load", accuracy) for accuracy in (1e-6, 1e-9))
+    assert coarse.radius.size < fine.radius.size
+    inner = coarse.radius < 3.0
+    between = np.interp(coarse.radius[inner], fine.radius, fine.gap)
+    np.testing.assert_allclose(coarse.gap[inner], between, atol=1e-2)  # linear between the nodes of the finer mesh
