@@ -24,15 +24,30 @@ SHARP = 0.4
 QUADRATURE = 2e-11
 
 
-@pytest.mark.parametrize(
-    "problem", [*heavy(Problem(0.75, 0, 0.3)), *(Problem(2, k, 1.0, law=Mie(m=3, n=1.5)) for k in (0, 0.5))]
-)
-def test_the_displacement_at_pull_off_does_not_depend_on_the_end_of_the_mesh(problem: Problem) -> None:
-    """A tangent without the slope of the tail by delta was off by up to 40 times the bound."""
-    solution = Analysis(problem).solution("pull_off_displacement")
-    exact = finer_analysis(problem).solution("pull_off_displacement").value
-    assert abs(solution.value - exact) <= solution.u_num
-    assert solution.u_num < 1e-10
+KINKS = MeasuredPunch([0.0, 1.0, 2.0], [0.0, 0.3, 1.6])
+PULL_OFF = ("pull_off_force", "pull_off_displacement")
+#: Problems whose bounds failed, quantities, and a limit of the bounds.  A tangent without the slope of the tail was off
+#: by up to 40 times the bound; the deformation of a steep punch is stored beside its heights, which would round it
+#: away; the mesh moves with the kinks of a punch, and the place of an event had errors of up to 60 times its bound.
+PROBLEMS = [
+    *heavy((Problem(0.75, 0, 0.3), PULL_OFF[1:], 1e-10)),
+    *((Problem(2, k, 1.0, law=Mie(m=3, n=1.5)), PULL_OFF[1:], 1e-10) for k in (0, 0.5)),
+    *((Problem(n, k, mu), PULL_OFF[:1], 1e-9) for n, k, mu in ((300.0, 0.4, 1.0), (30.0, 0.0, 0.05))),
+    *heavy(*((Problem(n, k, mu), PULL_OFF[:1], 1e-9) for n, k, mu in ((300.0, 0.2, 0.3), (50.0, 0.0, 3.0)))),
+    (Problem(2.0, 0.2, 0.5, punch=KINKS), PULL_OFF, 1e-7),
+    *heavy((Problem(2.0, 0.2, 2.0, punch=KINKS), (*PULL_OFF, "jump_out_gap", "hysteresis_energy"), 1e-7)),
+]
+
+
+@pytest.mark.parametrize(("problem", "quantities", "most"), PROBLEMS)
+def test_values_on_finer_meshes_are_within_the_bounds(
+    problem: Problem, quantities: tuple[str, ...], most: float
+) -> None:
+    model, finer = Analysis(problem), finer_analysis(problem)
+    for quantity in quantities:
+        solution, exact = model.solution(quantity), finer.solution(quantity)
+        assert abs(solution.value - exact.value) <= solution.u_num + exact.u_num
+        assert exact.u_num <= solution.u_num < most
 
 
 def test_the_derivatives_of_the_tail() -> None:
@@ -159,21 +174,3 @@ def test_the_bounds_of_a_state_on_a_path_that_goes_on_in_another_parameter(param
     for functional in ("displacement", "central_gap"):
         error = abs(getattr(state, functional) - getattr(exact, functional))
         assert error <= errors.at_extreme(functional, "load").total
-
-
-@pytest.mark.parametrize(
-    ("mu", "quantities"),
-    [
-        (0.5, ("pull_off_force", "pull_off_displacement")),
-        *heavy((2.0, ("pull_off_force", "pull_off_displacement", "jump_out_gap", "hysteresis_energy"))),
-    ],
-)
-def test_the_bounds_of_a_punch_with_kinks(mu: float, quantities: tuple[str, ...]) -> None:
-    """The mesh moves with the kinks: the place of an event had errors of up to 60 times its bound."""
-    problem = Problem(2.0, 0.2, mu, punch=MeasuredPunch([0.0, 1.0, 2.0], [0.0, 0.3, 1.6]))
-    model, finer = Analysis(problem), finer_analysis(problem)
-    for quantity in quantities:
-        solution, exact = model.solution(quantity), finer.solution(quantity)
-        assert abs(solution.value - exact.value) <= solution.u_num + exact.u_num
-        # The gap moves with the place of the fold, whose bound is that of the kinks on both meshes.  Measured 0.22.
-        assert exact.u_num < (1.0 if quantity == "jump_out_gap" else 0.25) * solution.u_num < 1e-7
