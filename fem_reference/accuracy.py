@@ -36,7 +36,7 @@ SEARCH_DEGREE = 4
 
 _LEVELS = {
     1e-6: Level(6, 1.05, 1e-6),
-    1e-7: Level(7, 0.95, 1e-7),
+    1e-7: Level(8, 1.25, 1e-7),
     1e-8: Level(8, 0.8, 1e-8),
 }
 
@@ -67,8 +67,8 @@ def level_for(accuracy: float | str) -> Level:
     """Return the meshes of an accuracy.
 
     Between two named accuracies the degree is that of the finer one, and the logarithm of the density is linear in that
-    of the accuracy.  Above the largest of them the meshes are those of "quick": a path cannot be traced reliably on
-    coarser ones.
+    of the accuracy, but no element is shorter than those of the finer one.  Above the largest of them the meshes are
+    those of "quick": a path cannot be traced reliably on coarser ones.
 
     Parameters
     ----------
@@ -84,8 +84,8 @@ def level_for(accuracy: float | str) -> Level:
     --------
     >>> level_for(1e-7) == level_for("default")
     True
-    >>> level_for(3e-7).order, round(level_for(3e-7).density, 3)
-    (7, 0.996)
+    >>> level_for(3e-8).order, round(level_for(3e-8).density, 3)
+    (8, 0.99)
     """
     number = min(relative_error(accuracy), max(_LEVELS))
     if number in _LEVELS:
@@ -93,7 +93,8 @@ def level_for(accuracy: float | str) -> Level:
     larger, smaller = min(n for n in _LEVELS if n > number), max(n for n in _LEVELS if n < number)
     share = math.log(larger / number) / math.log(larger / smaller)
     coarse, fine = _LEVELS[larger], _LEVELS[smaller]
-    return Level(fine.order, coarse.density * (fine.density / coarse.density) ** share, number)
+    between = coarse.density * (fine.density / coarse.density) ** share
+    return Level(fine.order, max(between, fine.density), number)
 
 
 def coarser_accuracy(accuracy: float | str) -> tuple[float, str] | None:

@@ -5,10 +5,10 @@ times another.
 
 * mesh: the same elements with two lower degrees (`fem_reference._contact.uncertainty`).  If the solid does not scale,
   the lower one of both neighbours has the contact edge half an element further out as well.
-* first layer, interior and exterior, apex: one feature is made coarser with elements of the lowest degree, whose error
-  is larger as well.  What that changes is the part, unless it exceeds that of the mesh and half of the accuracy: then
-  the elements have the highest degree.
-* edge: the same mesh, with the contact edge a quarter of an element further in and out, plus the apex.
+* first layer, interior and exterior: one feature is made coarser with elements of the lowest degree, whose error is
+  larger as well.  What that changes is the part, unless it exceeds that of the mesh and half of the accuracy: then the
+  elements have the highest degree.  The interior has a coarser apex where the exterior begins earlier.
+* edge: the same mesh, with the contact edge a quarter of an element further in and out.
 * tail: the displacement that the mesh leaves out, by its first term.
 * algebra: another triangle of the factorisation, another start of Newton's method, another root search.  The whole
   system (`fem_reference._contact.uncondensed`) adds its own.
@@ -30,7 +30,7 @@ from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tail import TailContact
 from fem_reference._contact.uncertainty import degree_error
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference._elastic.variants import EXTENT, FEATURES, variant
+from fem_reference._elastic.variants import ENDS, FEATURES, variant
 from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.errors import NotConverged
 
@@ -117,8 +117,8 @@ class EventsOnMeshes:
         parts = (
             mesh,
             feature["first layer"],
-            feature[EXTENT],
-            placement + feature["apex"],
+            feature[ENDS],
+            placement,
             abs(functional(self.tail) - fine),
             algebra,
         )
