@@ -27,22 +27,22 @@ from comparisons.console.exit_status import FAILED, guarded
 #: Command -> its line of the help.  Its module is imported when it is called.
 _COMMANDS = {
     "run": "compute the standing cases and judge them",
-    "judge": "judge stored results again without computing, by the gates of the run or others",
-    "report": "write a run as one HTML page that needs no other file",
+    "judge": "judge stored results again, by the same gates or others, without computing",
+    "report": "write one HTML page of a run",
     "leaderboard": "write any number of runs as one sortable HTML table",
-    "board": "judge a folder of submitted models and write a static site: errors, verdicts, report cards, history",
+    "board": "judge a folder of submitted models and write a web site: errors, verdicts, report cards, history",
     "paper": "compute the figures and numbers of the paper again",
-    "sweep": "compute grids of one's own, without gates",
-    "compare": "compare models with a reference in cases of one's own: one table, one figure",
+    "sweep": "compute any number of your own cases, without gates",
+    "compare": "compare models with a reference in your own cases: one table, one figure",
     "merge": "put the shards of a sweep into one folder",
     "solve": "compute one quantity of one problem by one model",
-    "curve": "compute curves or surfaces at pull-off, as CSV and as a plot",
-    "describe": "Tabor number, pull-off force and admissible models of a problem file",
-    "fit": "fit work of adhesion, modulus and others to measured force-displacement curves",
-    "fem": "write fields of the finite elements (vtu, picture), print their verification and solver tables",
+    "curve": "compute force-displacement curves, or pressure or gap at pull-off, as CSV and as a plot",
+    "describe": "print pull-off force, Tabor number and recommended models of a problem file",
+    "fit": "fit work of adhesion, modulus and other values to measured force-displacement curves",
+    "fem": "write fields of the finite elements (vtu, picture); print their verification and the study of the solvers",
     "list": "list the models, quantities, cases, gates, or the kinds of a problem file",
     "check-model": "check that an external model keeps the contract",
-    "new-model": "write a template for a model of your own: a package with a test and a CI workflow",
+    "new-model": "write a template for your own model: a package with a test and a CI workflow",
     "cite": "print how to cite fscm-bench and what a run used, as text or BibTeX",
     "bench": "measure error, time and memory of the solvers on this machine, as ratios",
 }
@@ -54,8 +54,8 @@ _EXAMPLES = (
 )
 _EXIT_STATUS = """
 Exit status: 0 done and every gate passes, 1 a gate fails, 2 wrong input,
-3 inconclusive, 4 a computation or an output failed, a gate is in error, or no
-gate was evaluated."""
+3 a gate is inconclusive, 4 a computation or an output failed, a gate is in
+error, or no gate was evaluated."""
 
 
 class _Parser(argparse.ArgumentParser):

@@ -76,17 +76,17 @@ CASE = (
 CASE_OR_FILE = (
     *CASE,
     option("--nu", type=float, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one"),
-    file("--problem", help="in place of these: a file in physical units; results are in SI"),
+    file("--problem", help="a problem file in physical units instead of n, k, mu and nu; results are in SI"),
 )
 
 #: Number of processes.
-JOBS = option("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one a core)")
+JOBS = option("--jobs", metavar="N", type=int, default=usable_cores(), help="number of processes (default: one per core)")
 #: Folder for the results.
-OUT = file("--out", metavar="DIR", help="folder for the results (default: results/runs/TIME); resumed if it has some")
+OUT = file("--out", metavar="DIR", help="folder for the results (default: results/runs/TIME); results in it are kept")
 #: Leaves out all but failures.
-QUIET = option("--quiet", action="store_true", help="print nothing but warnings and failures")
+QUIET = option("--quiet", action="store_true", help="print only warnings and failures")
 #: Prints all rows.
-VERBOSE = option("--verbose", action="store_true", help="print every row, not a summary")
+VERBOSE = option("--verbose", action="store_true", help="print every gate, not only a summary")
 
 
 def problem_of(args: argparse.Namespace) -> Problem:

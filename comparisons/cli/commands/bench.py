@@ -18,7 +18,7 @@ _PARTS = "; ".join(f"{part.name}, {part.title}" for part in PARTS.values())
 
 OPTIONS = (
     several("--only", metavar="PART", help=f"only these parts (default: all): {_PARTS}"),
-    option("--full", action="store_true", help="measure what takes long, too"),
+    option("--full", action="store_true", help="also measure the settings that take long"),
     file(
         "--out",
         metavar="DIR",

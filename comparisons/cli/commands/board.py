@@ -16,8 +16,8 @@ from comparisons.pipeline.board import make_board
 EXAMPLES = ("fscm-bench board docs/board/submissions --out site",)
 
 OPTIONS = (
-    file("submissions", metavar="SUBMISSIONS", help="a folder of submissions, or one: see docs/board.md"),
-    file("--out", metavar="SITE", required=True, help="folder for the site; what it has is not computed again"),
+    file("submissions", metavar="SUBMISSIONS", help="a folder of submissions, or one submission; see docs/board.md"),
+    file("--out", metavar="SITE", required=True, help="folder for the site; unchanged results in it are kept"),
     JOBS,
     QUIET,
 )

@@ -21,7 +21,7 @@ _FOLDER = "folder of a finished run, sweep or comparison: the versions and model
 OPTIONS = (
     file("folder", metavar="DIR", nargs="?", help=_FOLDER),
     output_format(
-        "bibtex", help="text has a paragraph for the section Methods and the list of references (default: text)"
+        "bibtex", help="text has a paragraph for the Methods section and the references (default: text)"
     ),
 )
 

@@ -20,15 +20,15 @@ _MODELS = f"{MODEL_SPEC}; {ALL}: every model of fscm-bench that has a value in t
 
 OPTIONS = (
     option("models", metavar="MODEL", nargs="*", help=_MODELS),
-    several("--model", metavar="MODEL", help="the same: more models"),
-    file("--grid", help="[[grid]] tables as for fscm-bench sweep"),
+    several("--model", metavar="MODEL", help="more models"),
+    file("--grid", help="the cases: a file of [[grid]] tables, as for fscm-bench sweep"),
     numbers("--n", help="values of n, or FROM:TO:COUNT; every combination of --n, --k and --mu is a case"),
-    numbers("--k", help="values of k, or FROM:TO:COUNT at equal distances"),
-    numbers("--mu", logarithmic=True, help="values of mu, or FROM:TO:COUNT at equal ratios: 0.1:10:20"),
+    numbers("--k", help="values of k, or FROM:TO:COUNT, equally spaced"),
+    numbers("--mu", logarithmic=True, help="values of mu, or FROM:TO:COUNT, logarithmically spaced: 0.1:10:20"),
     numbers("--nu", help="Poisson's ratios, for models that need one"),
     option("--quantity", metavar="NAME", nargs="+", help="see: fscm-bench list quantities (default: pull_off_force)"),
-    option("--reference", metavar="MODEL", help="(default: fscm; atlas takes microseconds)"),
-    option("--every", action="store_true", help="print every case, not the first 40"),
+    option("--reference", metavar="MODEL", help="the reference (default: fscm; atlas takes microseconds)"),
+    option("--every", action="store_true", help="print every case, not only the first 40"),
     option(
         "--latex",
         action="store_true",

@@ -33,8 +33,8 @@ OPTIONS = (
     several("--model", metavar="SPEC", required=True, help=MODEL_SPEC),
     option("--quantity", metavar="NAME", choices=tuple(CURVES), default="force_curve", help=_QUANTITY),
     *CASE_OR_FILE,
-    file("--csv", help="write the points here; by default, and with -, to stdout"),
-    file("--plot", help="draw the curves here (.png, .pdf or .svg)"),
+    file("--csv", help="write the points to this file (default, and with -: stdout)"),
+    file("--plot", help="draw the curves into this file (.png, .pdf or .svg)"),
 )
 
 

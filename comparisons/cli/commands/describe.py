@@ -28,9 +28,9 @@ OPTIONS = (
     option(
         "--large-strain",
         action="store_true",
-        help="solve the problem with finite strain for the error of small strains; a minute or less",
+        help="solve the problem with finite strain, for the error of the small-strain assumption; takes up to a minute",
     ),
-    option("--quantity", metavar="NAME", help="another value at an event, with --uncertain"),
+    option("--quantity", metavar="NAME", help="another quantity than the pull-off force, with --uncertain"),
     output_format("json"),
 )
 

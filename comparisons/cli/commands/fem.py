@@ -31,10 +31,10 @@ OPTIONS = (
     *CASE,
     option("--nu", type=float, default=0.3, help="Poisson's ratio, in [0, 0.5) (default: %(default)s)"),
     option("--event", default="pull_off", metavar="EVENT", choices=fem_reference.EVENTS, help=_EVENT),
-    file("--vtu", help="write mesh, displacement and stresses here"),
-    file("--plot", help="draw the deformed body here"),
+    file("--vtu", help="write mesh, displacement and stresses to this file"),
+    file("--plot", help="draw the deformed body into this file"),
     option("--verify", action="store_true", help="print the checks against exact solutions"),
-    option("--solver", action="store_true", help="print the table of the linear solvers"),
+    option("--solver", action="store_true", help="print the study of the linear solvers"),
     option("--full", action="store_true", help="all checks and sizes (long)"),
 )
 

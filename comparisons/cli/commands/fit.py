@@ -21,14 +21,14 @@ EXAMPLES = (
 )
 
 OPTIONS = (
-    file("curves", metavar="CURVE", nargs="+", help="CSV with displacement [nm] and load [nN], or a file of an AFM"),
+    file("curves", metavar="CURVE", nargs="+", help="CSV with displacement [nm] and load [nN], or an AFM file"),
     file("--problem", required=True, help="a problem file; the fit starts from its values"),
-    several("--free", metavar="KEY", required=True, help="keys of the file that are fitted, as solid.E"),
-    option("--model", choices=("fscm", "jkr"), help="(default: fscm, and its limit jkr where that is as good)"),
+    several("--free", metavar="KEY", required=True, help="keys of the problem file to fit, as solid.E"),
+    option("--model", choices=("fscm", "jkr"), help="(default: fscm, and jkr where the two agree)"),
     option("--branch", choices=("approach", "retreat", "both"), default="both", help="(default: both)"),
-    option("--stiffness", metavar="VALUE", help='of the cantilever, as "0.2 N/m"; by default the displacement is held'),
-    option("--sensitivity", metavar="VALUE", help='deflection for a volt, as "50 nm/V"'),
-    file("--out", metavar="DIR", help="folder for table, JSON and pictures; resumed if it has some"),
+    option("--stiffness", metavar="VALUE", help='stiffness of the cantilever, as "0.2 N/m" (default: displacement control)'),
+    option("--sensitivity", metavar="VALUE", help='deflection sensitivity, as "50 nm/V"'),
+    file("--out", metavar="DIR", help="folder for table, JSON and pictures; fits in it are kept"),
     JOBS,
     output_format("json"),
 )

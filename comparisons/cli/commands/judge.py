@@ -14,7 +14,7 @@ EXAMPLES = ("fscm-bench judge results/mine --verbose",)
 
 OPTIONS = (
     file("folder", metavar="DIR", help="folder of a finished run"),
-    file("--gates", help="judge by these gates, not by those of the run"),
+    file("--gates", help="judge by these gates instead of those of the run"),
     VERBOSE,
     QUIET,
 )

@@ -14,8 +14,8 @@ EXAMPLES = ("fscm-bench leaderboard results/mine results/other --out leaderboard
 
 OPTIONS = (
     file("folders", metavar="DIR", nargs="+", help="folders of finished runs or sweeps"),
-    file("--out", metavar="FILE.html", required=True, help="the page"),
-    option("--mixed", action="store_true", help="accept runs of different cases or gates; the page states it"),
+    file("--out", metavar="FILE.html", required=True, help="the page to write"),
+    option("--mixed", action="store_true", help="accept runs with different cases or gates; the page says so"),
 )
 
 

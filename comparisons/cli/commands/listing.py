@@ -25,7 +25,7 @@ from comparisons.runs.csv_format import csv_text
 EXAMPLES = ("fscm-bench list models", "fscm-bench list gates --format json")
 
 OPTIONS = (
-    option("what", choices=("models", "quantities", "cases", "gates", "kinds"), help="what is listed"),
+    option("what", choices=("models", "quantities", "cases", "gates", "kinds"), help="what to list"),
     output_format("csv", "json", help="csv and json have every digit, one row for each case of a grid (default: text)"),
 )
 

@@ -11,7 +11,7 @@ from comparisons.pipeline.merge import merge
 EXAMPLES = ("fscm-bench merge results/shard1 results/shard2 --out results/sweep",)
 
 OPTIONS = (
-    file("folders", metavar="DIR", nargs="+", help="folders of fscm-bench sweep --shard"),
+    file("folders", metavar="DIR", nargs="+", help="folders written by fscm-bench sweep --shard"),
     file("--out", metavar="DIR", required=True, help="folder for the whole sweep"),
     QUIET,
 )

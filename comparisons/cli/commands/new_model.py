@@ -13,7 +13,7 @@ from comparisons.registry import MODELS
 
 EXAMPLES = ("fscm-bench new-model my-model",)
 
-OPTIONS = (file("folder", metavar="DIR", help="new folder; the model gets its name, e.g. my-model"),)
+OPTIONS = (file("folder", metavar="DIR", help="new folder, e.g. my-model; its name becomes that of the model"),)
 
 
 def call(args: argparse.Namespace) -> int:

@@ -19,7 +19,7 @@ EXAMPLES = ("fscm-bench report results/mine --out report.html",)
 
 OPTIONS = (
     file("folder", metavar="DIR", help="folder of a finished run"),
-    file("--out", help="the page (default: DIR/report.html)"),
+    file("--out", help="the page to write (default: DIR/report.html)"),
 )
 
 

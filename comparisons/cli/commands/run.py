@@ -24,11 +24,11 @@ _FRESH = "judge each model of --model in N fresh cases of its own domain, too"
 
 OPTIONS = (
     option("--tier", choices=TIERS, help=f"how much to compute (default: {TIERS[0]})"),
-    file("--cases", help="in place of the standing cases: [[grid]] tables as of a sweep, judged by --gates"),
-    several("--model", metavar="SPEC", help="compare these models instead of those each grid names"),
+    file("--cases", help="[[grid]] tables, as for a sweep, instead of the standing cases; judged by --gates"),
+    several("--model", metavar="SPEC", help="compute these models instead of those named by each grid"),
     file("--gates", help="judge by these gates instead of the standing ones"),
     option("--random", metavar="N", type=int, default=0, help=_FRESH),
-    option("--seed", metavar="S", type=int, help="seed of the fresh cases (default: a new one)"),
+    option("--seed", metavar="S", type=int, help="seed of the fresh cases (default: random)"),
     JOBS,
     OUT,
     VERBOSE,

@@ -19,7 +19,7 @@ EXAMPLES = (
 
 OPTIONS = (
     file("file", nargs="?", help="[[grid]] tables as in comparisons/data/cases.toml, without a tier"),
-    file("--problem", help="in place of these: a problem file, whose keys may be varied; in SI"),
+    file("--problem", help="a problem file instead, whose keys may be varied; results are in SI"),
     option(
         "--vary",
         metavar="KEY=VALUES",
@@ -30,7 +30,7 @@ OPTIONS = (
     several(
         "--model",
         metavar="SPEC",
-        help="compare these models instead of those each grid names; of a problem file: fscm if there are none",
+        help="compute these models instead of those named by each grid (default with --problem: fscm)",
     ),
     JOBS,
     option("--shard", metavar="i/N", help="compute the i-th of N parts, to be put together by fscm-bench merge"),
