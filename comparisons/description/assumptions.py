@@ -141,13 +141,13 @@ def _strain(problem: Problem, by_solution: bool) -> Json:
 def _tabulated(problem: Problem) -> Json:
     """The same where the table of forces of spheres has it."""
     if problem.punch.kind not in (_PARABOLOID, _BALL) or not problem.is_of_the_paper("law"):
-        return _error(None, "it was computed for spheres under the 9-3 law")
+        return _error(None, "the table has only spheres under the 9-3 law")
     if not problem.is_of_the_paper("solid") or problem.posed.k != 0.0:
-        return _error(None, "it was computed for homogeneous solids")
+        return _error(None, "the table has only homogeneous solids")
     softness = (problem.posed.mu * problem.units["displacement"] / problem.punch["R"]) ** 1.5
     change = strain_change(softness, problem.posed.mu, problem.solid["nu"])
     if change is None:
-        return _error(None, f"no solid as soft as w/(E* R) = {softness:.2g} was computed")
+        return _error(None, f"the table has no solid as soft as w/(E* R) = {softness:.2g}")
     return _error((-change.value / (1.0 + change.value), change.bound / (1.0 + change.value) ** 2))
 
 

@@ -120,7 +120,7 @@ def _recommended(errors: Sequence[Json], force: Row, assumed: Json | None, limit
 def _regime(errors: Sequence[Json]) -> str:
     """The limit whose pull-off force is within 5 %, by a sentence."""
     if not errors:
-        return "not classified: no closed form takes this problem"
+        return "not classified, because no closed form takes this problem"
     limits = [
         row["model"]
         for row in errors

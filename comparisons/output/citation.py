@@ -13,6 +13,8 @@ from comparisons.runs.environment import DIGITS, version_of
 
 #: Entries of a work, in the order of BibTeX.
 _ENTRIES = ("author", "title", "journal", "volume", "pages", "year", "doi", "url", "note")
+#: Library -> its name in a sentence, where that differs.
+_PRINTED = {"numpy": "NumPy", "scipy": "SciPy", "pyamg": "PyAMG"}
 
 
 class Work(NamedTuple):
@@ -108,14 +110,15 @@ def methods(record: Mapping[str, Any], references: Mapping[str, float]) -> str:
     """
     models, package = record.get("models") or {}, record["package"]
     named = {name: f"{name} (version {model['version']})" for name, model in models.items()}
-    judged = ", ".join(text for name, text in named.items() if name not in references)
+    *others, last = [text for name, text in named.items() if name not in references] or [""]
+    judged = f"{', '.join(others)} and {last}" if others else last
     present = {name: bound for name, bound in references.items() if name in named}
     limits = (
         f"{named[name]}, whose numerical error is at most {bound:.1g} of its value" for name, bound in present.items()
     )
     reference = "; ".join(limits)
     used = ["numpy", "scipy", *(["scikit-fem", "pyamg"] if "fem" in models else [])]
-    libraries = ", ".join(f"{name} {record['dependencies'][name]}" for name in used)
+    libraries = ", ".join(f"{_PRINTED.get(name, name)} {record['dependencies'][name]}" for name in used)
     digest = f", code with the SHA-256 {package['code_sha256'][:DIGITS]}" if "code_sha256" in package else ""
     verdict = record["verdicts"].get("all")
     sentences = [

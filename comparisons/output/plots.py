@@ -155,7 +155,7 @@ def kappa(table: pd.DataFrame, over: str = "") -> Plot:
 
     return Plot(
         id="plot-kappa",
-        title=f"Relative error over the {_LABELS[over]}",
+        title=f"Relative error against the {_LABELS[over]}",
         x_label=_LABELS[over],
         y_label="relative error κ (%)",
         x_scale="log" if over == "mu" and rows["mu"].nunique() > 1 else "linear",
@@ -163,7 +163,7 @@ def kappa(table: pd.DataFrame, over: str = "") -> Plot:
         points=_points(rows, choices, hover, rows[over], 100 * rows["kappa"], 100 * rows["u_kappa"]),
         table="kappa",
         caption="κ = (model − reference) / |reference|. A band shows what the numerical uncertainties of model and "
-        "reference allow together; where none is seen it is narrower than the line.",
+        "reference allow together; where it is not visible, it is narrower than the line.",
         unit=" %",
     )
 
@@ -181,7 +181,7 @@ def agreement(table: pd.DataFrame) -> Plot:
     choices = columns("quantity")
     return Plot(
         id="plot-agreement",
-        title="Difference over the sum of the bounds",
+        title="Difference divided by the sum of the bounds",
         x_label="case, by n, k and μ",
         y_label="difference / sum of bounds",
         choices=choices,
@@ -295,13 +295,13 @@ def _over_key(rows: pd.DataFrame, keys: list[str], file: str, id: str) -> Plot:
         points.loc[of_group.index, ["y", "low", "high"]] *= 10.0**-y_power
     return Plot(
         id=id,
-        title=f"Values over {label} of {file}",
+        title=f"Values against {label} of {file}",
         x_label=label if prefixed == "1" else f"{label} ({prefixed})",
         y_label="value",
         x_scale="log" if rows[over].min() > 0.0 and rows[over].max() / rows[over].min() >= _LOG else "linear",
         choices=choices,
         points=points,
         table=f"{id}-numbers",
-        caption="A band shows the bound on the numerical error; where none is seen it is narrower than the line.",
+        caption="A band shows the bound on the numerical error; where it is not visible, it is narrower than the line.",
         y_labels=labels,
     )

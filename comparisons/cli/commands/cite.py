@@ -16,13 +16,11 @@ from comparisons.runs.record import check_files, read_record
 
 EXAMPLES = ("fscm-bench cite", "fscm-bench cite --format bibtex results/runs/TIME")
 
-_FOLDER = "folder of a finished run, sweep or comparison: the versions and models that it used, too"
+_FOLDER = "folder of a finished run, sweep or comparison, to cite the versions and models that it used"
 
 OPTIONS = (
     file("folder", metavar="DIR", nargs="?", help=_FOLDER),
-    output_format(
-        "bibtex", help="text has a paragraph for the Methods section and the references (default: text)"
-    ),
+    output_format("bibtex", help="text has a paragraph for the Methods section and the references (default: text)"),
 )
 
 

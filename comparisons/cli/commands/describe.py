@@ -20,7 +20,7 @@ from comparisons.problem import Problem
 
 EXAMPLES = ("fscm-bench describe pad.toml", "fscm-bench describe pad.toml --uncertain")
 
-_UNCERTAIN = "what the standard deviations and intervals of the file mean for the pull-off force"
+_UNCERTAIN = "also print the uncertainty of the pull-off force from the uncertain values of the file"
 
 OPTIONS = (
     file("file", help="a problem file, see docs/problem_files.md"),

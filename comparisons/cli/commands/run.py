@@ -20,7 +20,7 @@ EXAMPLES = (
     "fscm-bench run --cases pads.toml --gates pad_gates.toml --out results/pads",
 )
 
-_FRESH = "judge each model of --model in N fresh cases of its own domain, too"
+_FRESH = "also judge each model of --model in N fresh cases of its domain"
 
 OPTIONS = (
     option("--tier", choices=TIERS, help=f"how much to compute (default: {TIERS[0]})"),

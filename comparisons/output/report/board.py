@@ -159,7 +159,7 @@ def _regions(kappa: pd.DataFrame, newest: pd.DataFrame) -> Table:
         names = {"largest": f"kappa {heading}", "u_largest": f"u {heading}"}
         table = table.merge(summary[[*keys, *names]].rename(columns=names), on=keys, how="left")
     layout = [percents(name, f"kappa {name}", f"u {name}", least=SHORT_PERCENT) for name in _REGIONS]
-    return Table("regions", "Error κ of largest size in percent, by region", [*columns(*keys), *layout], table)
+    return Table("regions", "Largest |κ| in percent with its sign, by region", [*columns(*keys), *layout], table)
 
 
 def _plot(kappa: pd.DataFrame) -> Sequence[Block]:

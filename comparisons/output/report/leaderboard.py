@@ -117,7 +117,7 @@ def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:
     facts = {letter: entry.facts for entry, letter in zip(entries, letters, strict=True)}
     sets = pd.DataFrame([[letter, *facts[letter]] for letter in sorted(facts)], columns=["set", *_FACTS])
     differing = [words("set", "case_set")] if len(sets) > 1 else []
-    board = Table("leaderboard", "One row a model and quantity of each run", [*differing, *_LAYOUT], board_rows)
+    board = Table("leaderboard", "One row for each model and quantity of each run", [*differing, *_LAYOUT], board_rows)
     described = sets if differing else sets.head(0)
     facts_of_sets = Table("sets", "Digests of cases and gates", list(map(words, sets)), described)
     headline = f"Models: {board_rows['model'].nunique()}, runs: {len(entries)}"

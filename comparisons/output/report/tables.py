@@ -86,7 +86,7 @@ def worst_cases(stored: Stored) -> Iterator[Table]:
     verdict, gate, *whose = columns("verdict", "gate", "candidate", "quantity")
     again = Column("computed again by", partial(command, specs=stored.specs), kind="code")
     worst = [verdict, _small(gate, lambda row: row["reason"] or "", "prose"), *whose, *case_numbers, again]
-    caption = "Worst cases first, with the command that computes the candidate's side again"
+    caption = "Worst cases first, with the command that computes the value of the candidate again"
     yield Table("offenders", caption, worst, rows, note)
     layout = [*columns("verdict", "gate", "candidate", "reference", "quantity"), *case_numbers, *columns("reason")]
     yield Table("verdicts", "Every gate in every case", layout, stored.verdicts, fold="Every verdict")
@@ -107,7 +107,7 @@ def errors(stored: Stored, plot: Plot) -> Iterator[Table]:
     layout = columns("model", "quantity", "n", "k", "μ", "κ (%)")
     layout += [Column("where", lambda row: "an end of the range" if row["at_end"] else "inside")]
     layout += [*columns("cases"), words("paper (%)", "paper_percent"), words("digits of the paper", "verdict")]
-    caption = "Largest relative error over the computed Tabor numbers, by size, with its sign"
+    caption = "Relative error of largest absolute value over the computed Tabor numbers, with its sign"
     fold = "Largest error of each model for each n and k"
     yield Table("largest", caption, layout, stored.largest_kappa, fold=fold)
 
