@@ -80,9 +80,7 @@ CASE_OR_FILE = (
 )
 
 #: Number of processes.
-JOBS = option(
-    "--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one per core)"
-)
+JOBS = option("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one per core)")
 #: Folder for the results.
 OUT = file("--out", metavar="DIR", help="folder for the results (default: results/runs/TIME); results in it are kept")
 #: Leaves out all but failures.

@@ -26,9 +26,7 @@ OPTIONS = (
     several("--free", metavar="KEY", required=True, help="keys of the problem file to fit, as solid.E"),
     option("--model", choices=("fscm", "jkr"), help="(default: fscm, and jkr where the two agree)"),
     option("--branch", choices=("approach", "retreat", "both"), default="both", help="(default: both)"),
-    option(
-        "--stiffness", metavar="VALUE", help='cantilever stiffness, as "0.2 N/m" (default: displacement control)'
-    ),
+    option("--stiffness", metavar="VALUE", help='cantilever stiffness, as "0.2 N/m" (default: displacement control)'),
     option("--sensitivity", metavar="VALUE", help='deflection sensitivity, as "50 nm/V"'),
     file("--out", metavar="DIR", help="folder for table, JSON and pictures; fits in it are kept"),
     JOBS,
