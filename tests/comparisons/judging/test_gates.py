@@ -91,7 +91,7 @@ MEASURED = '"measured"\nworst_measured = '
         ("n = [1, 2]", "m = [1, 2]", "'m': did you mean mu?"),
         ("n = [1, 2]", '"solid.kind" = "coat"', "'coat': did you mean coating?"),
         ("n = [1, 2]", '"solid.thickness" = ["1 GPa", "2 GPa"]', "cases.solid.thickness"),
-        ("n = [1, 2]", '"solid.thickness" = ["2 nm", "1 nm"]', "cases.solid.thickness"),
+        ("n = [1, 2]", '"solid.thickness" = ["2 nm", "1 nm"]', "low <= high"),
         ('tags = ["blue"]', "tags = []", "cases.tags = []"),
         *(("= 3", f"= 3\nreference_at = {{ k = {k} }}", "reference_at") for k in ('"1"', "nan", "1.5", "inf")),
         # What was measured.

@@ -151,15 +151,6 @@ def test_a_value_and_its_bound_are_in_the_same_unit(written, quantity):
         assert math.isclose(value.dimensionless_u_num, 2.0, rel_tol=1e-14)
 
 
-def test_the_bound_of_the_finite_elements_is_that_of_their_solution(written, monkeypatch):
-    read = written(solid="coating", punch="sphere", law="lennard-jones-9-3")
-    family = (4, 6, 7), (2e-9,) * 3, {"mesh": 5e-12}
-    solution = fem_reference.Solution(2e-9, 5e-12, 1, 1, 0.0, 0.1, *family)
-    monkeypatch.setattr(fem_reference, "solve", lambda problem, quantity: solution)
-    value = evaluate("fem", "pull_off_force", read)
-    assert (value.value, value.u_num) == (2e-9, 5e-12)
-
-
 @pytest.mark.parametrize("model", ["fscm", "jkr", "md-improved"])
 def test_a_homogeneous_solid_and_a_cone_are_power_laws(written, model):
     """E and nu are those of k = 0; r/tan(70 deg) is r^n/(n Q) with n = 1 and Q = tan(70 deg)."""
