@@ -148,6 +148,8 @@ class _Tracer:
         law = problem.law
         self._hand_over = law.peak_gap - _HAND_OVER * (law.peak_gap - law.singular_gap)
         self._kinked, self._power = bool(kinks_of(problem.punch)), isinstance(problem.punch, PowerPunch)
+        # The response of a graded solid is computed anew for each scale, so that it has to stay during the iterations.
+        self._prescribed = tracking.prescribed or self._kinked or problem.graded is not None
 
     def points(self, state: State) -> Iterator[Point]:
         """All points from an initial state on."""
@@ -256,7 +258,7 @@ class _Tracer:
     def _control(self, point: Point, guess: State) -> Control:
         """The condition of a step: on its arc length, or on the continuation parameter where that is prescribed."""
         state = point.state
-        if (self._tracking.prescribed or self._kinked) and state.parameter == _usual_parameter(state):
+        if self._prescribed and state.parameter == _usual_parameter(state):
             share = self._arc.shares(point)[state.parameter]
             if abs(share) > _GIVEN_SHARE:
                 value = parameter_of(state) + self._step * rate_of(point.rates, state.parameter)

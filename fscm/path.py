@@ -119,7 +119,7 @@ def trace(
         The path ends in contact at this load, after the deepest pull-off; by default where the compression equals
         the largest tension.  For a punch that is not a power law it goes on until no later state carries tension.
     start_gap : float, optional
-        Central gap at the far end; by default (10 + 5 mu) z0.
+        Central gap at the far end; by default (10 + 5 mu) z0, with mu where the solid is softest.
     longest_step : float
         Bound on the step from point to point; 0.05 gives three times the points of the default, for
         interpolation.
@@ -147,7 +147,7 @@ def trace(
     largest_turn = real_number(
         "largest_turn", largest_turn, low=0.0, high=180.0, closed_high=True, reason="it is an angle"
     )
-    start = 10.0 + 5.0 * problem.mu if start_gap is None else start_gap
+    start = 10.0 + 5.0 * problem.largest_mu if start_gap is None else start_gap
 
     def ending() -> Callable[[State], bool]:
         end, lowest = path_end(problem, meshes.end_height), 0.0

@@ -1,14 +1,19 @@
 """Displacement and load of all equilibria of a problem, fast enough for a fit.
 
+Paths of neighbouring problems are compared point by point: at equal shares of their lengths between landmarks, which
+are start, the folds of approach and retreat, pull-off and end.
+
 The dimensionless path of a power law depends on n, k and mu alone.  It is computed at Tabor numbers of a fixed grid,
-even in ln mu, and between them it is the cubic through four neighbours at equal shares of its length between landmarks:
-its start, the folds of approach and retreat, pull-off, its end.  So a fit needs some ten paths, and the next curve of
-the same punch often none.
+even in ln mu, and between them it is the cubic through four neighbours.  So a fit needs some ten paths, and the next
+curve of the same punch often none.  Any other path is linear in the fitted numbers, near those at which it and its
+derivatives were computed.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
@@ -25,7 +30,7 @@ from comparisons.numerics.bounds import relative_difference
 from comparisons.problem import Problem
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["Equilibria", "by_fscm", "by_jkr", "distance_of_jkr", "is_limit"]
+__all__ = ["Equilibria", "by_fscm", "by_jkr", "distance_of_jkr", "is_limit", "paths_alike"]
 
 Array = NDArray[np.float64]
 
@@ -64,7 +69,7 @@ class Equilibria(NamedTuple):
     load: Array
 
 
-def by_fscm(problem: Problem, largest: float, exact: bool) -> Equilibria:
+def by_fscm(problem: Problem, largest: float, exact: bool = False) -> Equilibria:
     """Return the equilibria of the full self-consistent model.
 
     Parameters
@@ -81,16 +86,13 @@ def by_fscm(problem: Problem, largest: float, exact: bool) -> Equilibria:
     comparisons.model.ComputationFailed
         If there is no such path.
     """
-    if not problem.is_of_the_paper("solid", "punch", "law"):
-        return _of_problem(problem, _rounded(largest / problem.units["load"]))
     posed, units = problem.posed, problem.units
     if posed.mu < _LEAST_MU or largest > _LARGEST_LOAD * units["load"]:
         raise ComputationFailed("a search does not need a contact as stiff, or without adhesion in its load")
-    end = _rounded(largest / units["load"])
-    computed = (
-        _resampled(posed.n, posed.k, posed.mu, end, False) if exact else _between(posed.n, posed.k, posed.mu, end)
-    )
-    return Equilibria(computed[0] * units["displacement"], computed[1] * units["load"])
+    # The power of two above a load: few different ends of paths.
+    end = 2.0 ** math.ceil(math.log2(max(largest / units["load"], 2.0)))
+    displacement, load = paths_alike([posed], end)[0] if exact else _between(posed, end)
+    return Equilibria(displacement * units["displacement"], load * units["load"])
 
 
 def by_jkr(problem: Problem, largest: float) -> Equilibria:
@@ -127,34 +129,30 @@ def is_limit(problem: Problem) -> bool:
     return problem.posed.mu > _KNOWN[-1] and distance_of_jkr(problem) < _LIMIT
 
 
-def _rounded(load: float) -> float:
-    """The power of two above a load, at least that of the pull-off force: few different ends of paths."""
-    return 2.0 ** math.ceil(math.log2(max(load, 2.0)))
+def paths_alike(problems: Sequence[fscm.Problem], end: float) -> list[Array]:
+    """Return displacement and load of paths to a load, of as many points each, shape (2, m).
 
+    Parameters
+    ----------
+    problems : sequence of fscm.Problem
+        Dimensionless neighbours.
+    end : float
 
-@lru_cache(maxsize=64)
-def _of_problem(problem: Problem, end: float) -> Equilibria:
-    path = _path(problem.build(fscm), end * problem.units["load"])
-    return Equilibria(path[0], path[1])
-
-
-def _path(problem: fscm.Problem, end: float) -> Array:
-    """Displacement and load of a path to a load, shape (2, m)."""
-    try:
-        path = fscm.trace(problem, "quick", max_load=end, largest_turn=_TURN)
-    except (fscm.NotConverged, ValueError) as error:
-        raise ComputationFailed(f"the FSCM has no path for the values that were tried ({error})") from None
-    return np.array([path.displacement, path.load])
-
-
-def _between(n: float, k: float, mu: float, end: float) -> Array:
-    """Return the path between four Tabor numbers of the grid, shape (2, m)."""
-    exponent = math.log(mu, _RATIO)
-    indices = [math.floor(exponent) + shift for shift in (-1, 0, 1, 2)]
-    numbers = [_RATIO**index for index in indices]
+    Raises
+    ------
+    comparisons.model.ComputationFailed
+        If one of them has no path.
+    """
     # Paths with folds and such without have no landmarks in common but start, pull-off and end.
-    plain = any(len(_landmarks(_fine(n, k, number, end))) < 5 for number in numbers)
-    paths = [_resampled(n, k, number, end, plain) for number in numbers]
+    plain = any(len(_landmarks(_fine(problem, end))) < 5 for problem in problems)
+    return [_resampled(problem, end, plain) for problem in problems]
+
+
+def _between(problem: fscm.Problem, end: float) -> Array:
+    """Return the path between four Tabor numbers of the grid, shape (2, m)."""
+    exponent = math.log(problem.mu, _RATIO)
+    indices = [math.floor(exponent) + shift for shift in (-1, 0, 1, 2)]
+    paths = paths_alike([replace(problem, mu=_RATIO**index) for index in indices], end)
     weights = [
         math.prod((exponent - other) / (index - other) for other in indices if other != index) for index in indices
     ]
@@ -162,10 +160,14 @@ def _between(n: float, k: float, mu: float, end: float) -> Array:
 
 
 @lru_cache(maxsize=256)
-def _fine(n: float, k: float, mu: float, end: float) -> Array:
+def _fine(problem: fscm.Problem, end: float) -> Array:
     """Return a path that ends at a load, with points between its states by a spline, shape (2, m)."""
-    path = _path(fscm.Problem(n, k, mu), end)
-    length = _length(path, mu)
+    try:
+        traced = fscm.trace(problem, "quick", max_load=end, largest_turn=_TURN)
+    except (fscm.NotConverged, ValueError) as error:
+        raise ComputationFailed(f"the FSCM has no path for the values that were tried ({error})") from None
+    path = np.array([traced.displacement, traced.load])
+    length = _length(path, problem.mu)
     rising = np.concatenate([[True], np.diff(length) > 1e-9])
     path, length = path[:, rising], length[rising]
     spline = CubicSpline(length, path.T)
@@ -179,10 +181,10 @@ def _fine(n: float, k: float, mu: float, end: float) -> Array:
 
 
 @lru_cache(maxsize=256)
-def _resampled(n: float, k: float, mu: float, end: float, plain: bool) -> Array:
+def _resampled(problem: fscm.Problem, end: float, plain: bool) -> Array:
     """Return a path at equal shares of its length between landmarks, shape (2, m)."""
-    path = _fine(n, k, mu, end)
-    length = _length(path, mu)
+    path = _fine(problem, end)
+    length = _length(path, problem.mu)
     marks = _landmarks(path)
     if plain and len(marks) == 5:
         marks = [marks[0], *marks[3:]]

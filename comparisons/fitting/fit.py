@@ -17,11 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from comparisons.description.assumptions import assumptions
+from comparisons.fitting.curves import Curves
 from comparisons.fitting.equilibria import distance_of_jkr, is_limit
 from comparisons.fitting.machine import Observations
 from comparisons.fitting.parameters import Key, changed, free_keys, uncertain_keys
 from comparisons.fitting.record import Record, read_records
-from comparisons.fitting.search import Curves, Search, dotted, plain
+from comparisons.fitting.search import Search, dotted, plain
 from comparisons.problem import Problem
 from comparisons.runs.tasks import evaluate
 
@@ -185,8 +186,8 @@ def fit_record(record: Record, problem: Problem, free: Sequence[Key], model: str
         model = "jkr" if has_limit and is_limit(at_start) else "fscm"
     # The paths of a fit in n or k have no Tabor numbers in common.
     exact = not has_limit or any(key.name in ("solid.k", "punch.n") for key in search.keys)
-    curves = Curves(model, exact=model == "fscm" and exact)
-    return _described(search, search.best(curves, starts), curves, len(free))
+    result, curves = search.best(Curves(model), starts, model == "fscm" and exact)
+    return _described(search, result, curves, len(free))
 
 
 def _described(search: Search, result: Any, curves: Curves, count: int) -> Fit:

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import lmfit
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.fitting.equilibria import Equilibria, by_fscm, by_jkr, is_limit
+from comparisons.fitting.curves import Curves, NearbyCurves
 from comparisons.fitting.machine import Machine, Observations
 from comparisons.fitting.parameters import Key, changed
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.problem import Problem
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["Curves", "Search", "derivatives", "dotted", "plain"]
+__all__ = ["Search", "derivatives", "dotted", "plain"]
 
 Array = NDArray[np.float64]
 
@@ -53,33 +53,12 @@ _DESCRIBED = 4.0
 #: what the first one steps over.
 _STEPS = (1e-2, 1e-3)
 
+#: Largest change of a number by one expansion at first, their largest count, the change that ends a search, in standard
+#: deviations, and the growth of the sum of squares that makes a step too long.
+_REACH, _EXPANSIONS, _SMALL, _WORSE = 1.0, 40, 0.25, 1.01
+
 #: Residual of values for which the model has no path: larger than any of a path.
 _REFUSED = 1e9
-
-
-@dataclass(frozen=True)
-class Curves:
-    """The equilibria of a model.
-
-    Attributes
-    ----------
-    model : str
-        "fscm" or "jkr".
-    exact : bool
-        Of the FSCM: whether each problem has a path of its own, which takes seconds.
-    factor : float
-        On all loads.
-    """
-
-    model: str
-    exact: bool = False
-    factor: float = 1.0
-
-    def equilibria(self, problem: Problem, largest: float) -> Equilibria:
-        """Return those of a problem up to a load in N; a search for those of the FSCM may pass through its limit."""
-        by_limit = self.model == "jkr" or (problem.is_of_the_paper("solid", "punch", "law") and is_limit(problem))
-        of_model = by_jkr(problem, largest) if by_limit else by_fscm(problem, largest, self.exact)
-        return Equilibria(of_model.displacement, of_model.load * self.factor)
 
 
 class Search:
@@ -142,8 +121,15 @@ class Search:
             numbers |= dict.fromkeys(moduli, (math.log(mu) - logs[0]) / (logs[1] - logs[0]))
         return numbers
 
-    def best(self, curves: Curves, starts: Sequence[dict[str, float]]) -> Any:
-        """Return the best result of lmfit from several starts.
+    def best(self, curves: Curves, starts: Sequence[dict[str, float]], is_costly: bool) -> tuple[Any, Curves]:
+        """Return the best result of lmfit from several starts, and the curves that it is of.
+
+        Parameters
+        ----------
+        curves : Curves
+        starts : sequence of dict
+        is_costly : bool
+            Whether each problem has a path of its own, which takes seconds.
 
         Raises
         ------
@@ -153,19 +139,44 @@ class Search:
         results, refusal = [], ComputationFailed("no values of the free keys describe the curve")
         for start in starts:
             try:
-                results.append(self._from(curves, start))
+                results.append(self._nearby(start) if is_costly else (self._from(curves, start), curves))
             except ComputationFailed as error:
                 refusal = error
-            if results and results[-1].redchi < _DESCRIBED:
+            if results and results[-1][0].redchi < _DESCRIBED:
                 break
         if not results:
             raise refusal
-        return _best(results)
+        return min(results, key=lambda result: float(result[0].chisqr))
+
+    def _nearby(self, start: dict[str, float]) -> tuple[Any, Curves]:
+        """The result from one start, and its curves: each expansion of them gives the numbers of the next one.
+
+        The reach of an expansion shrinks where the record is described worse at the next numbers, or they have no path.
+        """
+        curves, center, values, reach, least = NearbyCurves("fscm"), start, start, _REACH, math.inf
+        for number in range(_EXPANSIONS):
+            try:
+                expanded = curves.moved(self.problem, self.keys, values, 1.2 * self._largest(values))
+                squares = float(np.sum(self._residuals(values, expanded) ** 2)) if number else math.inf
+            except ComputationFailed:
+                if not number:
+                    raise
+                squares = math.inf
+            if number and squares > _WORSE * least:
+                reach *= 0.25
+            else:
+                curves, center, least = expanded, values, squares
+            result = self.minimised(curves, center, _STEPS[1], reach)
+            values = self.values(result)
+            if all(
+                abs(values[name] - at_center) < _SMALL * (result.params[plain(name)].stderr or _STEPS[1])
+                for name, at_center in curves.center.items()
+            ):
+                break
+        return result, curves
 
     def _from(self, curves: Curves, start: dict[str, float]) -> Any:
-        """The result from one start; of curves that cost no time also from where a coarse search ends."""
-        if curves.exact:
-            return self.minimised(curves, start, _STEPS[1])
+        """The better result from one start and from where a coarse search from it ends."""
         coarse = self.values(self.minimised(curves, start, _STEPS[0]))
         return _best(self.minimised(curves, each, _STEPS[1]) for each in (start, coarse))
 
@@ -180,8 +191,13 @@ class Search:
     def machine(self, values: dict[str, float], curves: Curves) -> Machine:
         """Return the stable sections of the problem of fitted numbers."""
         problem = self._problem_of(values)
-        largest = float(self.observed.record.load.max()) - values.get("load", 0.0) * self.load_range
-        return Machine.of(curves.equilibria(problem, 1.2 * largest), self.observed.record.stiffness)
+        equilibria = curves.equilibria(problem, values, 1.2 * self._largest(values))
+        return Machine.of(equilibria, self.observed.record.stiffness)
+
+    def _largest(self, values: dict[str, float]) -> float:
+        """The largest load of the record from its zero."""
+        zero = values.get("load", self._load_zero() / self.load_range) * self.load_range
+        return float(self.observed.record.load.max()) - zero
 
     def zeros(self, values: dict[str, float]) -> tuple[Array, float]:
         """Return the positions of the record from their zero, and the zero of the load."""
@@ -190,8 +206,8 @@ class Search:
         compliance = load / self.observed.record.stiffness
         return self._position - compliance - shift * self.range, load
 
-    def minimised(self, curves: Curves, start: dict[str, float], step: float) -> Any:
-        """Return the result of lmfit from given numbers.
+    def minimised(self, curves: Curves, start: dict[str, float], step: float, reach: float = math.inf) -> Any:
+        """Return the result of lmfit from given numbers, of keys within a reach of them.
 
         Raises
         ------
@@ -202,6 +218,7 @@ class Search:
         for key in self.keys:
             low, high = (key.number(limit) for limit in key.limits)
             value = start.get(key.name, 0.0)
+            low, high = max(low, value - reach), min(high, value + reach)
             room = {} if math.isinf(low) and math.isinf(high) else {"min": low, "max": high}
             parameters.add(plain(key.name), value=value, **room)
         parameters.add("load", value=start.get("load", self._load_zero() / self.load_range))

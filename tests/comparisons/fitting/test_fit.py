@@ -12,6 +12,7 @@ import pytest
 from scipy.stats import binom
 
 import fem_reference
+import fscm
 from comparisons import fit
 from comparisons.cli.main import main
 from comparisons.fitting.equilibria import Equilibria, by_fscm
@@ -63,6 +64,20 @@ def test_a_cone_whose_force_by_jkr_depends_on_its_modulus_is_fitted(E):
     result = fitted(cone, record, wrong(cone, 1.6))
     assert max(map(abs, deviations(cone, result))) < 3.5
     assert all(row.u < 0.01 * row.value for row in result.parameters.values())
+
+
+def test_a_ball_is_fitted_with_few_paths_of_its_own(monkeypatch):
+    """The noise is a thousandth of the pull-off force, and the file is wrong threefold."""
+    problem = contact(5e8, 0.05)
+    ball = replace(problem, punch=Section("ball", {"R": 200e-9}))
+    record = Instrument(noise=1e-3).record(ball, np.random.default_rng(9))
+    traced, trace = [], fscm.trace
+    monkeypatch.setattr(fscm, "trace", lambda *args, **options: traced.append(1) or trace(*args, **options))
+    result = fitted(ball, record)
+    assert max(map(abs, deviations(ball, result))) < 3.5
+    assert all(row.u < 5e-4 * row.value for row in result.parameters.values())
+    assert result.residual < 1.1 * result.noise
+    assert len(traced) <= 24
 
 
 @pytest.mark.heavy
