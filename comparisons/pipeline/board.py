@@ -1,8 +1,9 @@
-"""Function that makes the board: a static site of submissions, each run and judged as by ``fscm-bench run --model``."""
+"""Functions that make the board, a static site of submissions that are run and judged, and the leaderboard of runs."""
 
 from __future__ import annotations
 
 import shutil
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,10 +12,11 @@ from comparisons.data.file_names import REPORT, STORE
 from comparisons.external.model_source import close_models
 from comparisons.model import ComputationFailed
 from comparisons.output.report.board import BoardEntry, Submission, board_page
+from comparisons.output.report.leaderboard import Entry, leaderboard_html
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
-from comparisons.pipeline.leaderboard import entry_of
+from comparisons.pipeline.inputs import stored_inputs
 from comparisons.pipeline.run import run
 from comparisons.pipeline.submissions import read_submission, submission_folders
 from comparisons.pipeline.tables import REFERENCE
@@ -22,6 +24,7 @@ from comparisons.registry import create
 from comparisons.runs.atomic_files import atomic, prepare_folder
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.store import rows_in
+from comparisons.runs.tasks import plan
 
 #: The first page of the site, and the file that names the code of its results.
 INDEX, _CODE = "index.html", "code.txt"
@@ -122,3 +125,36 @@ def _judge(submission: Submission, site: Path, earlier: list[BoardEntry], jobs: 
     page = render(make_page(read_folder(target)))
     with atomic(target / REPORT) as file:
         file.write(page.encode())
+
+
+def leaderboard(folders: Sequence[Path], mixed: bool = False) -> str:
+    """Return the page of a leaderboard as HTML, one file without any other.
+
+    Parameters
+    ----------
+    folders : sequence of Path
+        Of finished runs, sweeps or comparisons; a folder that is named twice counts once.
+    mixed : bool
+        Whether runs of different cases or gates may stand on one page, which then states it.
+
+    Raises
+    ------
+    ValueError
+        If a folder is not that of a finished run, a file of it was changed, it holds a part of a sweep, or the runs
+        have different cases or gates and `mixed` is false.
+    """
+    entries = [entry_of(folder) for folder in {folder.resolve(): folder for folder in folders}.values()]
+    return leaderboard_html(entries, mixed)
+
+
+def entry_of(folder: Path) -> Entry:
+    """Return the results of a folder with the keys that its tables of errors are about, and their references."""
+    stored = read_folder(folder)
+    if shard := stored.record["arguments"].get("shard"):
+        raise ValueError(f"{folder} is the part {shard} of a sweep: put the parts together with fscm-bench merge first")
+    inputs = stored_inputs(folder, stored.record)
+    if inputs.cases.sha256 != stored.record["cases_sha256"]:
+        log(f"the standing cases have changed since {folder} was computed: its coverage counts every stored result")
+        return Entry(str(folder), stored, None)
+    planned = {task.key: grid.reference for grid in inputs.cases.compared for task in plan([grid], inputs.models)}
+    return Entry(str(folder), stored, planned)

@@ -7,7 +7,7 @@ import argparse
 from comparisons.cli.options import file, option
 from comparisons.cli.screen import write_page
 from comparisons.console.exit_status import OK
-from comparisons.pipeline.leaderboard import leaderboard
+from comparisons.pipeline.board import leaderboard
 from comparisons.runs.atomic_files import writable_file
 
 EXAMPLES = ("fscm-bench leaderboard results/mine results/other --out leaderboard.html",)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.pipeline.leaderboard import leaderboard
+from comparisons.pipeline.board import leaderboard
 from comparisons.runs.record import _own_sum
 from comparisons.runs.store import rows_in
 
