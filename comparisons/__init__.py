@@ -1,6 +1,6 @@
 """Closed forms, the judge, tables, figures and the command line.
 
-The names below are loaded when they are first used, so that ``import comparisons`` takes no time.
+The names below are loaded when they are first used, so that ``import comparisons`` is fast.
 
 Examples
 --------

@@ -52,7 +52,7 @@ class Result:
     Attributes
     ----------
     value : float
-        Dimensionless value, in the unit the quantity registry states.
+        Dimensionless value, in the unit that `comparisons.QUANTITIES` states.
     u_num : float
         Bound on the numerical error of `value` (same unit, >= 0).  For a closed form this is the rounding
         and root-finding error.  The error of the model itself is not part of it.
@@ -67,7 +67,7 @@ class Result:
     observed_order : float or None
         Order of convergence seen over several meshes; None where none was measured.
     reason : str
-        One sentence on what the value depends on besides; else empty.
+        One sentence on a further assumption of the value, for example an equivalent power law; empty if there is none.
 
     Examples
     --------
@@ -158,8 +158,8 @@ class Model(Protocol):
 
     Attributes are plain data; `evaluate` is a pure function of its arguments.  A model may have the attribute
     `applies_to`, the domain for which it promises a result (`comparisons.domain`): it is not evaluated outside, and
-    inside `NotApplicable` counts as a failure.  One of this repository has `checks_problems = True` if it checks itself
-    which kinds of solids, punches and laws it takes (`comparisons.problem.evaluation`).
+    inside `NotApplicable` counts as a failure.  A model of this repository has `checks_problems = True` if it checks
+    by itself which kinds of solids, punches and laws it takes (`comparisons.problem.evaluation`).
 
     Examples
     --------

@@ -1,12 +1,12 @@
 """An independent axisymmetric finite-element model of adhesive contact of graded materials.
 
-Physical quantities in any consistent units: a half-space with Young's modulus E(z) and Poisson ratio nu(z), a
+Physical quantities in any consistent units: a half-space with Young's modulus E(z) and Poisson's ratio nu(z), a
 rigid punch f(r), a surface law p(H).  The solid is meshed with high-order elements and closed by the exact
-stiffness of the infinite exterior.  Condensed to its surface it follows the path of equilibria; at an event every
-displacement of the mesh is solved with pyamg.
+stiffness of the infinite exterior.  The equilibrium path is traced on the system condensed to the surface; at an event
+the displacement of the whole mesh is solved with pyamg.
 
-A name of `__all__` of a module of solids, punches or laws is a name of the package.  The other names are listed in
-`_lazy.pyi`; a module is loaded when one of them is first used.
+The names in `__all__` of the modules of solids, punches and laws are names of the package, too.  `_lazy.pyi` lists the
+others; a module is loaded when one of its names is first used.
 """
 
 from pathlib import Path

@@ -19,7 +19,7 @@ class NotConverged(RuntimeError):
 
 
 class NoSuchEvent(LookupError):
-    """The equilibrium path has no such event (no fold, say, for a stiff solid); the message says why.
+    """The equilibrium path has no such event (for example no fold for a stiff solid); the message says why.
 
     Examples
     --------
@@ -32,7 +32,7 @@ class NoSuchEvent(LookupError):
 
 
 class AccuracyWarning(UserWarning):
-    """The bound of a value is larger than the accuracy that was asked for; the message says which one was reached.
+    """The bound of a value exceeds the requested accuracy; the message has the accuracy reached.
 
     Examples
     --------

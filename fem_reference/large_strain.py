@@ -95,26 +95,26 @@ def solve_large_strain(
     friction: Friction = "frictionless",
     form: Form = "auto",
 ) -> Solution:
-    """Compute one quantity of the contact with a neo-Hookean solid, with a bound of its numerical error.
+    """Compute one quantity of the contact with a neo-Hookean solid, with a bound on its numerical error.
 
     The energy per reference volume is psi = G/2 (I1 - 3 - 2 ln J) + lambda/2 (ln J)^2 with the constants of the solid,
-    and that of the faces is the integral of U(H) over the area of the deformed surface, with dU/dH = -p and
-    H = f(r + u_r) - delta + u_z: a pressure p(H) normal to it.  Beyond 32 radii of the contact edge the solid is
-    linear, and extends to infinity.
+    and the surface energy is the integral of U(H) over the area of the deformed surface, with dU/dH = -p and
+    H = f(r + u_r) - delta + u_z, which gives a pressure p(H) normal to the surface.  Beyond 32 contact radii the solid
+    is linear, and extends to infinity.
 
     Parameters
     ----------
     problem : Problem
-        In consistent units.  Its solid may be any, or a `NeoHookean`, which may be incompressible; its punch is used
-        as it is (`Ball` for a sphere).
+        In consistent units, with any solid or a `NeoHookean`, which may be incompressible.  The punch is not
+        approximated; take `Ball` for a sphere.
     quantity : str
         One of `LARGE_STRAIN_QUANTITIES`.
     accuracy : float or str
         Selects the meshes, as for `solve`.
     friction : {"frictionless", "bonded"}
-        Bonded is the other limit: no point of the surface slides, each keeps its radius, in contact and beyond.
+        "bonded" is the opposite limit: no point of the surface changes its radius, inside and outside the contact.
     form : {"auto", "displacement", "mixed"}
-        Whether the pressure is an unknown of its own; "auto" takes it for nu > 0.45.
+        Whether the pressure is a separate unknown ("mixed"); "auto" is "mixed" for nu > 0.45.
 
     Returns
     -------
@@ -129,7 +129,7 @@ def solve_large_strain(
         For an unknown name, the form "displacement" for an incompressible solid, or a modulus that vanishes at the
         surface.
     NoSuchEvent
-        If the path of small strain, from which the event is sought, has none.
+        If the small-strain path, where the search begins, has no such event.
     NotConverged
         If no equilibrium is found: the surface of a compressible solid becomes unstable under a tension near half of
         its modulus, and any solid where it is compressed by a third.

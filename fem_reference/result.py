@@ -27,19 +27,19 @@ class Solution:
     size : int
         Unknowns of the finest finite-element mesh.
     iterations : int
-        Conjugate-gradient iterations with pyamg for all displacements of the finest mesh at the events.
+        Conjugate-gradient iterations with pyamg at the events, on the finest mesh.
     residual : float
         Residual of the whole nonlinear system there, relative to the traction.
     seconds : float
-        Wall-clock time of everything.
+        Wall-clock time.
     degrees, values : tuple
         Degrees of the elements, rising, and the quantity with each from its condensed system (nan where the lowest
         degree has no such event).
     parts : mapping of str to float
-        Causes of the error and the share of each in `u_num`: "mesh" (size and degree of the elements), "first layer",
+        Contributions to `u_num` by cause: "mesh" (size and degree of the elements), "first layer",
         "interior and exterior" (extent of the mesh), "edge" (placement of the contact edge, size of the elements at the
-        apex), "tail" (displacement that the mesh leaves out) and "algebra" (rounding, the distance of `value` from the
-        condensed one, and what conjugate gradients leave).
+        apex), "tail" (displacement beyond the mesh) and "algebra" (rounding, the difference of `value` from the
+        condensed one, and the error of the conjugate gradients).
     """
 
     value: float

@@ -324,7 +324,7 @@ class TabulatedModulus:
     Raises
     ------
     ValueError
-        If the columns are no table, or a value is outside its range.
+        If the columns do not form a table, or a value is outside its range.
 
     Examples
     --------

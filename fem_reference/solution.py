@@ -44,7 +44,7 @@ CUSP_SHARE = 0.3
 
 
 def solve(problem: Problem, quantity: str, accuracy: float | str = "default") -> Solution:
-    """Compute one quantity with a bound of its numerical error.
+    """Compute one quantity with a bound on its numerical error.
 
     Parameters
     ----------
@@ -53,10 +53,10 @@ def solve(problem: Problem, quantity: str, accuracy: float | str = "default") ->
     quantity : str
         One of `QUANTITIES` or `LOSSES`, or `CRITICAL_MODULUS`.
     accuracy : float or str
-        Relative error asked for, in [1e-8, 1), or one of `ACCURACIES`.  It selects the meshes; `u_num` is what they
-        give.  Finer ones are taken where a path cannot be traced on these.  A value at an accuracy finer than "default"
-        that misses it is computed at "default" as well, and the one with the smaller `u_num` is returned.  Where the
-        bound of a value is above a number that was asked for, an `AccuracyWarning` says so.
+        Requested relative error, in [1e-8, 1), or one of `ACCURACIES`.  It selects the meshes; `u_num` bounds the
+        actual error.  Finer meshes are used where the path cannot be traced.  A value at an accuracy finer than
+        "default" that misses it is also computed at "default", and the one with the smaller `u_num` is returned.  If
+        the bound exceeds a requested number, an `AccuracyWarning` says so.
 
     Returns
     -------
@@ -96,15 +96,15 @@ def solve_together(
     problem, accuracy
         As for `solve`.
     quantities : iterable of str
-        Of `QUANTITIES`, `LOSSES` and `CRITICAL_MODULUS`; all of `QUANTITIES` by default.  The mesh suits the first of
-        them that exists, other than the jump into contact: in a solid that is no power law, others whose contact edge
-        that mesh does not resolve get a mesh of their own, as the critical modulus does.
+        Of `QUANTITIES`, `LOSSES` and `CRITICAL_MODULUS`; all of `QUANTITIES` by default.  The mesh is made for the
+        first of them that exists, other than the jump into contact.  In a solid that is not a power law, quantities
+        whose contact edge this mesh does not resolve get a mesh of their own, as does the critical modulus.
 
     Returns
     -------
     dict of str to Solution or NoSuchEvent
-        In the order of `quantities`; the exception, not raised, stands for a quantity that the path does not have.
-        `seconds` are those of all together.
+        In the order of `quantities`; a quantity that the path does not have gives the exception, which is not raised.
+        `seconds` is the time of all quantities together.
 
     Raises
     ------

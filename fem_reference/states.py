@@ -25,7 +25,7 @@ __all__ = ["EVENTS", "EquilibriumPath", "RadialField", "event_state", "profile",
 
 @dataclass(frozen=True, slots=True, eq=False)
 class EquilibriumPath(Columns):
-    """The equilibrium path, one entry a point.
+    """The equilibrium path; each array has one entry per point.
 
     Attributes
     ----------
@@ -74,15 +74,15 @@ class RadialField(Columns):
 def trace(problem: Problem, accuracy: float | str = "default", largest_turn: float | None = None) -> EquilibriumPath:
     """Trace the equilibrium path from far away until the load is compressive.
 
-    The states in contact with a solid that does not scale lie on a mesh for each radius of the contact edge.
+    In contact with a solid that is not a power law, each radius of the contact edge has a mesh of its own.
 
     Parameters
     ----------
     problem, accuracy
         As for `fem_reference.solve`.
     largest_turn : float, optional
-        Angle in degrees, in (0, 180]: points are inserted where the drawn curve of load over displacement turns by more
-        from one to the next.
+        Angle in degrees, in (0, 180]: points are inserted until the plotted curve of load over displacement turns by
+        less from one point to the next.
 
     Returns
     -------

@@ -62,7 +62,7 @@ class _Power:
 class TabulatedLaw:
     """Surface law through points, whose gap without traction becomes H = 0.
 
-    The points are taken as they are: noisy ones must be smoothed before.
+    The law passes through every point: smooth noisy points before.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ class TabulatedLaw:
         Exponent m > 1 of the attraction far away, where it is known; C and t are fitted then.  By default the origin t
         is that of the wall, and C and m are fitted.
     work : float, optional
-        Work of adhesion: the tractions are multiplied so that they have it.  By default they are taken as they are.
+        Work of adhesion to which the tractions are scaled.  By default they are not scaled.
 
     Raises
     ------

@@ -5,8 +5,8 @@
 >>> round(solution.value, 8)
 1.78848171
 
-A name of `__all__` of a module of solids, punches or laws is a name of the package.  The other names are listed in
-`_lazy.pyi`; a module is loaded when one of them is first used.
+The names in `__all__` of the modules of solids, punches and laws are names of the package, too.  `_lazy.pyi` lists the
+others; a module is loaded when one of its names is first used.
 """
 
 from pathlib import Path

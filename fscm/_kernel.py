@@ -284,7 +284,7 @@ def ring_response(k: float, r: Array, t: Array, distance: Array | None = None) -
     r, t : array_like
         Radii of the point (>= 0) and of the ring (> 0), any consistent unit, broadcast together.
     distance : array_like, optional
-        abs(r - t) where the radii cannot carry it to full relative accuracy.
+        abs(r - t), where the difference of the radii would lose digits.
 
     Returns
     -------
@@ -308,7 +308,7 @@ def _of_ratio(method: Callable[[Array, Array], Array], s: Array, offset: Array |
 
 
 def Phi(k: float, s: Array, offset: Array | None = None) -> Array:
-    """Primitive Phi_k(s) of (1-k) G_k (Eq. 18), s >= 0; `offset` is s - 1 where s cannot carry it.
+    """Primitive Phi_k(s) of (1-k) G_k (Eq. 18), s >= 0; `offset` is s - 1 where this difference would lose digits.
 
     Examples
     --------

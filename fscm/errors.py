@@ -18,7 +18,7 @@ class NotConverged(RuntimeError):
 
 
 class NoSuchEvent(LookupError):
-    """The equilibrium path has no such event (no jump below the critical Tabor number, say).
+    """The equilibrium path has no such event (for example no jump below the critical Tabor number).
 
     Examples
     --------

@@ -21,7 +21,7 @@ __all__ = ["Cycle", "displacement_cycle", "load_controlled_retreat"]
 
 @dataclass(frozen=True)
 class Cycle:
-    """One cycle of loading and unloading; arrays in the order a machine records them.
+    """One cycle of loading and unloading; arrays in the order in which a machine records them.
 
     Attributes
     ----------

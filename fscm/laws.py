@@ -20,7 +20,7 @@ __all__ = ["LennardJones", "Mie", "SurfaceLaw"]
 
 @runtime_checkable
 class SurfaceLaw(Protocol):
-    """What the solver needs to know of a surface law.
+    """Interface of a surface law: what the solver uses of it.
 
     Examples
     --------

@@ -36,7 +36,7 @@ class MeasuredPunch:
     Raises
     ------
     ValueError
-        When the columns are no profile, with the reason in one sentence.
+        When the columns do not form a profile, with the reason in one sentence.
 
     Examples
     --------

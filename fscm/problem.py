@@ -37,9 +37,9 @@ _LEAST_M, _LARGEST_M = 1e-30, 1e15
 class Problem:
     """Adhesive contact of a rigid punch with a half-space, in physical units or dimensionless.
 
-    ``Problem(solid, punch, law)`` is in any consistent units, as those of SI, and so are its results.
-    ``Problem(n, k, mu)`` is dimensionless: a power-law graded half-space.  A physical problem has n, k and mu, too, and
-    its `dimensionless` one.  Immutable, hashable, and picklable when its parts are.
+    ``Problem(solid, punch, law)`` and its results are in any consistent units, for example SI.
+    ``Problem(n, k, mu)`` is dimensionless: a power-law graded half-space.  A physical problem also has n, k and mu, and
+    `dimensionless`, the same problem without units.  Immutable, hashable, and picklable when its parts are.
 
     Parameters
     ----------
@@ -64,8 +64,8 @@ class Problem:
     Attributes
     ----------
     n, k, mu, punch, law, solid, graded
-        As above.  Of a physical problem punch and law are physical, n and Q are those of the unit of the radii (of a
-        power law its own), and `graded` is None; of a dimensionless one `solid` is None.
+        As above.  In a physical problem punch and law are physical, n and Q define the unit of the radii (those of the
+        punch if it is a power law), and `graded` is None; in a dimensionless one `solid` is None.
 
     Raises
     ------

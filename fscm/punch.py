@@ -116,10 +116,10 @@ class PowerPunch:
 
 @dataclass(frozen=True, slots=True)
 class Ball:
-    """A true sphere f(r) = R - sqrt(R^2 - r^2); `PowerPunch(2, R)` is the paraboloid of the same tip.
+    """An exact sphere f(r) = R - sqrt(R^2 - r^2); `PowerPunch(2, R)` is the paraboloid with the same curvature.
 
     Beyond 0.95 R a parabola in r continues height, slope and curvature, because a punch has to rise without bound; a
-    contact that reaches so far is refused.  What faces each other beyond carries 1e-5 of the load for R = 200 z0.
+    contact that extends so far is refused.  The surfaces beyond contribute 1e-5 of the load for R = 200 z0.
 
     Parameters
     ----------

@@ -91,8 +91,8 @@ class EquilibriumState:
         Bound on the error of each of the three numbers, dimensionless: in z0, and in the unit of loads.
     profile : RadialField
     parts : mapping
-        Bounds on the error of each of the three, by name and cause: ``parts["load"]["mesh"]``.  That of the control
-        bounds how well its value is met.
+        Bounds on the error of each of the three, by name and cause: ``parts["load"]["mesh"]``.  The bound of the
+        control is the error of its prescribed value.
 
     Only stable states are observed in an experiment.
 

@@ -44,14 +44,14 @@ class TabulatedLaw:
         Tractions, compression positive.  First > 0, one change of sign, a largest tension before
         the last point; last < 0, or = 0 for a law of finite range.
     z0 : float
-        Range of the law in the unit of the gaps, > 0.  It is the user's choice and fixes the Tabor number, but no
+        Range of the law in the unit of the gaps, > 0.  It is the user's choice and affects the Tabor number, but no
         result in physical units; 1 in a dimensionless problem.
     tail_exponent : float, optional
         Exponent m > 1 of the tail p ~ -C H^-m when it is known (3 for van der Waals forces between
         half-spaces). C and the origin t are then fitted to the end of the data.  Otherwise t is the gap at
         which the wall diverges, and C and m are fitted.
     work : float, optional
-        Work of adhesion: the tractions are multiplied so that they have it.  By default they are taken as they are.
+        Work of adhesion to which the tractions are scaled.  By default they are not scaled.
     smoothing : float, optional
         Relative standard error of the tractions, below 0.1.  Above 0 the law is a smooth curve through the points
         within about this error, instead of an interpolating one: for noisy data, or fewer than about 40 points.  The

@@ -87,7 +87,7 @@ def judge(
     models : sequence of str, optional
         Models that were given in place of those each grid names.
     domains : mapping of str to Domain, optional
-        The domains that models declare: there "not applicable" is a failure, and outside it counts for nothing.
+        The domains that models declare: inside "not applicable" is a failure, and outside it is not counted.
 
     Returns
     -------

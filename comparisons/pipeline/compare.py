@@ -88,14 +88,14 @@ def compare(
     folder: Path | None = None,
     jobs: int = 1,
 ) -> Comparison:
-    """Compute models and the reference in cases of one's own, and compare them.
+    """Compute models and the reference in your own cases, and compare them.
 
     Parameters
     ----------
     models : iterable of str
         Names or SPECs, or "all" for every model of fscm-bench that has a value or a failure in one of the cases.
     grid : str or Path, optional
-        A file of [[grid]] tables as a sweep has it, or its text.  It states the quantities and the references.
+        A sweep file (of [[grid]] tables), or its text.  It states the quantities and the references.
     n, k, mu : sequence of float
         Without a grid: every combination is a case.
     nu : sequence of float, optional
@@ -103,10 +103,9 @@ def compare(
     quantities : sequence of str
         Numbers, not curves, as in `comparisons.quantities.QUANTITIES`.
     reference : str, optional
-        A model: "fscm" by default; "atlas" takes microseconds and has no value outside its box.
+        A model: "fscm" by default; "atlas" takes microseconds and has no value outside its range.
     folder : Path, optional
-        For the results; by default one in results/runs that is named by the time.  What it holds already is not
-        computed again.
+        For the results; by default results/runs/TIME.  Results in it are not computed again.
     jobs : int
         Number of processes.  With more than one, a script needs the guard ``if __name__ == "__main__":``.
 

@@ -33,8 +33,8 @@ def run(
 ) -> FinishedRun:
     """Compute cases, judge the results, and write tables, verdicts and the record into a folder.
 
-    What the folder holds already is not computed again, but for failures.  In the standing cases with chosen models or
-    gates, only the results that the gates need are computed, and otherwise all: they are then the purpose.
+    Results in the folder are not computed again, except failures.  In the standing cases with given models or
+    gates, only the results that the gates need are computed, and otherwise all.
 
     Parameters
     ----------
@@ -46,15 +46,15 @@ def run(
     models : sequence of str, optional
         Names or SPECs of the candidates, in place of those each grid names.
     folder : Path, optional
-        For the results; by default one in results/runs that is named by the time.
+        For the results; by default results/runs/TIME.
     jobs : int
         Number of processes.  With more than one, a script needs the guard ``if __name__ == "__main__":``.
     shard : str, optional
         The part i/N of cases without gates, as "2/3"; `comparisons.pipeline.merge.merge` puts the N folders together.
     random : int
-        How many fresh cases are drawn at random for each model and gate, from the domain that the model declares.
+        Number of fresh cases drawn at random for each model and gate, in the domain that the model declares.
     seed : int, optional
-        From which the same fresh cases follow again; by default a new one, which the record states.
+        Seed of the fresh cases; by default a new one, which the record states.
 
     Returns
     -------

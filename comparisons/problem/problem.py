@@ -81,7 +81,7 @@ class Problem:
     path : Path, optional
         The file that was read.
     digest : str
-        SHA-256 of the content of a file, whose name does not matter; empty where the parameters say all.
+        SHA-256 of the content of the file; empty for a dimensionless problem.
 
     Examples
     --------

@@ -45,7 +45,7 @@ class AtlasValue(NamedTuple):
 
 
 def atlas(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str, *, missing: str = "raise") -> AtlasValue:
-    """Quantity of the FSCM for the power-law punch and the Lennard-Jones 9-3 law, without a solution of the equations.
+    """Interpolate a quantity of the FSCM for a power-law punch, a power-law solid and the Lennard-Jones 9-3 law.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def atlas(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str, *, missing: 
     Returns
     -------
     AtlasValue
-        Value and bound; arrays if one of the parameters is one.
+        Value and bound; arrays if one of the parameters is an array.
 
     Raises
     ------
