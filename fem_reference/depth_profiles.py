@@ -84,7 +84,7 @@ class _Column:
             raise ValueError(f"the depths and {name} of a table are not two columns of numbers: {error}") from error
         if z.ndim != 1 or z.shape != y.shape or z.size < 2:
             raise ValueError(
-                f"depths of the shape {z.shape} and {name} of the shape {y.shape} are no table: it has a value "
+                f"depths of the shape {z.shape} and {name} of the shape {y.shape} do not form a table: it has a value "
                 "at each of 2 depths or more"
             )
         if not (np.all(np.isfinite(z)) and np.all(np.isfinite(y))):
@@ -128,7 +128,7 @@ class TableModulus:
     Raises
     ------
     ValueError
-        If the columns are no table, or a modulus is not positive.
+        If the columns do not form a table, or a modulus is not positive.
 
     Examples
     --------
@@ -191,7 +191,7 @@ class TablePoisson:
     Raises
     ------
     ValueError
-        If the columns are no table, or a ratio is outside its range.
+        If the columns do not form a table, or a ratio is outside its range.
 
     Examples
     --------

@@ -39,8 +39,8 @@ LARGE_STRAIN_QUANTITIES = tuple(TABLE)
 NEARLY_INCOMPRESSIBLE = 0.45
 
 #: Side of the core in radii of the contact edge, and in those at which the punch is one length of the law high, since a
-#: spot on which contact begins is much smaller than what attracts; where the solid is no power law it is that of small
-#: strain at least, whose exterior takes one.
+#: spot on which contact begins is much smaller than what attracts; where the solid is not a power law it is that of
+#: small strain at least, whose exterior takes one.
 CORE_EXTENT = 32.0
 
 #: Height of the punch, in lengths of the law, at the end of the core at least.

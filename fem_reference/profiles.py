@@ -205,7 +205,7 @@ class MeasuredPunch:
     Raises
     ------
     ValueError
-        If the points are no profile.
+        If the points do not form a profile.
 
     Examples
     --------
@@ -227,7 +227,7 @@ class MeasuredPunch:
             )
         if len(r) != len(f) or len(r) < 2:
             raise ValueError(
-                f"{len(r)} radii and {len(f)} heights are no profile: it has a height at each of 2 radii or more"
+                f"{len(r)} radii and {len(f)} heights do not form a profile: it has a height at each of 2 radii or more"
             )
         if r[0] != 0 or f[0] != 0:
             raise ValueError(f"the profile begins at ({r[0]:g}, {f[0]:g}) and not at (0, 0), its apex")

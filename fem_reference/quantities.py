@@ -59,7 +59,7 @@ class Quantity:
 
 
 #: Energies lost by the jump into contact and the jump out of contact. Each needs the contact edge at one radius only,
-#: so that the mesh of a solid that is no power law can be fine there. Their sum is the hysteresis energy, unless the
+#: so that the mesh of a solid that is not a power law can be fine there. Their sum is the hysteresis energy, unless the
 #: displacement has more folds at which the cycle jumps: see `further_losses`.
 LOSSES = ("jump_in_energy", "jump_out_energy")
 

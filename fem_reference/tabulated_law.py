@@ -200,8 +200,8 @@ def _columns(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, 
         raise ValueError(f"gaps and tractions are not two columns of numbers: {error}") from error
     if x.ndim != 1 or x.shape != p.shape or x.size < FEWEST:
         raise ValueError(
-            f"gaps of the shape {x.shape} and tractions of the shape {p.shape} are no table: a law needs a traction "
-            f"for each of {FEWEST} gaps or more"
+            f"gaps of the shape {x.shape} and tractions of the shape {p.shape} do not form a table: a law needs a "
+            f"traction for each of {FEWEST} gaps or more"
         )
     finite = np.isfinite(x) & np.isfinite(p)
     if not finite.all():

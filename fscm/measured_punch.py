@@ -57,7 +57,7 @@ class MeasuredPunch:
         r, f = _column("radii", self.radii), _column("heights", self.heights)
         if len(r) != len(f) or len(r) < 2:
             raise ValueError(
-                f"{len(r)} radii and {len(f)} heights are no profile: it has one height for each of 2 radii"
+                f"{len(r)} radii and {len(f)} heights do not form a profile: it has one height for each of 2 radii"
             )
         if r[0] != 0.0 or f[0] != 0.0:
             raise ValueError(f"the first point ({r[0]:g}, {f[0]:g}) is not (0, 0): heights are measured from the tip")

@@ -14,7 +14,7 @@ from comparisons.console.safe_console import SafeConsole
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.rows import Row
 
-#: Columns of a table when stdout is no terminal: the same text in every log and file.
+#: Columns of a table when stdout is not a terminal: the same text in every log and file.
 _WIDTH = 80
 
 

@@ -15,7 +15,7 @@ class SafeConsole(Console):
     """Console of rich that shows control characters of texts by their numbers, and raises `BrokenPipeError`."""
 
     def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
-        """Yield the segments of an object; what rich itself tells the terminal is no text."""
+        """Yield the segments of an object; what rich itself tells the terminal is not a text."""
         for segment in super().render(renderable, options):
             yield segment if segment.control else segment._replace(text=printable(segment.text))
 

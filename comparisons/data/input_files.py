@@ -33,7 +33,7 @@ def read_bytes(path: Path, largest: int) -> bytes:
     OSError
         If it cannot be opened or read.
     ValueError
-        One sentence, if it is no regular file or too large.
+        One sentence, if it is not a regular file or too large.
 
     Examples
     --------
@@ -59,7 +59,7 @@ def read_bytes(path: Path, largest: int) -> bytes:
 
 
 def check_regular(path: Path, status: os.stat_result, largest: int) -> None:
-    """Refuse what is no regular file, or one that is too large, as `read_bytes`."""
+    """Refuse what is not a regular file, or one that is too large, as `read_bytes`."""
     if stat.S_ISDIR(status.st_mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     if not stat.S_ISREG(status.st_mode):
@@ -83,7 +83,7 @@ def read_text(path: Path, name: str, largest: int = LARGEST_TEXT) -> str:
     Raises
     ------
     ValueError
-        One sentence, if it cannot be read, is no regular file, is too large or is not UTF-8.
+        One sentence, if it cannot be read, is not a regular file, is too large or is not UTF-8.
 
     Examples
     --------

@@ -31,7 +31,7 @@ def profile_sensitivity(problem: Problem, force: Row) -> list[dict[str, Any]]:
     Returns
     -------
     list of dict
-        As JSON has it; empty if the punch is no table, or if there is no force.
+        As JSON has it; empty if the punch is not a table, or if there is no force.
     """
     if problem.punch.kind != "table" or force.value is None:
         return []

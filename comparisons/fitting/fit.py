@@ -267,7 +267,7 @@ def _stiff(model: str, problem: Problem) -> list[str]:
     """Say where JKR is taken for a contact that is too stiff for it."""
     if model == "fscm" or problem.posed.mu >= _LEAST_MU:
         return []
-    return [f"JKR does not hold at a Tabor number of {problem.posed.mu:.2g}: its modulus is wrong by more than its u"]
+    return [f"JKR does not hold at a Tabor number of {problem.posed.mu:.2g}: the error of the modulus is above its u"]
 
 
 def _deep(problem: Problem, position: Array) -> list[str]:

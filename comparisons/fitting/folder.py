@@ -136,7 +136,7 @@ def fit_table(items: Sequence[Mapping[str, Any]]) -> Table:
         Column("assumed", lambda row: shift("assumptions", row), "shift_by_assumptions"),
     ]
     return Table(
-        "fits", "Fitted values, and their changes by the errors of model and assumptions (%)", columns, pd.DataFrame(rows)
+        "fits", "Fitted values, and changes by the errors of model and assumptions (%)", columns, pd.DataFrame(rows)
     )
 
 

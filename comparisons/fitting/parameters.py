@@ -107,7 +107,7 @@ def _key(problem: Problem, name: str) -> Key:
     known_name("key", key, [name for name in forms if name in of_problem.values], where)
     start = problem[name]
     if not isinstance(start, float | int):
-        raise ValueError(f"{where}: it is no single number of the file; a fit changes numbers")
+        raise ValueError(f"{where}: it is not a number of the file; only numbers can be fitted")
     form = forms[key]
     limits = form.low, form.high
     prior = of_problem.uncertain.get(key)

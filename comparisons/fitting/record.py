@@ -128,13 +128,15 @@ def _of_csv(path: Path, text: str, stiffness: float | None, sensitivity: float |
         table = pd.read_csv(io.StringIO(text), comment="#", skipinitialspace=True)
     except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
         raise ValueError(
-            f"{path}: the curve is no table in CSV ({str(error).strip()}); write one row a point"
+            f"{path}: the curve is not a CSV table ({str(error).strip()}); write one row per point"
         ) from None
     columns: dict[str, Any] = {}
     for heading in table.columns:
         match = _HEADING.fullmatch(str(heading))
         if not match:
-            raise ValueError(f"{path}: {shown(str(heading))} is no name of a column; write as displacement [nm]")
+            raise ValueError(
+                f"{path}: {shown(str(heading))} is not the name of a column; an example is displacement [nm]"
+            )
         name, unit = match[1], match[2]
         known_name("column", name, _COLUMNS, str(path))
         columns[name] = table[heading] if name == "branch" else _numbers(path, name, table[heading], unit, sensitivity)
@@ -158,7 +160,7 @@ def _numbers(path: Path, name: str, column: pd.Series, unit: str | None, sensiti
     numbers = pd.to_numeric(column, errors="coerce").to_numpy(float)
     if not np.isfinite(numbers).all():
         row = int(np.flatnonzero(~np.isfinite(numbers))[0])
-        raise ValueError(f"{path}: {name} = {shown(str(column[row]))} in row {row + 1} is no finite number; write one")
+        raise ValueError(f"{path}: {name} = {shown(str(column[row]))} in row {row + 1} is not a finite number")
     if unit is None:
         raise ValueError(f"{path}: the column {name} has no unit; write it as {name} [n{_COLUMNS[name]}]")
     try:
@@ -185,7 +187,7 @@ def _of_afm_file(path: Path, stiffness: float | None, sensitivity: float | None)
         import afmformats
     except ImportError:
         raise ValueError(
-            f"{path} is no CSV file with the columns displacement and load; for files of instruments install "
+            f"{path} is not a CSV file with the columns displacement and load; for files of instruments install "
             "pip install 'fscm-bench[afm]'"
         ) from None
     check_regular(path, path.stat(), LARGEST_TABLE)

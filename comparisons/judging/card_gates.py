@@ -1,7 +1,7 @@
 """Gates of the report card of an external model: the same results again, and digits other than the reference's.
 
 They are judged from what the run has recorded of the model (`comparisons.pipeline.report_cards`) and from the values
-of its gates, and stand in the tables of verdicts beside these.  They are no gates of the user: a run in which they
+of its gates, and stand in the tables of verdicts beside these.  They are not gates of the user: a run in which they
 alone are judged is an ERROR.
 """
 

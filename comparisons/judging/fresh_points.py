@@ -96,7 +96,7 @@ def _numbers(case: Problem) -> dict[str, float]:
 
 
 def _family_of(case: Problem) -> tuple[str, ...]:
-    """Return what the cases of a family have in common: their file, and their varied keys that are no numbers."""
+    """Return what the cases of a family have in common: their file, and their varied keys that are not numbers."""
     words = (f"{name}={value}" for name, value in case.parameters.items() if isinstance(value, str))
     return split_name(case.name)[0], *_numbers(case), *words
 

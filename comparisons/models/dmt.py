@@ -64,7 +64,7 @@ class DMT(ClosedForm):
 
     def pull_off_displacement(self, problem: Problem) -> Result:
         """Zero: the pull-off sits at the point of first contact."""
-        # Refuses what is no power law.
+        # Refuses what is not a power law.
         self.cohesive_stress(problem), GradedPunch.of(problem)
         return Result(0.0, 0.0)
 

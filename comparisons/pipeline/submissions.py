@@ -65,6 +65,6 @@ def _spec(folder: Path, model: str) -> str:
     name, colon, attribute = model.rpartition(":") if ".py:" in model else (model, "", "")
     path = path_inside(folder, name)
     if not path.is_file():
-        raise ValueError(f"{MANIFEST}: model = {model!a:.80} is no model of fscm-bench, and no file beside it")
-    # With a separator it is no name of an installed model.
+        raise ValueError(f"{MANIFEST}: model = {model!a:.80} is not a model of fscm-bench, and no file beside it")
+    # With a separator it is not a name of an installed model.
     return f"{path if path.is_absolute() else f'./{path}'}{colon}{attribute}"

@@ -64,7 +64,7 @@ def _factors(location: str, heading: str, columns: Mapping[str, Form]) -> dict[s
     for cell in _cells(location, heading):
         match = _HEADING.fullmatch(cell)
         if not match:
-            raise ValueError(f"{location}: {shown(cell)} is no name of a column; the names are {', '.join(columns)}")
+            raise ValueError(f"{location}: {shown(cell)} is not a name of a column; the names are {', '.join(columns)}")
         name, unit = match.groups()
         known_name("column", name, columns, location)
         if name in factors:
@@ -84,7 +84,7 @@ def _value(cell: str, factor: float, form: Form, values_before: Sequence[float])
     try:
         value = in_si(float(cell) * factor, form.unit)
     except ValueError:
-        raise NotAValue("is no number") from None
+        raise NotAValue("is not a number") from None
     if not form.admits(value):
         raise NotAValue(f"is outside its range; it must be {form.text}")
     if form.if_not_rising and values_before and not value > values_before[-1]:

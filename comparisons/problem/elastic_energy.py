@@ -1,4 +1,4 @@
-r"""Elastic energy at the pull-off force by wave number, of a solid that is no power law.
+r"""Elastic energy at the pull-off force by wave number, of a solid that is not a power law.
 
 A pressure J0(xi r) displaces the surface by C(xi) J0(xi r).  With the transform q(xi) of the pressure, integral of
 p(r) J0(xi r) r dr, the energy in the solid is pi times the integral of C q^2 xi dxi, so that every decade of xi has a
@@ -73,7 +73,7 @@ def energy_spectrum(problem: Problem) -> EnergySpectrum:
     Parameters
     ----------
     problem : Problem
-        Its solid is no power law, whose compliance is one.
+        Its solid is not a power law, whose compliance is one.
 
     Raises
     ------

@@ -81,13 +81,13 @@ def values_in_si(
 
 def _file_name(written: object) -> str:
     if not isinstance(written, str) or not written:
-        raise NotAValue("is no name")
+        raise NotAValue("is not a name")
     return written
 
 
 def _entries(written: object) -> list[Any]:
     if not isinstance(written, list) or not written:
-        raise NotAValue("is no list of values")
+        raise NotAValue("is not a list of values")
     return written
 
 

@@ -213,7 +213,7 @@ class Problem:
 
     @property
     def n(self) -> float:
-        """Shape index; `NotApplicable` where solid or punch is no power law, as for `k` and `mu`."""
+        """Shape index; `NotApplicable` where solid or punch is not a power law, as for `k` and `mu`."""
         return self._number("n")
 
     @property

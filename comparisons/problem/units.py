@@ -98,7 +98,7 @@ def in_si(value: object, target: str, power: float = 1.0) -> float:
     if isinstance(value, str):
         match = _VALUE.fullmatch(value)
         if not match:
-            raise NotAValue("is no number with a unit")
+            raise NotAValue("is not a number with a unit")
         if not match[2]:
             raise NotAValue("has no unit")
         factor = unit_factor(match[2], target, power)
@@ -109,7 +109,7 @@ def in_si(value: object, target: str, power: float = 1.0) -> float:
     elif isinstance(value, int | float) and not isinstance(value, bool):
         scaled = float(value) if abs(value) < 1e300 else math.inf
     else:
-        raise NotAValue("is no number")
+        raise NotAValue("is not a number")
     if not math.isfinite(scaled):
         raise NotAValue("is not a finite number")
     if target and power == 1.0 and scaled and not 1.0 / LARGEST_SIZE <= abs(scaled) <= LARGEST_SIZE:

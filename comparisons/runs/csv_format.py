@@ -55,13 +55,13 @@ def write_table(table: pd.DataFrame, stem: Path) -> None:
 def read_table(path: Path) -> pd.DataFrame:
     """Read a table that `write_table` has written, with every digit.
 
-    A column is of texts if `comparisons.data.columns` states no unit for it, or if a cell is no number.  An empty cell
-    of the others is NaN.
+    A column is of texts if `comparisons.data.columns` states no unit for it, or if a cell is not a number.  An empty
+    cell of the others is NaN.
 
     Raises
     ------
     ValueError
-        If there is no such file or it is no CSV; one sentence says which.
+        If there is no such file or it is not CSV; one sentence says which.
     """
     try:
         content = read_bytes(path, LARGEST_ROWS)

@@ -6,7 +6,7 @@ punch.  When the gap at s = 1 has fallen to the gap of the largest tension, a co
 that node, and the path continues in the radius c of the edge.  P and delta are smooth functions of H0 and then
 of c, through both folds.
 
-A solid whose modulus is no power law has a compliance for one size only.  There the mesh is fixed, and
+A solid whose modulus is not a power law has a compliance for one size only.  There the mesh is fixed, and
 the edge moves over it.
 """
 

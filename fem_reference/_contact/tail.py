@@ -20,7 +20,7 @@ from fem_reference._typing import Array
 
 __all__ = ["TailContact"]
 
-#: Gauss points in t, with r = R / t^4: powers of r that are no integers are integrated to 1e-12 of themselves.
+#: Gauss points in t, with r = R / t^4: powers of r that are not integers are integrated to 1e-12 of themselves.
 POINTS = 96
 
 

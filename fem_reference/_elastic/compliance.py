@@ -125,7 +125,7 @@ class FixedCompliance:
     def factor(self, c: float) -> float:
         """c, which must be the size of the mesh, with the modulus of `stiffness`."""
         if abs(c / self.size - 1.0) > 1e-12:
-            raise ValueError(f"this compliance holds at the size {self.size}, not {c}: the modulus is no power law")
+            raise ValueError(f"this compliance holds at the size {self.size}, not {c}: the modulus is not a power law")
         return self.size / self.stiffness
 
     def factor_slope(self, c: float) -> float:

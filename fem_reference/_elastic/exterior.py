@@ -62,7 +62,7 @@ def exterior_stiffness(
         Grid of the interior; the exterior has the nodes of its boundary, but those next to the surface and the axis.
     modulus : Modulus
         Its depth exponent and its value at depth a define the power law of the exterior.  For a modulus
-        that is no power law the square must be so large that this does not matter (see `exterior_error`).
+        that is not a power law the square must be so large that this does not matter (see `exterior_error`).
     nu : float or PoissonRatio
         Poisson ratio; that at the depth a is the one of the exterior.
     order : int

@@ -1,4 +1,4 @@
-"""Checks of a report card: they are no gates of the user, and each can fail."""
+"""Checks of a report card: they are not gates of the user, and each can fail."""
 
 import pandas as pd
 import pytest
