@@ -54,7 +54,7 @@ class TabulatedModulus:
         moduli = _numbers("moduli", self.moduli, 0.0, "a modulus is positive", False)
         if len(depths) != len(moduli) or len(depths) < 2:
             raise ValueError(
-                f"{len(depths)} depths and {len(moduli)} moduli do not form a table: give as many of both, at least 2"
+                f"{len(depths)} depths and {len(moduli)} moduli do not form a table: as many of both, at least two"
             )
         for i in range(1, len(depths)):
             if not depths[i] > depths[i - 1]:
