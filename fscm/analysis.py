@@ -128,7 +128,9 @@ class Analysis:
         turns = [i for i, fold in enumerate(self.folds) if fold.quantity == "displacement"]
         if [self.folds[i].maximum for i in turns] != [j % 2 == 0 for j in range(len(maxima) + len(minima))]:
             raise NotConverged(f"the turning points of the displacement on the path of {self.problem} do not alternate")
-        sections = stable_sections(self.points[0], [fold.quantity for fold in self.folds])
+        sections = stable_sections(
+            self.points[0], self.points[-1], [(fold.quantity, fold.displacement) for fold in self.folds]
+        )
         places = [self.folds[i].displacement for i in turns]
         branches = []
         for j, start in enumerate([-1, *turns[1::2]]):

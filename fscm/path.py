@@ -164,9 +164,10 @@ def trace(
         problem, [meshes.curve], ending, "its end", _MAX_POINTS, longest_step, start, meshes.end_height
     )
     states, folds = _with_events(turning_slowly(points, largest_turn))
+    shown = folds
     if max_load is not None and max_load <= 0.0:
         states = _up_to(states, max_load)
-        folds = [fold for fold in folds if any(fold[0] is state for state in states)]
+        shown = [fold for fold in folds if any(fold[0] is state for state in states)]
     check_reach(problem.punch, edge_radius(states[-1]))
     u_displacement, u_load = _largest_errors(states[::_CHECK_EVERY])
     return EquilibriumPath(
@@ -177,8 +178,8 @@ def trace(
         np.array([edge_radius(s) for s in states]),
         u_displacement,
         u_load,
-        tuple(fold_at(*fold) for fold in folds),
-        *_stable(points[0], states, folds),
+        tuple(fold_at(*fold) for fold in shown),
+        *_stable(points, states, folds),
     ).in_units(units)
 
 
@@ -192,9 +193,9 @@ def _largest_errors(states: list[State]) -> tuple[float, float]:
     return float(largest[0]), float(largest[1])
 
 
-def _stable(start: Point, states: list[State], folds: list[tuple[State, str, bool]]) -> tuple[Mask, Mask]:
+def _stable(points: list[Point], states: list[State], folds: list[tuple[State, str, bool]]) -> tuple[Mask, Mask]:
     """Whether each state is stable under displacement and under load; a fold is so if both of its sections are."""
-    sections = stable_sections(start, [quantity for _, quantity, _ in folds])
+    sections = stable_sections(points[0], points[-1], [(name, state.displacement) for state, name, _ in folds])
     marks = np.empty((2, len(states)), np.bool_)
     number = 0
     for i, state in enumerate(states):

@@ -131,27 +131,44 @@ def stability_of(state: State) -> Stability:
     return Stability(tuple(float(margins(state, m)[0]) for m in MODES), float(stiffness))
 
 
-def stable_sections(start: Point, folds: Sequence[str]) -> list[tuple[bool, bool]]:
+def stable_sections(start: Point, end: Point, folds: Sequence[tuple[str, float]]) -> list[tuple[bool, bool]]:
     """Whether the sections of a path between its folds are stable, under displacement and under load.
 
     Unstable directions are counted at the initial state.  At each fold dP/d(delta) changes its sign.  The unstable
     directions under prescribed load are those under prescribed displacement and one more if dP/d(delta) < 0; a fold of
     the displacement does not change the former, and a fold of the load not the latter.
 
+    The path of a flat punch on a solid with a large gradient coils up where contact begins, and folds that follow each
+    other to less than the tolerance of the path are in no order.  Then the count does not lead to that of the last
+    state, and the sections behind the place where two folds are nearest are counted from there.
+
     Parameters
     ----------
-    start : Point
-        The initial point of the path.
-    folds : sequence of str
-        "displacement" or "load", in the order of the path.
+    start, end : Point
+        The first and the last point of the path.
+    folds : sequence of (str, float)
+        "displacement" or "load", and the displacement there, in the order of the path.
 
     Returns
     -------
     list of (bool, bool)
         One pair more than folds.
     """
-    unstable = int(np.count_nonzero(margins(start.state, 0, _MOST) <= 0.0))
-    rising = start.rates.load * start.rates.displacement > 0.0
+    names = [name for name, _ in folds]
+    sections = _sections(start, names)
+    if sections[-1][0] or len(folds) < 2:
+        return sections
+    behind = _sections(end, names[::-1])[::-1]
+    if not behind[-1][0]:
+        return sections
+    nearest = int(np.argmin(np.abs(np.diff([displacement for _, displacement in folds])))) + 1
+    return [*sections[:nearest], *behind[nearest:]]
+
+
+def _sections(origin: Point, folds: Sequence[str]) -> list[tuple[bool, bool]]:
+    """Stability of the sections from one end of the path to the other."""
+    unstable = int(np.count_nonzero(margins(origin.state, 0, _MOST) <= 0.0))
+    rising = origin.rates.load * origin.rates.displacement > 0.0
     sections = [(unstable == 0, unstable == 0 and rising)]
     for fold in folds:
         if fold == "displacement":
