@@ -54,7 +54,7 @@ def test_impossible_solids_are_refused(package):
         ("Coating", (1.0, 0.0, 1.0, 0.0, 0.3), "E_substrate = 0.0 is outside"),
         ("Coating", (1.0, 1.0, 1.0, -1.0, 0.3), r"transition = -1.0 is outside \[0, inf"),
         ("Coating", (1.0, 1.0, 1.0, 0.0, 0.6), r"nu\w* = 0.6 is outside \[0, 0.5"),
-        ("TabulatedModulus", ([0.0], [1.0], 0.3), "no table"),
+        ("TabulatedModulus", ([0.0], [1.0], 0.3), "not form a table"),
         ("TabulatedModulus", ([0.0, 2.0, 1.0], [1.0, 1.0, 1.0], 0.3), "depth.* 1 .*is not above"),
         ("TabulatedModulus", ([-1.0, 1.0], [1.0, 2.0], 0.3), "depth.* -1.* is outside"),
         ("TabulatedModulus", ([0.0, 1.0], [1.0, math.nan], 0.3), "nan"),
