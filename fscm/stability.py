@@ -40,6 +40,9 @@ __all__ = ["Stability", "margins", "stability_of", "stable_sections"]
 MODES = (0, 1, 2, 3, 4)
 # Largest number of unstable directions that is counted at the initial state of a path.
 _MOST = 6
+# Distance of two folds, relative to 1 + abs(delta), whose order is that of rounding: the tolerance of the path.  Folds
+# that are counted wrong without such a pair are a path that may have missed some.
+_COIL = 1e-8
 
 
 @dataclass(frozen=True)
@@ -161,8 +164,12 @@ def stable_sections(start: Point, end: Point, folds: Sequence[tuple[str, float]]
     behind = _sections(end, names[::-1])[::-1]
     if not behind[-1][0]:
         return sections
-    nearest = int(np.argmin(np.abs(np.diff([displacement for _, displacement in folds])))) + 1
-    return [*sections[:nearest], *behind[nearest:]]
+    places = np.array([displacement for _, displacement in folds])
+    distances = np.abs(np.diff(places)) / (1.0 + np.abs(places[1:]))
+    nearest = int(np.argmin(distances))
+    if distances[nearest] > _COIL:
+        return sections
+    return [*sections[: nearest + 1], *behind[nearest + 1 :]]
 
 
 def _sections(origin: Point, folds: Sequence[str]) -> list[tuple[bool, bool]]:

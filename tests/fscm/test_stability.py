@@ -9,10 +9,10 @@ import pytest
 from scipy.fft import irfft2, rfft2
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from fscm import Problem, equilibria, trace
+from fscm import Analysis, Problem, equilibria, trace
 from fscm._azimuthal_kernel import azimuthal_kernel
 from fscm._equilibrium import State
-from fscm.stability import margins, stability_of
+from fscm.stability import margins, stability_of, stable_sections
 from tests.fscm.solved_once import analysis_of, path_of
 from tests.marks import heavy
 
@@ -146,3 +146,16 @@ def test_a_path_that_begins_behind_a_fold() -> None:
     path = trace(Problem(2, 0.4, 1.0), start_gap=0.3)
     assert not path.stable_under_displacement[0]
     assert path.stable_under_displacement[-1]
+
+
+@pytest.mark.parametrize(("apart", "stable"), [(0.0, True), (1e-7, False)])
+def test_only_folds_in_no_order_are_counted_from_the_end_of_the_path(apart: float, stable: bool) -> None:
+    """A fold too many, where the path coils up or where another one was missed."""
+    model = Analysis(Problem(n=2, k=0.4, mu=1.0))
+    folds = [(fold.quantity, fold.displacement) for fold in model.folds]
+    start, end = model.points[0], model.points[-1]
+    assert stable_sections(start, end, folds)[-1][0]
+    name, displacement = folds[1]
+    sections = stable_sections(start, end, [*folds[:2], (name, displacement + apart), *folds[2:]])
+    assert sections[0][0]
+    assert sections[-1][0] == stable
