@@ -154,6 +154,7 @@ class Search:
         The reach of an expansion shrinks where the record is described worse at the next numbers, or they have no path.
         """
         curves, center, values, reach, least = NearbyCurves("fscm"), start, start, _REACH, math.inf
+        ended = False
         for number in range(_EXPANSIONS):
             try:
                 expanded = curves.moved(self.problem, self.keys, values, 1.2 * self._largest(values))
@@ -172,7 +173,10 @@ class Search:
                 abs(values[name] - at_center) < _SMALL * (result.params[plain(name)].stderr or _STEPS[1])
                 for name, at_center in curves.center.items()
             ):
+                ended = True
                 break
+        if result.redchi >= _DESCRIBED and not (ended and result.errorbars):
+            raise ComputationFailed("the search found no values that describe the curve: begin nearer to them")
         return result, curves
 
     def _from(self, curves: Curves, start: dict[str, float]) -> Any:

@@ -15,11 +15,13 @@ import fem_reference
 import fscm
 from comparisons import fit
 from comparisons.cli.main import main
+from comparisons.fitting import search
 from comparisons.fitting.equilibria import Equilibria, by_fscm
 from comparisons.fitting.fit import fit_record
 from comparisons.fitting.machine import Machine
 from comparisons.fitting.parameters import free_keys
 from comparisons.fitting.search import derivatives
+from comparisons.model import ComputationFailed
 from comparisons.problem import Problem, Section
 from comparisons.problem.uncertain import Uncertainty
 
@@ -78,6 +80,9 @@ def test_a_ball_is_fitted_with_few_paths_of_its_own(monkeypatch):
     assert all(row.u < 5e-4 * row.value for row in result.parameters.values())
     assert result.residual < 1.1 * result.noise
     assert len(traced) <= 24
+    monkeypatch.setattr(search, "_EXPANSIONS", 1)
+    with pytest.raises(ComputationFailed, match="begin nearer"):
+        fitted(ball, record)
 
 
 @pytest.mark.heavy
