@@ -48,6 +48,9 @@ _EASY, _HARD = 6, 10
 _MOST_ITERATIONS = 14
 _NEWTON_MARGIN = 0.01  # Newton error relative to the error of the mesh
 _LONGER, _SHORTER, _RETRY = 2.0, 0.7, 0.4
+# Beyond the largest tension the path of a power-law punch is smooth: steps grow with the compression, at most to this
+# multiple.  Measured: cubics through the points are as near to a path of small steps as without it (loads to 1000).
+_LONGER_IN_COMPRESSION = 8.0
 # A step over which the tangent turns by more than this cosine is repeated with a shorter length: a fold pair turns the
 # path twice and must not be stepped over.  The turn of steps below _UNCHECKED_STEP is not checked.
 _LARGEST_TURN, _UNCHECKED_STEP = 0.85, 0.02
@@ -144,7 +147,7 @@ class _Tracer:
         self._newton = _NEWTON_MARGIN * tolerance if tracking.newton is None else tracking.newton
         self._longest = min(longest_step, tracking.longest_step)
         self._step = min(_FIRST_STEP, self._longest)
-        self._turns = 0
+        self._turns, self._tension = 0, 0.0  # largest tension so far
         law = problem.law
         self._hand_over = law.peak_gap - _HAND_OVER * (law.peak_gap - law.singular_gap)
         self._kinked, self._power = bool(kinks_of(problem.punch)), isinstance(problem.punch, PowerPunch)
@@ -214,6 +217,7 @@ class _Tracer:
     def _next(self, point: Point) -> Point:
         """The next point; steps are shortened until one is accepted."""
         state = point.state
+        longest = self._longest_after(state)
         if not state.follows_edge and abs(point.rates.displacement) < _FLAT_SHARE * self._arc.displacement_unit(state):
             self._step = min(self._step, _FLAT_STEP)
         while True:
@@ -232,10 +236,16 @@ class _Tracer:
                 self._step *= _SHORTER
                 continue
             if iterations <= _EASY:
-                self._step = min(_LONGER * self._step, self._longest)
+                self._step = min(_LONGER * self._step, longest)
             elif iterations >= _HARD:
                 self._step *= _SHORTER
             return after
+
+    def _longest_after(self, state: State) -> float:
+        """The longest step from a state on."""
+        self._tension = max(self._tension, -state.load)
+        compression = state.load / max(1.0, self._tension) if self._power else 0.0
+        return self._longest * min(max(1.0, compression), _LONGER_IN_COMPRESSION)
 
     def _attempt(self, point: Point) -> tuple[Point | None, int]:
         """The point after a step, None if the tangent turns too much over it, and the number of iterations."""

@@ -122,7 +122,7 @@ def trace(
         Central gap at the far end; by default (10 + 5 mu) z0, with mu where the solid is softest.
     longest_step : float
         Bound on the step from point to point; 0.05 gives three times the points of the default, for
-        interpolation.
+        interpolation.  In compression beyond the largest tension steps are longer, up to eight times.
     largest_turn : float
         Degrees, above 0: equilibrium states are added until the tangent of load over displacement turns by less from
         point to point, in a square plot of the part with tension; 180 adds none.

@@ -41,8 +41,9 @@ _RATIO = 1.25
 #: Points of a path between two of its landmarks, and between two states that were computed.
 _POINTS, _BETWEEN = 240, 8
 
-#: Degrees between two states: a spline needs fewer than a polygon.
-_TURN = 30.0
+#: Longest step between two states, and degrees: a spline needs fewer than a polygon.  Measured: loads are within 1e-3
+#: of those of a path with a third of the step (eleven problems, n from 0.8 to 5, k up to 0.8, mu from 0.05 to 15).
+_STEP, _TURN = 0.2, 30.0
 
 #: Share of the pull-off force up to which surfaces before contact are as good as rigid.
 _WEAK = 0.1
@@ -163,7 +164,7 @@ def _between(problem: fscm.Problem, end: float) -> Array:
 def _fine(problem: fscm.Problem, end: float) -> Array:
     """Return a path that ends at a load, with points between its states by a spline, shape (2, m)."""
     try:
-        traced = fscm.trace(problem, "quick", max_load=end, largest_turn=_TURN)
+        traced = fscm.trace(problem, "quick", max_load=end, longest_step=_STEP, largest_turn=_TURN)
     except (fscm.NotConverged, ValueError) as error:
         raise ComputationFailed(f"the FSCM has no path for the values that were tried ({error})") from None
     path = np.array([traced.displacement, traced.load])
