@@ -7,7 +7,7 @@ import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from hashlib import sha256
 from pathlib import Path
 from types import ModuleType
@@ -169,7 +169,7 @@ class Problem:
     def _sections(self) -> dict[str, Section]:
         return {name: getattr(self, name) for name in SECTIONS}
 
-    @property
+    @cached_property
     def _order(self) -> tuple[float | str, ...]:
         """What problems are sorted by: n, k, mu and nu, those of files after the others."""
         n, k, mu, nu = (self[name] for name in PARAMETERS)
@@ -187,7 +187,7 @@ class Problem:
         sections = {name: section.content for name, section in self._sections.items()}
         return {"file": "" if self.path is None else self.path.name, **sections}
 
-    @property
+    @cached_property
     def key(self) -> tuple[float | None, float | None, float | None, float | None, str]:
         """The values of the columns of a table that identify a problem."""
         n, k, mu, nu = (self[name] for name in PARAMETERS)
