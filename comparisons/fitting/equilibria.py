@@ -1,7 +1,7 @@
 """Displacement and load of all equilibria of a problem, fast enough for a fit.
 
 Paths of neighbouring problems are compared point by point: at equal shares of their lengths between landmarks, which
-are start, the folds of approach and retreat, pull-off and end.
+are start, the folds of the displacement, pull-off and end.
 
 The dimensionless path of a power law depends on n, k and mu alone.  It is computed at Tabor numbers of a fixed grid,
 even in ln mu, and between them it is the cubic through four neighbours.  So a fit needs some ten paths, and the next
@@ -144,9 +144,10 @@ def paths_alike(problems: Sequence[fscm.Problem], end: float) -> list[Array]:
     comparisons.model.ComputationFailed
         If one of them has no path.
     """
-    # Paths with folds and such without have no landmarks in common but start, pull-off and end.
-    plain = any(len(_landmarks(_fine(problem, end))) < 5 for problem in problems)
-    return [_resampled(problem, end, plain) for problem in problems]
+    counts = {len(_folds(_fine(problem, end))) for problem in problems}
+    # Paths with other numbers of folds have only those of approach and retreat in common, if all of them fold.
+    common = counts.pop() if len(counts) == 1 else min(2, *counts)
+    return [_resampled(problem, end, common) for problem in problems]
 
 
 def _between(problem: fscm.Problem, end: float) -> Array:
@@ -182,17 +183,17 @@ def _fine(problem: fscm.Problem, end: float) -> Array:
 
 
 @lru_cache(maxsize=256)
-def _resampled(problem: fscm.Problem, end: float, plain: bool) -> Array:
-    """Return a path at equal shares of its length between landmarks, shape (2, m)."""
+def _resampled(problem: fscm.Problem, end: float, count: int) -> Array:
+    """Return a path at equal shares of its length between landmarks, with a number of folds, shape (2, m)."""
     path = _fine(problem, end)
     length = _length(path, problem.mu)
-    marks = _landmarks(path)
-    if plain and len(marks) == 5:
-        marks = [marks[0], *marks[3:]]
-    rows = [0] * (len(marks) - 3) + [1] if len(marks) > 3 else [1]
-    ends = [length[0], *(_vertex(length, path[row], i) for row, i in zip(rows, marks[1:-1], strict=True)), length[-1]]
+    folds = _folds(path)
+    if count < len(folds):
+        folds = [folds[0], folds[-1]][:count]
+    marks = sorted([_vertex(length, path[1], int(np.argmin(path[1]))), *(_vertex(length, path[0], i) for i in folds)])
     shares = np.linspace(0.0, 1.0, _POINTS)
-    points = np.concatenate([(a + (b - a) * shares)[int(a > 0.0) :] for a, b in pairwise(ends)])
+    pieces = pairwise([length[0], *marks, length[-1]])
+    points = np.concatenate([(a + (b - a) * shares)[int(a > 0.0) :] for a, b in pieces])
     return np.asarray(CubicSpline(length, path.T)(points).T)
 
 
@@ -202,11 +203,9 @@ def _length(path: Array, mu: float) -> Array:
     return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(scaled)))])
 
 
-def _landmarks(path: Array) -> list[int]:
-    """Numbers of the points at start, pull-off and end, with the outer folds of the displacement if there are any."""
-    falls = np.flatnonzero(np.diff(path[0]) <= 0.0)
-    folds = [int(falls[0]), int(falls[-1]) + 1] if falls.size else []
-    return [0, *folds, int(np.argmin(path[1])), path.shape[1] - 1]
+def _folds(path: Array) -> list[int]:
+    """Numbers of the points at the folds of the displacement."""
+    return [int(i) + 1 for i in np.flatnonzero(np.diff(np.diff(path[0]) > 0.0))]
 
 
 def _vertex(length: Array, values: Array, i: int) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 
 from comparisons.fitting.equilibria import Equilibria
 from comparisons.fitting.record import Record
+from comparisons.model import ComputationFailed
 
 __all__ = ["Machine", "Observations"]
 
@@ -69,8 +71,8 @@ class Machine:
     Attributes
     ----------
     far, contact : ndarray
-        From far away to the fold of the approach, and from that of the retreat into contact; the same where the
-        surfaces do not jump.
+        From far away to where the approach jumps into contact, and from where the retreat jumps off into contact; the
+        same where the surfaces do not jump.  A jump from one section to the next in between is a vertical piece.
     jumps : bool
     """
 
@@ -80,13 +82,23 @@ class Machine:
 
     @classmethod
     def of(cls, equilibria: Equilibria, stiffness: float) -> Machine:
-        """Return the sections for a stiffness of the cantilever in N/m, perhaps infinite."""
+        """Return the sections for a stiffness of the cantilever in N/m, perhaps infinite.
+
+        Raises
+        ------
+        comparisons.model.ComputationFailed
+            If the equilibria do not end in stable contact.
+        """
         position = equilibria.displacement + equilibria.load / stiffness
         path = np.array([position, equilibria.load])
         falls = np.flatnonzero(np.diff(position) <= 0.0)
         if not falls.size:
             return cls(path, path, False)
-        return cls(path[:, : falls[0] + 1], path[:, falls[-1] + 1 :], True)
+        begins, ends = np.append(0, falls + 1), np.append(falls + 1, position.size)
+        sections = [path[:, begin:end] for begin, end in zip(begins, ends, strict=True) if end - begin > 1]
+        if not sections or falls[-1] + 2 >= position.size or falls[0] == 0:
+            raise ComputationFailed("the contact is not stable far away or at the largest load of the record")
+        return cls(_joined(sections[:-1]), -_joined([-part[:, ::-1] for part in sections[:0:-1]])[:, ::-1], True)
 
     def load(self, position: Array, observed: Observations) -> Array:
         """Return the load at each point of a record, whose zeros are those of the equilibria.
@@ -121,3 +133,14 @@ class Machine:
         with np.errstate(divide="ignore", invalid="ignore"):
             beyond = load[0] * (x[0] / np.minimum(position, x[0])) ** 2
         return np.where(position < x[0], beyond, loads)
+
+
+def _joined(sections: Sequence[Array]) -> Array:
+    """Return the first section with those onto which the position jumps from its end, one after the other."""
+    joined = sections[0]
+    for section in sections[1:]:
+        fold = joined[0, -1]
+        if section[0, 0] <= fold < section[0, -1]:
+            landing = np.array([[fold], [np.interp(fold, *section)]])
+            joined = np.concatenate([joined, landing, section[:, section[0] > fold]], axis=1)
+    return joined

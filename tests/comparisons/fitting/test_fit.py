@@ -108,6 +108,32 @@ def test_a_cantilever_jumps_where_its_stiffness_says():
     assert soft == pytest.approx(equilibria.load.min(), rel=0.02)
 
 
+def test_a_machine_stops_at_each_stable_section_on_its_way():
+    """A stiff film lets go in two steps: the retreat lands on a section between contact and separation."""
+    positions = np.array([-9.0, -5.0, -1.0, -2.0, -6.0, -5.0, -3.0, -4.0, -4.5, -4.0, 0.0, 5.0])
+    machine = Machine.of(Equilibria(positions, np.arange(12.0) - 11.0), math.inf)
+    assert machine.jumps
+    assert machine.far.tolist() == [[-9.0, -5.0, -1.0], [-11.0, -10.0, -9.0]]
+    assert machine.contact[:, 0].tolist() == [-6.0, -7.0]
+    assert np.interp([-5.0, -4.51, -4.49, 0.0], *machine.contact) == pytest.approx([-6.0, -5.755, -2.98, -1.0])
+    with pytest.raises(ComputationFailed):
+        Machine.of(Equilibria(positions[:-3], np.arange(9.0)), math.inf)
+
+
+@pytest.mark.heavy
+def test_a_thin_stiff_film_on_a_soft_solid_is_fitted():
+    film = {"E_coating": 1e9, "E_substrate": 1.5e6, "thickness": 1e-7, "nu": 0.4}
+    law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
+    problem = Problem(Section("coating", film), Section("sphere", {"R": 5e-6}), law)
+    free = ("law.work_of_adhesion", "solid.E_substrate")
+    start = problem.with_value("law", "work_of_adhesion", 0.04).with_value("solid", "E_substrate", 2e6)
+    record = Instrument(noise=0.01).record(problem, np.random.default_rng(1))
+    result = fit_record(record, start, free_keys(start, free))
+    values = result.parameters
+    assert max(abs(values[key].value / problem[key] - 1.0) / (values[key].u / values[key].value) for key in free) < 3.5
+    assert result.residual < 1.1 * result.noise
+
+
 def test_the_grid_of_tabor_numbers_is_as_good_as_a_path():
     """Loads between the nodes differ by less than a thousandth of the pull-off force from those of their own path."""
     for mu in (0.3, 2.2, 7.0):
