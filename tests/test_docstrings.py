@@ -14,13 +14,15 @@ MODULES = sorted(
     for path in (ROOT / package).rglob("*.py")
     if ">>> " in path.read_text(encoding="utf-8")
 )
-#: Modules whose examples solve several problems, or of other solids than power laws, half a second or more;
-#: the functions that users call are not among them.
+#: Modules whose examples solve several problems, or by finite elements, half a second or more; what they show is
+#: tested elsewhere too.
 LONG = {
     "comparisons.paper.figures.gradient_effect",
     "comparisons.paper.values.printed_values",
     "comparisons.problem.elastic_energy",
     "comparisons.description.equivalent_power_law",
+    "comparisons.models.fem_model",
+    "fem_reference.large_strain",
     "fem_reference.verification.element_checks",
 }
 

@@ -263,10 +263,10 @@ def test_the_code_computes_what_is_committed():
         ]
 
     # The finite elements on the solids of problem files, which cost little.
-    selected = [task for task in tasks if task.problem.name and task.model == "fem"]
-    selected += [task for task in tasks if task.model not in {"fem", "fscm", "fscm-stieltjes-400"}][::7]
+    selected = [task for task in tasks if task.problem.name and task.model == "fem"][:1]
+    selected += [task for task in tasks if task.model not in {"fem", "fscm", "fscm-stieltjes-400"}][::21]
     selected += of("fscm", "pull_off_force", n=5.0, k=0.2)[::4] + of("fscm", n=2.0, k=1.0)
     # Soft: the path has shallow folds, of which the first is the jump.
-    selected += of("fscm", "jump_in_displacement", mu=5.0) + of("fscm-stieltjes-400")[:1]
+    selected += of("fscm", "jump_in_displacement", mu=5.0)[::2] + of("fscm-stieltjes-400")[:1]
     difference = drift(rows, frame(evaluate_task(task) for task in selected))
     assert difference.empty, difference.to_string()

@@ -9,7 +9,7 @@ import fscm
 from tests.fem_reference.random_problems import TABLE, problems, rows
 from tests.random_tables import stored
 
-SAMPLE = 40
+SAMPLE = 80
 """Every so many problems of the table are compared in the light test."""
 
 UNIT = {"pull_off_force": math.pi, "hysteresis_energy": math.pi}

@@ -2,6 +2,7 @@
 
 import json
 import math
+from functools import cache
 from pathlib import Path
 
 import mpmath
@@ -10,8 +11,9 @@ import pytest
 
 import fscm
 from comparisons.cli.main import main
+from comparisons.description import equivalent_power_law as module
 from comparisons.description.equivalent_power_law import equivalent_power_law
-from comparisons.problem import elastic_energy
+from comparisons.problem import elastic_energy, equivalent_solid
 from comparisons.problem.elastic_energy import energy_spectrum
 from comparisons.problem.equivalent_solid import LARGEST_K, equivalent_solids, least_wrong, power_law_of
 from comparisons.problem.reading import load_problem
@@ -35,6 +37,15 @@ def test_the_transform_of_a_straight_line_is_accurate_at_small_and_large_argumen
         exact = integral - x * mpmath.j0(x)
     # It begins as x^3/6, and goes on as waves of the size of sqrt(x).
     assert abs(elastic_energy._linear_part(np.array([x]))[0] - float(exact)) < _FUNCTIONS * min(x**3, math.sqrt(x))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def transformed_once():
+    """The spectrum of a problem is computed once."""
+    with pytest.MonkeyPatch.context() as patch:
+        for user in (module, equivalent_solid):
+            patch.setattr(user, "energy_spectrum", cache(energy_spectrum))
+        yield
 
 
 def equivalent(problem):
@@ -102,7 +113,8 @@ def test_the_error_is_that_of_both_solids_in_the_solver(coated):
 def test_a_closed_form_has_the_value_of_the_equivalent_and_the_error_of_the_fit(coated, monkeypatch):
     problem, _ = coated
     law = evaluate("jkr", "pull_off_force", problem)
-    monkeypatch.setattr(elastic_energy, "_POINTS", 4 * elastic_energy._POINTS)
+    monkeypatch.setattr(elastic_energy, "_POINTS", 2 * elastic_energy._POINTS)
+    monkeypatch.setattr(equivalent_solid, "energy_spectrum", energy_spectrum)
     fine, _ = equivalent_solids.__wrapped__(problem)
     force = (3.0 + fine.solid["k"]) / 2.0 * math.pi * 1e-7 * 0.05
     assert abs(law.value - force) < law.u_num < 2e-3 * force
@@ -111,7 +123,10 @@ def test_a_closed_form_has_the_value_of_the_equivalent_and_the_error_of_the_fit(
     assert evaluate("atlas", "pull_off_force", problem).status == "not-applicable"
 
 
-def test_a_solid_that_no_power_law_stands_for():
+def test_a_solid_that_no_power_law_stands_for(monkeypatch):
+    xi = np.geomspace(1e6, 1e8, 9)
+    steep = elastic_energy.EnergySpectrum(xi, xi**-1.5, np.full(9, 1.0 / 9.0), 1.0)
+    monkeypatch.setattr(equivalent_solid, "energy_spectrum", lambda _: steep)
     coating = {"E_coating": 1e10, "E_substrate": 1e7, "thickness": 10e-9, "transition": 0.0, "nu": 0.3}
     law = evaluate("jkr", "pull_off_force", on_solid("coating", coating))
     assert (law.status, law.value) == ("not-applicable", None)
@@ -124,7 +139,7 @@ def test_the_energy_is_the_work_of_the_pressure():
     field = fscm.profile(posed)
     work = math.pi * np.trapezoid(field.pressure * field.deformation * field.radius, field.radius)
     work *= units["traction"] * units["displacement"] * units["radius"] ** 2
-    spectrum = energy_spectrum(problem)
+    spectrum = module.energy_spectrum(problem)
     assert spectrum.energy == pytest.approx(work, rel=_TRAPEZOIDS)
     assert spectrum.shares.sum() == pytest.approx(1.0)
 
