@@ -296,7 +296,7 @@ def test_a_fold_near_a_point_of_the_record_does_not_narrow_the_uncertainty():
     problem = of_tabor_number(8.0, 0.4)
     cycle = Instrument().cycle(problem)
     shares = []
-    for seed in range(5):
+    for seed in range(12):
         record = Instrument(noise=0.04).record(problem, np.random.default_rng(seed), cycle=cycle)
         shares.append([row.u / row.value for row in fitted(problem, record, problem).parameters.values()])
     assert (np.max(shares, axis=0) < 3.0 * np.min(shares, axis=0)).all()
