@@ -13,14 +13,13 @@ from datetime import date, time
 from difflib import get_close_matches
 from functools import lru_cache
 from importlib.resources import files
-from typing import Any
-
-from jsonschema import Draft202012Validator
-from jsonschema.exceptions import ValidationError
-from jsonschema.protocols import Validator
-from jsonschema.validators import extend
+from typing import TYPE_CHECKING, Any
 
 from comparisons.data.toml_text import is_real
+
+if TYPE_CHECKING:
+    from jsonschema.exceptions import ValidationError
+    from jsonschema.protocols import Validator
 
 #: What is refused first in one table: a misspelt key is also a missing one.
 _ORDER = ("additionalProperties", "required")
@@ -95,6 +94,9 @@ def known_name(noun: str, name: str, known_names: Iterable[str], where: str) -> 
 @lru_cache
 def shipped_validator(schema: str) -> Validator:
     """Return the validator of ``<schema>.schema.json`` in this folder, for which a number may be infinite."""
+    # It takes a fifth of the start of the process of an external model, which validates nothing.
+    from jsonschema.validators import Draft202012Validator, extend
+
     content = json.loads(files("comparisons.data").joinpath(f"{schema}.schema.json").read_text("utf-8"))
     Draft202012Validator.check_schema(content)
     types = Draft202012Validator.TYPE_CHECKER.redefine_many(

@@ -7,7 +7,6 @@ import pytest
 import yaml
 
 from comparisons.cli.main import main
-from comparisons.external.model_source import close_models
 from comparisons.judging.gates import gates_text
 from comparisons.pipeline.submissions import read_submission
 from comparisons.registry import MODELS
@@ -17,20 +16,12 @@ from .conftest import ROWS, model_file
 
 ROOT = Path(__file__).resolve().parents[3]
 BODY = "return Result(2.2, 1e-9)"
-MINE = {"name": "mine", "version": "3", "date": "2026-01-01", "model": "mine.py:Model"}
 SUBMISSIONS = ROOT / "docs" / "board" / "submissions"
-MANIFEST = """name = "{name}"
-version = "{version}"
-date = {date}
-authors = ["A. <b>Author</b>"]
-citation = "none"
-licence = "MIT"
-model = "{model}"
-"""
+SHARED = 'authors = ["A. <b>Author</b>"]\ncitation = "none"\nlicence = "MIT"'
 
 
 @pytest.fixture
-def submissions(small_grid, tmp_path, monkeypatch):
+def submissions(small_grid, no_cards, tmp_path, monkeypatch):
     """A function that writes a submission; its gate is a limit of 11 percent for any model."""
     gate = GATES.replace('candidate = "ten-percent"', 'candidate = "given"').replace("0.09", "-0.11")
     monkeypatch.setattr("comparisons.pipeline.inputs.gates_text", lambda path: gates_text(path) if path else gate)
@@ -38,10 +29,12 @@ def submissions(small_grid, tmp_path, monkeypatch):
     def written(folder, body=BODY, version="1", name="mine", date="2026-01-01", model="mine.py:Model"):
         path = tmp_path / "submissions" / folder
         path.mkdir(parents=True, exist_ok=True)
-        (path / "submission.toml").write_text(MANIFEST.format(name=name, version=version, date=date, model=model))
         model_file(path, body, name)
         (path / f"{name}.py").rename(path / "mine.py")
-        return path
+        manifest = path / "submission.toml"
+        stated = f'name = "{name}"\nversion = "{version}"\ndate = {date}\nmodel = "{model}"\n'
+        manifest.write_text(stated + SHARED)
+        return manifest
 
     return written
 
@@ -67,11 +60,12 @@ def test_every_submission_has_a_verdict_or_the_reason_why_not(submissions, write
     write_data([row.replace(",1.6,", ",2.0,") for row in ROWS]).rename(tmp_path / "submissions" / "table")
     submissions("table", name="measured", model="model.toml")
     submissions("toy", name="twelve-percent", model="twelve-percent")
-    submissions("ends", "os._exit(1)", name="ends")
+    submissions("ends", "if problem.k:\n    os._exit(1)\nraise ComputationFailed('no root')", name="ends")
     submissions("loads-not", "return (", name="loads-not")
     submissions("outside", name="outside", model="../mine/a/mine.py:Model")
-    (submissions("other-name", name="other") / "submission.toml").write_text(MANIFEST.format(**MINE))
-    (submissions("broken") / "submission.toml").write_text("name = [")
+    manifest = submissions("other-name", name="other")
+    manifest.write_text(manifest.read_text().replace('"other"', '"theirs"'))
+    submissions("broken").write_text("name = [")
     (tmp_path / "submissions" / "empty").mkdir()
     status, page = board(tmp_path)
     assert status == 4
@@ -85,42 +79,40 @@ def test_every_submission_has_a_verdict_or_the_reason_why_not(submissions, write
     # Small and medium mu, k = 0 and above, n = 2: a region without cases has no column.
     assert ["mine", "pull-off force", *["10.000(5)"] * 5] in rows_of(page, "regions")
     reasons = {row[0]: row[2] for row in rows_of(page, "refused")}
-    named = {"mine/c": "twice", "loads-not": "SyntaxError", "outside": "leads out", "other-name": "mine"}
+    named = {"mine/c": "twice", "loads-not": "SyntaxError", "outside": "leads out", "other-name": "theirs"}
     named |= {"broken": "not TOML", "empty": "submission.toml"}
     assert reasons.keys() == named.keys()
     assert [folder for folder, text in named.items() if text not in reasons[folder]] == []
     stated = [row[1] for row in rows_of(page, "submissions")]
     assert [status[2:] for status in stated if status != "not judged"] == ["ERROR", "FAIL", "PASS", "FAIL", "FAIL"]
     assert "<b>Author" not in page
-    links = re.findall(r'href="([^"]*report.html)"', page)
-    assert {*links} == {
-        f"models/{name}/report.html" for name in ("mine/1.9", "mine/1.10", "measured/1", "twelve-percent/1", "ends/1")
-    }
-    assert all((tmp_path / "site" / link).is_file() for link in links)
+    links = {*re.findall(r'href="(models/[^"]*)/report.html"', page)}
+    names = ("mine/1.9", "mine/1.10", "measured/1", "twelve-percent/1", "ends/1")
+    assert links == {f"models/{name}" for name in names}
+    assert all((tmp_path / "site" / link / "report.html").is_file() for link in links)
 
 
-def test_what_has_not_changed_is_not_computed_again(submissions, no_cards, tmp_path, capsys, monkeypatch):
+def test_what_has_not_changed_is_not_computed_again(submissions, tmp_path, capsys, monkeypatch):
     """And the values of the reference are computed once for all."""
     monkeypatch.setattr("comparisons.pipeline.board.REFERENCE", "exact")
     submissions("a", name="a")
-    counts = []
-    for body in (BODY, BODY.replace("2.2", "2.1")):
+    for body, counts in ((BODY, ["8", "4"]), (BODY.replace("2.2", "2.1"), ["0", "4"])):
         submissions("b", body, name="b")
-        for _ in range(2):
-            close_models()
-            assert board(tmp_path)[0] == 0
-            counts.append(re.findall(r"(\d+) computations on", capsys.readouterr().err))
-    assert counts == [["8", "4"], ["0", "0"], ["0", "4"], ["0", "0"]]
-    # Results of other code are replaced.
+        assert board(tmp_path)[0] == 0
+        assert re.findall(r"(\d+) computations on", capsys.readouterr().err) == counts
+    # Results of other code are removed.
     monkeypatch.setattr("comparisons.pipeline.board.fingerprint", lambda: "other code")
-    assert board(tmp_path)[0] == 0
-    assert re.findall(r"(\d+) computations on", capsys.readouterr().err) == ["8", "4"]
+    for name in "ab":
+        submissions(name).write_text("")
+    assert board(tmp_path)[0] == 4
+    assert not (tmp_path / "site" / "models").exists()
 
 
 def test_a_folder_of_other_files_and_one_without_submissions_are_refused(submissions, tmp_path, capsys):
     (tmp_path / "site").mkdir()
     (tmp_path / "site" / "index.html").write_text("mine")
-    for folder, named in ((submissions("a"), "files that are not of a board"), (tmp_path / "no", "no folder with")):
+    own = submissions("a").parent
+    for folder, named in ((own, "files that are not of a board"), (tmp_path / "no", "no folder with")):
         assert main(["board", str(folder), "--out", str(tmp_path / "site")]) == 2
         assert named in capsys.readouterr().err
     assert (tmp_path / "site" / "index.html").read_text() == "mine"
@@ -133,15 +125,10 @@ def test_the_first_entries_are_models_of_the_paper_and_of_others():
 
 
 def test_the_code_of_a_pull_request_gets_no_secret_and_cannot_write():
-    workflow = yaml.safe_load((ROOT / ".github" / "workflows" / "board.yml").read_text(encoding="utf-8"))
-    # YAML reads the key `on` as true.
-    assert "pull_request" in workflow[True]
-    assert "pull_request_target" not in workflow[True]
+    text = (ROOT / ".github" / "workflows" / "board.yml").read_text(encoding="utf-8")
+    workflow = yaml.safe_load(text)
     assert workflow["permissions"] == {"contents": "read"}
-    runs_code = [
-        job for job in workflow["jobs"].values() if any("fscm-bench" in step.get("run", "") for step in job["steps"])
-    ]
-    assert len(runs_code) == 2
-    assert all("permissions" not in job and "secrets." not in str(job) for job in runs_code)
-    checkouts = [step for job in runs_code for step in job["steps"] if "checkout" in step.get("uses", "")]
-    assert all(step["with"]["persist-credentials"] is False for step in checkouts)
+    runs_code = [job for job in workflow["jobs"].values() if "fscm-bench" in str(job["steps"])]
+    assert ["permissions" in job for job in runs_code] == [False, False]
+    assert not re.search(r"pull_request_target|secrets\.", text)
+    assert text.count("uses: actions/checkout@") == text.count("persist-credentials: false")
