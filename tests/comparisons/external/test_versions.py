@@ -6,49 +6,46 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.external import fingerprint as module
+from comparisons.external.fingerprint import MOST_BYTES, MOST_FILES, fingerprint
 from comparisons.external.model_source import GROUP, close_models
 from comparisons.registry import create
+from comparisons.runs.computation import complete
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.record import read_record
 
 from .conftest import GATE, GOOD, opened, row_of
 
-READS = """
-text = Path({folder!r}, "table.csv").read_text()
-import late
-return Result(float(text) + late.VALUE, 0.0)
-"""
-
 
 @pytest.fixture
 def folder(tmp_path, write_model):
-    """A folder with a model that reads a table and imports a module late, and a program beside them."""
+    """A folder with a model, a table, a module that is imported late, and a program beside them."""
     (tmp_path / "table.csv").write_text("1.5")
     (tmp_path / "late.py").write_text("VALUE = 0.0\n")
     (tmp_path / "solver").write_bytes(b"\x7fELF\x00")
     (tmp_path / "data").mkdir()
     (tmp_path / "data" / "points.npy").write_bytes(b"\x93NUMPY")
-    write_model(READS.format(folder=str(tmp_path)))
+    write_model()
     return tmp_path
 
 
-def of_folder(folder):
-    return opened(f"{folder / 'stranger.py'}:Model")
+def hashed(folder, *declared):
+    """Digest and words of the files of the model in the folder, which has imported the module beside it."""
+    return fingerprint({folder: folder / "stranger.py"}, declared, [folder / "late.py"])
+
+
+def change(file):
+    with file.open("ab") as stream:
+        stream.write(b"\n#")
 
 
 def test_every_file_of_a_small_folder_counts(folder):
-    versions = [of_folder(folder).version]
-    assert "all files in" in of_folder(folder).hashed
-    assert "5 files" in of_folder(folder).hashed
-    for changed in ("late.py", "solver", "data/points.npy", "stranger.py", "new.dat"):
-        with (folder / changed).open("ab") as file:
-            file.write(b"\n#")
-        versions.append(of_folder(folder).version)
-    (folder / "table.csv").write_text("1.6")
-    row = row_of(of_folder(folder))
-    assert row.value == 1.6
-    assert len({*versions, row.model_version}) == 7
+    versions = [hashed(folder)[0]]
+    assert hashed(folder)[1].startswith("all files in")
+    assert "; 5 files" in hashed(folder)[1]
+    for name in ("late.py", "solver", "data/points.npy", "stranger.py", "new.dat"):
+        change(folder / name)
+        versions.append(hashed(folder)[0])
+    assert len({*versions}) == 6
 
 
 #: What is beside a model without being its own.
@@ -59,7 +56,7 @@ OTHERS = (
 
 
 def test_what_a_run_an_editor_or_git_writes_does_not_count(folder):
-    before = of_folder(folder)
+    before = hashed(folder)
     for name in OTHERS:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(name)
@@ -70,38 +67,48 @@ def test_what_a_run_an_editor_or_git_writes_does_not_count(folder):
     with (folder / "output.txt").open("w") as file:
         os.dup2(file.fileno(), 1)
     try:
-        after = of_folder(folder)
+        after = hashed(folder)
     finally:
         os.dup2(stdout, 1)
         os.close(stdout)
-    assert (after.version, after.hashed) == (before.version, before.hashed)
+    assert after == before
 
 
 @pytest.mark.parametrize(
     "enlarge",
     [
-        lambda folder: [(folder / f"{number}.dat").touch() for number in range(module.MOST_FILES)],
-        lambda folder: os.truncate(folder / "solver", module.MOST_BYTES),
+        lambda folder: [(folder / f"{number}.dat").touch() for number in range(MOST_FILES)],
+        lambda folder: os.truncate(folder / "solver", MOST_BYTES),
         lambda folder: folder.chmod(0o1777),  # the folder for temporary files
     ],
 )
-def test_of_a_large_or_shared_folder_what_is_imported_or_declared_counts(folder, write_model, enlarge):
+def test_of_a_large_or_shared_folder_what_is_imported_or_declared_counts(folder, enlarge):
     enlarge(folder)
-    write_model(f"import late\n{GOOD}", more="import late")
-    before = of_folder(folder)
-    assert "the imported modules in" in before.hashed
-    (folder / "table.csv").write_text("1.6")
-    assert of_folder(folder).version == before.version
-    (folder / "late.py").write_text("VALUE = 1.0\n")
-    assert of_folder(folder).version != before.version
-    write_model(more='files = ("table.csv", "data/", "results/fit.csv")')
     (folder / "results").mkdir()
     (folder / "results" / "fit.csv").write_text("1")
-    versions = [of_folder(folder).version]
-    for changed in ("table.csv", "data/points.npy", "results/fit.csv"):
-        (folder / changed).write_text("1.7")
-        versions.append(of_folder(folder).version)
-    assert len(set(versions)) == 4
+    declared = ("table.csv", "data/", "results/fit.csv")
+    before, of_declared = hashed(folder), [hashed(folder, *declared)[0]]
+    assert "the imported modules in" in before[1]
+    for name in ("table.csv", "data/points.npy", "results/fit.csv"):
+        change(folder / name)
+        assert hashed(folder) == before
+        of_declared.append(hashed(folder, *declared)[0])
+    assert len({*of_declared}) == 4
+    change(folder / "late.py")
+    assert hashed(folder) != before
+
+
+def test_a_process_names_what_it_has_imported_and_what_the_model_declares(folder, write_model):
+    folder.chmod(0o1777)
+    spec = write_model(f"import late\n{GOOD}", more='import late\nfiles = ("table.csv",)')
+    versions = [opened(spec).version]
+    for name in ("solver", "table.csv", "late.py"):
+        change(folder / name)
+        versions.append(opened(spec).version)
+    assert versions[0] == versions[1]
+    assert len({*versions}) == 3
+    row = row_of(opened(spec))
+    assert (row.value, row.model_version) == (1.5, versions[-1])
 
 
 @pytest.fixture
@@ -146,10 +153,11 @@ def test_of_a_single_installed_module_what_its_package_lists_counts(site):
     assert opened("stranger").version != before.version
 
 
-def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(write_model, few_cases, tmp_path):
+def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(write_model, few_cases, tmp_path, monkeypatch):
+    # As with two processes of a run, each of which opens the model again.
+    monkeypatch.setattr("comparisons.pipeline.run.complete", lambda *given: close_models() or complete(*given))
     specs = [write_model(name="good"), write_model(more="name = f'stranger-{os.getpid()}'")]
-    # With two processes each of them opens the model again.
-    assert main(["run", "--jobs", "2", "--out", str(tmp_path / "out"), "--model", *specs]) == 4
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "out"), "--model", *specs]) == 4
     table = pd.read_csv(tmp_path / "out" / "results.csv", dtype=str)
     strange = table[table["model"].str.startswith("stranger")]
     assert strange["model"].nunique() == strange["model_version"].nunique() == 1
@@ -222,5 +230,3 @@ def test_an_old_pass_does_not_stand_when_the_data_have_changed(once, tmp_path):
     assert status == 4
     assert "is failed" in messages
     assert 2.5 not in values(tmp_path)
-    once("2.0")
-    assert values(tmp_path) == [2.0] * 4
