@@ -1,7 +1,6 @@
 """External models, written to files as their authors would."""
 
 import hashlib
-import shutil
 import time
 import tomllib
 from functools import partial
@@ -66,18 +65,8 @@ def no_cards(monkeypatch):
 
 
 GRID = with_entries(STANDING, id="few", reference="bradley", models='["dmt"]')
-GATE = with_entries(
-    GATES,
-    id="GIVEN",
-    candidate="given",
-    reference="bradley",
-    cases="{}",
-    lower=-0.1,
-    upper=0.1,
-    min_cases=2,
-    min_coverage=0.9,
-    not_applicable="leave-out",
-)
+LIMITS = {"lower": -0.1, "upper": 0.1, "min_cases": 2, "min_coverage": 0.9, "not_applicable": "leave-out"}
+GATE = with_entries(GATES, id="GIVEN", candidate="given", reference="bradley", cases="{}", **LIMITS)
 
 
 @pytest.fixture
@@ -133,12 +122,8 @@ n = [2]
 k = [0, 0.4]
 mu = [0.1, 1]
 """
-ROWS = [
-    "pull_off_force,2,0,0.1,1.9,1e-6",
-    "pull_off_force,2,0,1,1.6,1e-6",
-    "pull_off_force,2,0.4,0.1,1.95,1e-6",
-    "pull_off_force,2,0.4,1,1.75,1e-6",
-]
+VALUES = ("2,0,0.1,1.9", "2,0,1,1.6", "2,0.4,0.1,1.95", "2,0.4,1,1.75")
+ROWS = [f"pull_off_force,{cells},1e-6" for cells in VALUES]
 
 
 @pytest.fixture
@@ -164,16 +149,27 @@ def write_data(tmp_path):
 
 
 @pytest.fixture
-def installed_example(tmp_path, monkeypatch):
-    """Put the double-Hertz example on the path as an installation leaves it, by its own pyproject.toml."""
+def install(tmp_path, monkeypatch):
+    """Return a function that puts files on the path as the installation of a model does, and returns their folder."""
+
+    def installed(name, target, files):
+        site, info = tmp_path / "site-packages", f"{name}-1.0.dist-info"
+        metadata = f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n"
+        entries = {f"{info}/METADATA": metadata, f"{info}/entry_points.txt": f"[{GROUP}]\n{name} = {target}\n"}
+        for file, text in (files | entries).items():
+            (site / file).parent.mkdir(parents=True, exist_ok=True)
+            (site / file).write_text(text)
+        monkeypatch.syspath_prepend(site)
+        return site
+
+    return installed
+
+
+@pytest.fixture
+def installed_example(install):
+    """Install the double-Hertz example by its own pyproject.toml; return the name of its model."""
     tables = tomllib.loads((EXAMPLE / "pyproject.toml").read_text(encoding="utf-8"))
-    project = tables["project"]
-    info = tmp_path / "site-packages" / "double_hertz-1.0.dist-info"
-    info.mkdir(parents=True)
-    for module in tables["tool"]["setuptools"]["py-modules"]:
-        shutil.copy(EXAMPLE / f"{module}.py", info.parent)
-    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {project['version']}\n")
-    entries = "".join(f"{name} = {target}\n" for name, target in project["entry-points"][GROUP].items())
-    (info / "entry_points.txt").write_text(f"[{GROUP}]\n{entries}")
-    monkeypatch.syspath_prepend(info.parent)
-    return project["name"]
+    ((name, target),) = tables["project"]["entry-points"][GROUP].items()
+    files = [EXAMPLE / f"{module}.py" for module in tables["tool"]["setuptools"]["py-modules"]]
+    install(name, target, {file.name: file.read_text(encoding="utf-8") for file in files})
+    return name

@@ -57,39 +57,38 @@ def test_two_models_of_one_name_are_refused(write_data, write_model, refused):
     refused(["run", "--model", write_model(name="measured"), write_data()], "two models have the name measured")
 
 
-def test_a_folder_and_an_installed_model_of_its_name_are_told_apart(
-    installed_example, write_data, tmp_path, monkeypatch
-):
+def test_a_folder_and_an_installed_model_of_its_name_are_told_apart(install, write_data, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / installed_example).mkdir()
-    assert source_of(installed_example)["kind"] == "package"
-    with pytest.raises(ValueError, match=f"'./{installed_example}'"):
-        create(f"./{installed_example}")
-    (tmp_path / installed_example).rmdir()
-    write_data().rename(tmp_path / installed_example)
-    with pytest.raises(ValueError, match=f"name the folder ./{installed_example}"):
-        create(installed_example)
-    assert create(f"./{installed_example}/model.toml").name == "measured"
+    install("mine", "mine:Model", {})
+    (tmp_path / "mine").mkdir()
+    assert source_of("mine")["kind"] == "package"
+    with pytest.raises(ValueError, match=r"'\./mine'"):
+        create("./mine")
+    (tmp_path / "mine").rmdir()
+    write_data().rename(tmp_path / "mine")
+    with pytest.raises(ValueError, match=r"name the folder \./mine"):
+        create("mine")
+    assert create("./mine/model.toml").name == "measured"
 
 
-@pytest.mark.parametrize("mode", [0o644, 0o755])
-@pytest.mark.parametrize("spec", ["mine.csv", "./mine.csv"])
-def test_a_bare_table_is_told_how_to_be_data(tmp_path, monkeypatch, mode, spec):
-    """With and without a separator in the SPEC, and on a file system that marks every file as executable."""
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "mine.csv").touch(mode)
-    with pytest.raises(ValueError, match=rf"{spec} is a table .* model\.toml"):
-        source_of(spec)
+TABLE = "is a table and no model: put it in a folder with a model.toml"
 
 
-@pytest.mark.parametrize("spec", ["", " \t", "./nothing", "nothing.py:Model", "model.py:2", "./model.py"])
-def test_what_names_no_model_is_refused_in_one_sentence(tmp_path, monkeypatch, refused, spec):
-    """The working folder may hold predictions, which an empty path would name."""
+@pytest.mark.parametrize(
+    ("spec", "words"),
+    [
+        *(("", "is empty"), (" \t", "is empty"), ("./nothing", "./nothing"), ("nothing.py:Model", "there is no file")),
+        *(("model.py:2", "name of a class"), ("./model.py", "chmod"), ("mine.csv", TABLE), ("./mine.csv", TABLE)),
+    ],
+)
+def test_what_names_no_model_is_refused_in_one_sentence(tmp_path, monkeypatch, refused, spec, words):
+    """An empty path would name predictions in the working folder; some file systems mark all files as executable."""
     (tmp_path / "model.toml").touch()
-    (tmp_path / "model.py").touch()
+    (tmp_path / "model.py").touch(0o644)
+    (tmp_path / "mine.csv").touch(0o755)
     monkeypatch.chdir(tmp_path)
     for command in (["run", "--model", spec], ["check-model", spec]):
-        refused(command)
+        refused(command, words)
 
 
 PROGRAM = ROOT / "tests" / "examples" / "program" / "jkr.sh"
@@ -108,9 +107,9 @@ done
 def write_program(tmp_path):
     """Return a function that writes a shell script and returns its SPEC."""
 
-    def write(body, describe=DESCRIBE, text=None):
+    def write(body, describe=DESCRIBE, script=SCRIPT):
         file = tmp_path / "program"
-        file.write_text(text or SCRIPT.format(describe=describe, body=body), encoding="utf-8")
+        file.write_text(script.format(describe=describe, body=body), encoding="utf-8")
         file.chmod(0o755)
         return str(file)
 
@@ -192,7 +191,7 @@ def test_a_reply_that_is_no_result_is_one_sentence(reply, sentence):
 
 def test_a_program_that_keeps_its_line_or_does_not_start_is_ended(write_program, monkeypatch):
     with pytest.raises(ValueError, match=r"cannot be started .*whose first line"):
-        create(write_program("", text="no program\n"))
+        create(write_program("", script="no program\n"))
     monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "1.5")
     with pytest.raises(ComputationFailed, match=r"within 1.5 s \(FSCM_BENCH_TIME_LIMIT\) .* must flush"):
         create(write_program("printf '{}'; sleep 60")).evaluate(CASE, QUANTITY)

@@ -2,14 +2,12 @@
 
 import os
 
-import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
 from comparisons.external.fingerprint import MOST_BYTES, MOST_FILES, fingerprint
-from comparisons.external.model_source import GROUP, close_models
+from comparisons.external.model_source import close_models
 from comparisons.registry import create
-from comparisons.runs.computation import complete
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.record import read_record
 
@@ -111,59 +109,23 @@ def test_a_process_names_what_it_has_imported_and_what_the_model_declares(folder
     assert (row.value, row.model_version) == (1.5, versions[-1])
 
 
-@pytest.fixture
-def site(tmp_path, monkeypatch):
-    """An installed package with a table in it, and a module of another package beside it."""
-    site = tmp_path / "site-packages"
-    for name, text in {
-        "stranger/__init__.py": "",
-        "stranger/table.csv": "1.5",
-        "stranger/model.py": "import other\nclass Model:\n"
-        '    name, version, citation, domain = "stranger", "1", "none", "tests"\n'
-        "    def evaluate(self, problem, quantity): ...\n",
+INSTALLED = "import other\nclass Model: name = version = citation = domain = 'stranger'; evaluate = max"
+
+
+@pytest.mark.parametrize("package", ["stranger/", ""])
+def test_every_file_that_was_installed_with_a_model_counts_and_none_beside_it(install, package):
+    """A package, and a distribution of modules without one, whose record lists its files."""
+    names = (f"{package}{name}" for name in ("__init__.py", "table.csv", "model.py"))
+    files = dict.fromkeys(names, INSTALLED) | {
         "other.py": "",
-        "stranger-1.dist-info/METADATA": "Metadata-Version: 2.1\nName: stranger\nVersion: 1\n",
-        "stranger-1.dist-info/entry_points.txt": f"[{GROUP}]\nstranger = stranger.model:Model\n",
-    }.items():
-        (site / name).parent.mkdir(parents=True, exist_ok=True)
-        (site / name).write_text(text)
-    monkeypatch.syspath_prepend(site)
-    return site
-
-
-def test_every_file_of_an_installed_package_counts_and_none_beside_it(site):
+        "stranger-1.0.dist-info/RECORD": "model.py,,\ntable.csv,,\n",
+    }
+    site = install("stranger", f"{package.replace('/', '.')}model:Model", files)
     before = opened("stranger").version
-    (site / "other.py").write_text("x = 1")
+    change(site / "other.py")
     assert opened("stranger").version == before
-    (site / "stranger" / "table.csv").write_text("1.6")
+    change(site / package / "table.csv")
     assert opened("stranger").version != before
-
-
-def test_of_a_single_installed_module_what_its_package_lists_counts(site):
-    """A distribution of modules without a package: its record lists its files."""
-    (site / "stranger" / "model.py").rename(site / "model.py")
-    (site / "table.csv").write_text("1")
-    (site / "stranger-1.dist-info" / "entry_points.txt").write_text(f"[{GROUP}]\nstranger = model:Model\n")
-    (site / "stranger-1.dist-info" / "RECORD").write_text("model.py,,\ntable.csv,,\nstranger-1.dist-info/METADATA,,\n")
-    before = opened("stranger")
-    assert "2 files" in before.hashed
-    (site / "other.py").write_text("x = 1")
-    assert opened("stranger").version == before.version
-    (site / "table.csv").write_text("2")
-    assert opened("stranger").version != before.version
-
-
-def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(write_model, few_cases, tmp_path, monkeypatch):
-    # As with two processes of a run, each of which opens the model again.
-    monkeypatch.setattr("comparisons.pipeline.run.complete", lambda *given: close_models() or complete(*given))
-    specs = [write_model(name="good"), write_model(more="name = f'stranger-{os.getpid()}'")]
-    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "out"), "--model", *specs]) == 4
-    table = pd.read_csv(tmp_path / "out" / "results.csv", dtype=str)
-    strange = table[table["model"].str.startswith("stranger")]
-    assert strange["model"].nunique() == strange["model_version"].nunique() == 1
-    assert strange["status"].tolist() == ["failed"] * 4
-    assert strange["reason"].str.contains("name or version changed").all()
-    assert table.loc[table["model"] == "good", "status"].tolist() == ["ok"] * 4
 
 
 def test_a_process_that_had_to_be_started_again_is_compared_with_the_one_before(write_model, tmp_path):
@@ -183,50 +145,34 @@ def test_a_process_that_had_to_be_started_again_is_compared_with_the_one_before(
     assert row.reason.startswith("the model's files changed")
 
 
-@pytest.fixture
-def once(write_model, few_cases, tmp_path, tmp_path_factory, capsys):
-    """Return a function that writes the data the model reads, computes, and returns status and messages.
-
-    The data are not in the folder of the model, whose digest would show the change.
-    """
-    (tmp_path / "gates.toml").write_text(GATE)
+def test_an_old_pass_does_not_stand_when_the_data_have_changed(
+    write_model, few_cases, tmp_path, tmp_path_factory, capsys
+):
+    """The data are not in the folder of the model, whose digest would show the change."""
+    out, gates = tmp_path / "out", tmp_path / "gates.toml"
+    gates.write_text(GATE)
     data = tmp_path_factory.mktemp("elsewhere") / "data.txt"
+    spec = write_model(f"return Result(float(Path({str(data)!r}).read_text()), 0.0)")
 
-    def go(text):
+    def run_with(text):
+        """Exit status, messages, what was evaluated again, and the values."""
         data.write_text(text)
         close_models()
-        spec = write_model(f"return Result(float(Path({str(data)!r}).read_text()), 0.0)")
-        capsys.readouterr()
-        command = ["run", "--gates", str(tmp_path / "gates.toml")]
-        status = main([*command, "--jobs", "1", "--out", str(tmp_path / "out"), "--model", spec, "jkr"])
-        return status, capsys.readouterr().err
+        status = main(["run", "--gates", str(gates), "--jobs", "1", "--out", str(out), "--model", spec, "jkr"])
+        again = read_record(out / "run.json").get("evaluated_again", {}).get("stranger")
+        table = read_table(out / "results.csv")
+        return status, capsys.readouterr().err, again, table.loc[table["model"] == "stranger", "value"].tolist()
 
-    return go
-
-
-def values(folder):
-    table = read_table(folder / "out" / "results.csv")
-    return table.loc[table["model"] == "stranger", "value"].tolist()
-
-
-def again(folder):
-    return read_record(folder / "out" / "run.json").get("evaluated_again", {}).get("stranger")
-
-
-def test_an_old_pass_does_not_stand_when_the_data_have_changed(once, tmp_path):
-    once("2.0")
-    assert again(tmp_path) is None
-    _, messages = once("2.0")
+    assert run_with("2.0")[2] is None
+    _, messages, again, _ = run_with("2.0")
     assert "0 computations" in messages
-    assert again(tmp_path) == {"same": True, "tasks": 3}
-    status, messages = once("2.5")
-    assert status == 1
+    assert again == {"same": True, "tasks": 3}
+    status, messages, again, values = run_with("2.5")
+    assert (status, again["same"], values) == (1, False, [2.5] * 4)
     assert "stranger has changed" in messages
-    assert values(tmp_path) == [2.5] * 4
-    assert not again(tmp_path)["same"]
     # The rows that were not trusted are gone for good.
-    assert "0 computations" in once("2.5")[1]
-    status, messages = once("two")
+    assert "0 computations" in run_with("2.5")[1]
+    status, messages, _, values = run_with("two")
     assert status == 4
     assert "is failed" in messages
-    assert 2.5 not in values(tmp_path)
+    assert 2.5 not in values

@@ -16,12 +16,10 @@ PLUGIN = "fscm_bench_pytest"
 
 
 @pytest.fixture
-def small_grid(small_grid, tmp_path, pytester):
+def small_grid(small_grid, tmp_path):
     """The four cases of toy models, after one run: pytester drops every module that a run inside it imports first."""
-    (tmp_path / "first.toml").write_text(GATES)
-    verdicts = named_verdicts("quick", tmp_path / "first.toml", ["ten-percent"], tmp_path / "first")
+    verdicts = named_verdicts("quick", GATES, ["ten-percent"], tmp_path / "before")
     assert {verdict for _, verdict, _ in verdicts} == {"PASS"}
-    (tmp_path / "first.toml").unlink()
 
 
 @pytest.fixture(autouse=True)
@@ -103,32 +101,29 @@ def test_problem_files_take_the_place_of_the_standing_cases(pytester):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        (["--fscm-bench-model=jkr"], "--fscm-bench-gates FILE is missing"),
-        (["--fscm-bench-gates=gates.toml"], "--fscm-bench-model SPEC is missing"),
-        (["--fscm-bench-gates=none.toml", "--fscm-bench-model=jkr"], "none.toml does not exist"),
+        ("--fscm-bench-model=jkr", "--fscm-bench-gates FILE is missing"),
+        ("--fscm-bench-gates=gates.toml", "--fscm-bench-model SPEC is missing"),
+        ("--fscm-bench-gates=none.toml --fscm-bench-model=jkr", "none.toml does not exist"),
     ],
 )
 def test_what_is_missing_is_named(pytester, options, sentence):
-    pytester.makefile(".toml", gates=EVERY)
-    result = pytester.runpytest_inprocess("-p", PLUGIN, *options)
+    result = pytester.runpytest_inprocess("-p", PLUGIN, *options.split())
     assert result.ret == pytest.ExitCode.USAGE_ERROR
     result.stderr.fnmatch_lines([f"ERROR: *{sentence}*"])
 
 
-def test_a_gate_that_cannot_be_used_is_one_sentence(small_grid, pytester):
-    result = run(pytester, EVERY.replace("0.15", "-0.15"))
-    result.assert_outcomes(errors=1)
-    result.stdout.fnmatch_lines(["*admit nothing or everything*"])
-    result.stdout.no_fnmatch_line("*gate_checks*")
-
-
-def test_a_run_that_cannot_compute_is_one_sentence(small_grid, pytester):
+def test_what_cannot_be_judged_is_one_sentence(small_grid, pytester):
     pytester.mkdir("kept")
     (pytester.path / "kept" / "store.sqlite").write_text(500 * "no store\n")
-    result = run(pytester, gate("PASSES", "given", 0.05, 0.15), "--fscm-bench-out=kept")
-    result.assert_outcomes(errors=1)
-    result.stdout.fnmatch_lines(["*kept/store.sqlite is not a store*"])
-    run(pytester, gate("OTHERS", "twelve-percent", 0.0, 0.2)).assert_outcomes(errors=1)
+    for text, option, sentence in (
+        (EVERY.replace("0.15", "-0.15"), "-q", "*admit nothing or everything*"),
+        (gate("PASSES", "given", 0.05, 0.15), "--fscm-bench-out=kept", "*kept/store.sqlite is not a store*"),
+        (gate("OTHERS", "twelve-percent", 0.0, 0.2), "-q", "*no gate*"),
+    ):
+        result = run(pytester, text, option)
+        result.assert_outcomes(errors=1)
+        result.stdout.fnmatch_lines([sentence])
+        result.stdout.no_fnmatch_line("*gate_checks*")
 
 
 def test_it_costs_nothing_in_other_projects(pytester):
