@@ -9,7 +9,7 @@ import pytest
 import fem_reference
 import fscm
 from comparisons.model import ComputationFailed, NotApplicable, Result
-from comparisons.models.fem_model import _LEVELS, _SCALES, FiniteElements
+from comparisons.models.fem_model import _LEVELS, _SCALES, FiniteElements, _surface_at_pull_off
 from comparisons.models.fscm_model import StieltjesModel
 from comparisons.models.solver import result_of
 from comparisons.numerics.curve_distance import curve_distance, mesh_difference
@@ -17,6 +17,14 @@ from comparisons.problem import Problem
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import create
 from comparisons.runs.tasks import evaluate
+
+
+@pytest.fixture(autouse=True)
+def no_surface_of_another_test():
+    """The model keeps its last surface, which here may be of other meshes or of a stub."""
+    _surface_at_pull_off.cache_clear()
+    yield
+    _surface_at_pull_off.cache_clear()
 
 
 def test_a_result_has_the_value_and_the_bound_of_the_solution_in_its_unit():
