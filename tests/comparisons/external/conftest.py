@@ -12,7 +12,6 @@ from comparisons.external.model_source import GROUP, close_models
 from comparisons.pipeline import finished_run, inputs
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
-from comparisons.registry import create
 from comparisons.runs.cases import load_grids
 from comparisons.runs.tasks import evaluate
 
@@ -27,12 +26,6 @@ GOOD = "return Result(1.5, 1e-9)"
 def row_of(model, mu=1, k=0.4, n=2, quantity="pull_off_force"):
     """The row of one evaluation."""
     return evaluate(model, quantity, Problem.dimensionless(n, k, mu))
-
-
-def opened(spec):
-    """The model in a new process."""
-    close_models()
-    return create(str(spec))
 
 
 def comes_true(condition):
@@ -150,7 +143,7 @@ def write_data(tmp_path):
 
 @pytest.fixture
 def install(tmp_path, monkeypatch):
-    """Return a function that puts files on the path as the installation of a model does, and returns their folder."""
+    """Return a function that puts files on the path as the installation of a model leaves them."""
 
     def installed(name, target, files):
         site, info = tmp_path / "site-packages", f"{name}-1.0.dist-info"
@@ -160,7 +153,6 @@ def install(tmp_path, monkeypatch):
             (site / file).parent.mkdir(parents=True, exist_ok=True)
             (site / file).write_text(text)
         monkeypatch.syspath_prepend(site)
-        return site
 
     return installed
 

@@ -11,7 +11,7 @@ from comparisons.registry import create
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.record import read_record
 
-from .conftest import GATE, GOOD, opened, row_of
+from .conftest import GATE, GOOD, row_of
 
 
 @pytest.fixture
@@ -98,34 +98,25 @@ def test_of_a_large_or_shared_folder_what_is_imported_or_declared_counts(folder,
 
 def test_a_process_names_what_it_has_imported_and_what_the_model_declares(folder, write_model):
     folder.chmod(0o1777)
-    spec = write_model(f"import late\n{GOOD}", more='import late\nfiles = ("table.csv",)')
-    versions = [opened(spec).version]
-    for name in ("solver", "table.csv", "late.py"):
-        change(folder / name)
-        versions.append(opened(spec).version)
-    assert versions[0] == versions[1]
-    assert len({*versions}) == 3
-    row = row_of(opened(spec))
-    assert (row.value, row.model_version) == (1.5, versions[-1])
+    model = create(write_model(f"import late\n{GOOD}", more='import late\nfiles = ("table.csv",)'))
+    assert model.hashed.startswith("the imported modules in")
+    assert "and 1 declared file; 3 files," in model.hashed
+    assert row_of(model).model_version == model.version
 
 
 INSTALLED = "import other\nclass Model: name = version = citation = domain = 'stranger'; evaluate = max"
 
 
-@pytest.mark.parametrize("package", ["stranger/", ""])
-def test_every_file_that_was_installed_with_a_model_counts_and_none_beside_it(install, package):
+@pytest.mark.parametrize(("package", "count"), [("stranger/", 3), ("", 2)])
+def test_every_file_that_was_installed_with_a_model_counts_and_none_beside_it(install, package, count):
     """A package, and a distribution of modules without one, whose record lists its files."""
     names = (f"{package}{name}" for name in ("__init__.py", "table.csv", "model.py"))
     files = dict.fromkeys(names, INSTALLED) | {
         "other.py": "",
         "stranger-1.0.dist-info/RECORD": "model.py,,\ntable.csv,,\n",
     }
-    site = install("stranger", f"{package.replace('/', '.')}model:Model", files)
-    before = opened("stranger").version
-    change(site / "other.py")
-    assert opened("stranger").version == before
-    change(site / package / "table.csv")
-    assert opened("stranger").version != before
+    install("stranger", f"{package.replace('/', '.')}model:Model", files)
+    assert f"; {count} files, {count * len(INSTALLED)} bytes" in create("stranger").hashed
 
 
 def test_a_process_that_had_to_be_started_again_is_compared_with_the_one_before(write_model, tmp_path):
