@@ -71,19 +71,15 @@ def test_each_gate_and_case_is_a_test(small_grid, pytester):
     assert "named_verdicts.py" not in output
 
 
-def test_one_gate_can_be_chosen_and_the_folder_kept(small_grid, pytester):
-    result = run(pytester, EVERY, "-k", "PASSES", "--fscm-bench-out=kept")
-    result.assert_outcomes(passed=4, deselected=8)
-    assert (pytester.path / "kept" / "junit.xml").is_file()
-
-
-def test_an_ini_file_names_them(small_grid, pytester):
-    pytester.makefile(".toml", gates=gate("PASSES", "given", 0.05, 0.15))
+def test_an_ini_file_names_them_and_one_gate_can_be_chosen(small_grid, pytester):
+    pytester.makefile(".toml", gates=EVERY)
     pytester.makeini("[pytest]\nfscm_bench_gates = gates.toml\nfscm_bench_model =\n    ten-percent\n")
-    pytester.makepyfile("def test_mine():\n    pass")
-    pytester.runpytest_inprocess("-p", PLUGIN).assert_outcomes(passed=5)
+    pytester.makepyfile(test_mine="def test_of_mine():\n    pass")
+    chosen = pytester.runpytest_inprocess("-p", PLUGIN, "-k", "PASSES or mine", "--fscm-bench-out=kept")
+    chosen.assert_outcomes(passed=5, deselected=8)
+    assert (pytester.path / "kept" / "junit.xml").is_file()
     # Tests that are named come alone.
-    pytester.runpytest_inprocess("-p", PLUGIN, "test_an_ini_file_names_them.py").assert_outcomes(passed=1)
+    pytester.runpytest_inprocess("-p", PLUGIN, "test_mine.py").assert_outcomes(passed=1)
 
 
 def test_problem_files_take_the_place_of_the_standing_cases(pytester):
