@@ -22,7 +22,8 @@ KINDS = ("sharp", "smooth", "table", "three layers", "sharp")
 NOT_FOLLOWED = 31
 # Largest bound of the finite elements, measured 5.4e-7 (problem 26).
 LARGEST_BOUND = 1e-6
-# Tabor number with the modulus of the surface from which on JKR is near, and how near.
+# Tabor number with the modulus of the surface from which on JKR is near, and how near: relative, in units of 1 plus z0
+# over the stretch of the first layer.  Measured 0.6 of it where the layer is a sixth of z0 thick (problem 10).
 LARGE_TABOR, NEAR_JKR = 10.0, 0.02
 
 
@@ -35,6 +36,13 @@ class Sphere(NamedTuple):
     name: str
     arguments: tuple
     stack: Stack | None
+
+    @property
+    def stretch(self):
+        """Stretch of the first layer at the edge of JKR contact, by the energy w, if it alone deforms."""
+        modulus, nu, thickness = self.stack.layers[0]
+        confined = modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))
+        return math.sqrt(2.0 * self.work * thickness / confined)
 
     def problem(self, solver):
         """The problem of one of the two references."""
@@ -79,4 +87,4 @@ def test_both_references_agree_and_are_near_jkr_where_the_range_is_short(number)
     assert max(integral.u_num, elements.u_num) < LARGEST_BOUND * integral.value
     if sphere.stack is not None and sphere.problem(fscm).mu > LARGE_TABOR:
         limit = -min(minimum.load for minimum in minima_with_error(sphere.stack, sphere.work, sphere.R))
-        assert integral.value == pytest.approx(limit, rel=NEAR_JKR)
+        assert integral.value == pytest.approx(limit, rel=NEAR_JKR * (1.0 + sphere.z0 / sphere.stretch))
