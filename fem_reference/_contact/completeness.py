@@ -87,7 +87,7 @@ def complete_path(points: Sequence[Point]) -> list[Point]:
     Raises
     ------
     NotConverged
-        If that needs more than `ROUNDS` passes, or if the path turns back where the branches meet.
+        If that needs more than `ROUNDS` passes, or if the load or the displacement turns where two branches meet.
     """
     length = points[0].branch.contact.law.z0
     scale = max(abs(min(point.state.load for point in points)), 1e-300)
@@ -95,10 +95,11 @@ def complete_path(points: Sequence[Point]) -> list[Point]:
     branches = branches_of(points)
     for before, after in pairwise(branches):
         a, b = before[-1], after[0]
-        turn = a.load_rate * b.load_rate / scale**2 + a.displacement_rate * b.displacement_rate / length**2
-        if turn < 0.0:
+        # Turning points are sought within the branches: one between them would be missed.
+        if a.load_rate * b.load_rate < 0.0 or a.displacement_rate * b.displacement_rate < 0.0:
             raise NotConverged(
-                f"the path turns back at delta = {a.state.displacement:.6g}, where the contact edge is formed"
+                f"the path turns at delta = {a.state.displacement:.6g}, where the contact edge is formed and this mesh "
+                "does not resolve it"
             )
     return [point for branch in branches for point in complete_branch(branch, tests)]
 

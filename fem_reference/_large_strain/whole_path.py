@@ -6,8 +6,10 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
 from fem_reference._contact.mesh_choice import MeshChoice, chosen, followed_path
-from fem_reference._contact.path import Point
+from fem_reference._contact.path import Point, joined, point_at
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._large_strain.block import Friction
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent, linear_problem
@@ -17,6 +19,10 @@ from fem_reference._large_strain.events import Family
 from fem_reference.problem import Problem
 
 __all__ = ["PathState", "path_states"]
+
+#: Largest share of the picture of displacement and load between two states in contact: the last steps of the path of
+#: small strain double the displacement.
+_LARGEST_STEP = 0.1
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,14 +75,29 @@ def path_states(
 
     choice, spec, size = chosen(linear_problem(problem, friction), ("zero_load",), accuracy, followed)
     states: list[PathState] = []
-    joined = False
-    for point in followed(choice, spec, size):
+    in_contact = False
+    for point in _refined(followed(choice, spec, size)):
         linear = LinearEvent(point, spec, size)
         discretisation = discretised(linear)
         state = Family(discretisation, linear).state(0.0)
         # The first contact edges of small strain may lie before the last gap of finite strain.
-        joined = joined or not states or state.gap_at(0) < states[-1].state.gap_at(0)
-        if joined or not point.branch.touching:
-            joined = point.branch.touching
+        in_contact = in_contact or not states or state.gap_at(0) < states[-1].state.gap_at(0)
+        if in_contact or not point.branch.touching:
+            in_contact = point.branch.touching
             states.append(PathState(state, discretisation, linear))
     return states
+
+
+def _refined(points: list[Point]) -> list[Point]:
+    """Return the points with others between those in contact that are far apart."""
+    curve = np.array([(point.state.displacement, point.state.load) for point in points])
+    steps = np.linalg.norm(np.diff(curve / np.ptp(curve, axis=0), axis=0), axis=1)
+    refined = points[:1]
+    for a, b, step in zip(points[:-1], points[1:], steps.tolist(), strict=True):
+        if a.branch.touching and joined(a, b):
+            count = math.ceil(step / _LARGEST_STEP)
+            for i in range(1, count):
+                nearest = a if 2 * i <= count else b
+                refined.append(point_at(nearest, a.parameter + i / count * (b.parameter - a.parameter)))
+        refined.append(b)
+    return refined

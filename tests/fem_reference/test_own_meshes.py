@@ -170,7 +170,7 @@ def test_a_path_that_stays_undecided_is_refused(monkeypatch):
 def test_a_path_that_turns_back_between_the_branches_is_refused():
     approach = AnalyticBranch(Polynomial([0.0, -1.0]), [0.0, -1.0], touching=False).points([3.0, 2.0, 1.0])
     touching = AnalyticBranch(Polynomial([-1.0, -1.0]), [-1.0, -1.0]).points([0.0, 1.0, 2.0])
-    with pytest.raises(NotConverged, match="turns back"):
+    with pytest.raises(NotConverged, match="path turns"):
         complete_path([*approach, *touching])
 
 

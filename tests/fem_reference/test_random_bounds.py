@@ -4,7 +4,9 @@ import statistics
 
 import pytest
 
-from tests.fem_reference.random_problems import COUNT, TABLE, UNFINISHED, ratio, rows
+from fem_reference import solve
+from tests.fem_reference.random_problems import COUNT, TABLE, UNFINISHED, problems, ratio, rows
+from tests.fem_reference.solved_together import problem_with
 from tests.marks import heavy
 from tests.random_tables import stored
 
@@ -34,3 +36,11 @@ def test_no_error_of_the_table_is_above_its_bound():
     ratios = [ratio(row) for row in table if row["status"] == "value"]
     assert all(1.0 <= value <= LARGEST_RATIO for value in ratios)
     assert statistics.median(ratios) <= LARGEST_MEDIAN
+
+
+@pytest.mark.heavy
+def test_a_fold_where_the_edge_is_formed_is_found_on_finer_meshes():
+    """Elements of degree 4 lose the jump out of contact of problem 19; the value is that of the integral equation."""
+    n, k, mu, nu = problems(20)[19]
+    solution = solve(problem_with(k, mu, n, nu), "jump_out_displacement")
+    assert abs(solution.value + 1.4485969303332) < solution.u_num < 1e-5
