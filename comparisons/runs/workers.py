@@ -7,10 +7,11 @@ import signal
 import threading
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
-from contextlib import closing
+from contextlib import closing, contextmanager
 from importlib import import_module
 from multiprocessing import active_children, get_context, parent_process, resource_tracker
 from multiprocessing.process import BaseProcess
+from types import FrameType
 from typing import TypeVar
 
 from threadpoolctl import threadpool_limits
@@ -74,7 +75,10 @@ class _Workers:
         self, function: Callable[[Item], Output], items: Iterable[Item]
     ) -> Iterator[Future[tuple[Item, Output | None]]]:
         """Yield a future for each item as it is finished."""
-        yield from as_completed([self._threads.submit(self._call, function, item) for item in items])
+        # An interruption within a lock of the queue, which Python can leave locked, would hang the end of the threads.
+        with _interrupts_later():
+            futures = [self._threads.submit(self._call, function, item) for item in items]
+        yield from as_completed(futures)
 
     def _call(self, function: Callable[[Item], Output], item: Item) -> tuple[Item, Output | None]:
         try:
@@ -105,6 +109,26 @@ class _Workers:
         self._threads.shutdown(cancel_futures=True)
         for pool in self._pools:
             pool.shutdown()
+
+
+@contextmanager
+def _interrupts_later() -> Iterator[None]:
+    """Let Ctrl-C, and the signal that ends a process, wait for the end of the block."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    arrived: list[tuple[int, FrameType | None]] = []
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    waiting = {number: handler for number, handler in handlers.items() if callable(handler)}
+    for number in waiting:
+        signal.signal(number, lambda *details: arrived.append(details))
+    try:
+        yield
+    finally:
+        for number, handler in waiting.items():
+            signal.signal(number, handler)
+        for first, frame in arrived[:1]:
+            waiting[signal.Signals(first)](first, frame)
 
 
 def _block_interrupts() -> None:
