@@ -1,12 +1,14 @@
 """Error of what all models assume: its table, how it is continued, and what follows for the choice of a model."""
 
 import itertools
+import json
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from comparisons.cli.main import main
 from comparisons.description import assumptions as module
 from comparisons.description import strain_errors
 from comparisons.description.assumptions import SMALL, assumptions
@@ -127,6 +129,20 @@ def test_a_solution_with_finite_strain_on_request():
     looked_up, solved = (assumptions(ball, FORCE, by_solution)["strain"] for by_solution in (False, True))
     assert solved["error"] == pytest.approx(looked_up["error"], abs=looked_up["u_num"] + solved["u_num"])
     assert solved["u_num"] < 1e-3 * abs(solved["error"])
+
+
+@pytest.mark.heavy
+def test_finite_strain_of_a_solid_that_the_table_lacks_is_described(tmp_path, capsys):
+    path = tmp_path / "offset.toml"
+    path.write_text(
+        '[solid]\nkind = "offset-power-law"\nE0 = "2 MPa"\nc0 = "1 um"\nz_s = "1 um"\nk = 0.4\nnu = 0.4\n'
+        '[punch]\nkind = "sphere"\nR = "5 um"\n'
+        '[law]\nkind = "lennard-jones-9-3"\nwork_of_adhesion = "10 mJ/m^2"\nz0 = "50 nm"\n'
+    )
+    assert main(["describe", str(path), "--large-strain", "--format", "json"]) == 0
+    strain = json.loads(capsys.readouterr().out)["assumptions"]["strain"]
+    assert abs(strain["error"]) < 0.01
+    assert strain["u_num"] < 1e-4
 
 
 def test_a_solution_counts_before_the_table_and_where_there_is_none(quickly):
