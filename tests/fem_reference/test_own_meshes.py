@@ -174,6 +174,13 @@ def test_a_path_that_turns_back_between_the_branches_is_refused():
         complete_path([*approach, *touching])
 
 
+def test_a_turn_of_the_displacement_alone_between_the_branches_is_refused():
+    approach = AnalyticBranch(Polynomial([0.0, -1.0]), [0.0, -1.0], touching=False).points([3.0, 2.0, 1.0])
+    touching = AnalyticBranch(Polynomial([-1.0, -0.01]), [-1.0, 10.0]).points([0.0, 1.0, 2.0])
+    with pytest.raises(NotConverged, match="path turns"):
+        complete_path([*approach, *touching])
+
+
 def test_the_range_includes_turning_points_between_samples():
     low, high = displacement_range(
         AnalyticBranch(Polynomial([0.0, -1.0, 0.0, 1.0]), [0.0, 1.0]).points([-1.0, 0.0, 1.0])

@@ -96,6 +96,20 @@ def test_ctrl_c_leaves_no_traceback(seconds):
     assert (ended.returncode, ended.stderr) == (0, "")
 
 
+def test_an_interruption_waits_while_items_are_queued():
+    queued = []
+
+    def queue():
+        with workers._interrupts_later():
+            os.kill(os.getpid(), signal.SIGINT)
+            queued.append("all")
+
+    with pytest.raises(KeyboardInterrupt):
+        queue()
+    assert queued == ["all"]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
 TASKS = [
     Task("bradley", quantity, Problem.dimensionless(2, 0, mu))
     for mu in (2, 1)
