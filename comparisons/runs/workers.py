@@ -41,7 +41,7 @@ def processes(
 
     With one job the function is called in this process.
     """
-    if jobs == 1:
+    if jobs == 1 or not items:
         for item in items:
             yield item, function(item)
         return

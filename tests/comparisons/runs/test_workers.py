@@ -42,6 +42,10 @@ def test_one_job_needs_no_worker():
     assert [process for process, _ in each(threads, [1, 2], 1, lost=str)] == [os.getpid()] * 2
 
 
+def test_nothing_to_do_is_done():
+    assert list(each(threads, [], 2, lost=str)) == []
+
+
 def test_an_exception_of_the_function_is_raised():
     with pytest.raises(ValueError, match="is refused"):
         list(each(fail, [1, 2], 2, lost=str))
