@@ -152,14 +152,19 @@ def picture_path(path: Path) -> Path:
     return path
 
 
-def save(figure: Figure, path: Path) -> None:
-    """Write a figure; the suffix of `path`, one of `FORMATS`, chooses the format.
+def save(figure: Figure, *paths: Path) -> None:
+    """Write a figure; the suffix of each path, one of `FORMATS`, chooses the format.
 
     Raises
     ------
     ValueError
-        If the suffix is another one, or the file cannot be written.
+        If a suffix is another one, or a file cannot be written.
     """
-    suffix = picture_path(path).suffix.lower()
-    with styled(), atomic(path) as file:
-        figure.savefig(file, format=suffix[1:], metadata=_METADATA[suffix])
+    suffixes = [picture_path(path).suffix.lower() for path in paths]
+    with styled():
+        # One layout for all formats.
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")
+        for path, suffix in zip(paths, suffixes, strict=True):
+            with atomic(path) as file:
+                figure.savefig(file, format=suffix[1:], metadata=_METADATA[suffix])

@@ -187,9 +187,9 @@ class PaperFigure:
         for name, text in texts.items():
             with atomic(folder / name) as file:
                 file.write(text.encode())
-        pictures = [folder / f"{self.stem}{suffix}" for suffix in _FORMATS if picture]
-        for path in pictures:
-            save(picture, path)  # type: ignore[arg-type]
+        pictures = [folder / f"{self.stem}{suffix}" for suffix in _FORMATS] if picture else []
+        if picture:
+            save(picture, *pictures)
         return [*(folder / name for name in texts), *pictures]
 
 

@@ -144,9 +144,7 @@ def compare(
         table = _of_applicable(table, named)
     comparison = Comparison(table, error_summary(table), finished.folder, finished.failures)
     write_table(table, finished.folder / COMPARISON)
-    figure = comparison.figure()
-    for suffix in (".png", ".pdf"):
-        save(figure, finished.folder / f"{COMPARISON}{suffix}")
+    save(comparison.figure(), *(finished.folder / f"{COMPARISON}{suffix}" for suffix in (".png", ".pdf")))
     # With the checksums of these files.
     write_record(read_record(finished.folder / RECORD), finished.folder / RECORD)
     return comparison

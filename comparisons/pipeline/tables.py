@@ -101,5 +101,4 @@ def write_tables(tables: RunTables, folder: Path) -> None:
 def write_pictures(tables: RunTables, folder: Path) -> None:
     """Draw the pictures of the standing cases, as far as there are rows for them, for screen and print."""
     for name, figure in figures_of({KAPPA: tables.kappa, AGREEMENT: tables.agreement, CURVES: tables.curves}):
-        for suffix in (".png", ".pdf"):
-            save(figure, folder / f"{name}{suffix}")
+        save(figure, *(folder / f"{name}{suffix}" for suffix in (".png", ".pdf")))

@@ -73,7 +73,9 @@ def plan(
     Returns
     -------
     list of Task
-        Largest Tabor numbers first: they take longest, and one that starts last would keep one core busy alone.
+        Those of problem files first, then one gradient exponent after the other, for which `fscm` keeps its kernel's
+        integrals; of each the largest Tabor numbers first: they take longest, and one that starts last would keep one
+        core busy alone.
     """
     tasks = {
         Task(model, quantity, problem_for(model, problem), (external or {}).get(model))
@@ -82,12 +84,13 @@ def plan(
         for quantity in grid.quantities
         for problem in grid.cases
     }
-    return sorted(tasks, key=_costliest_first)
+    return sorted(tasks, key=_quickest_order)
 
 
-def _costliest_first(task: Task) -> tuple[float, Problem, str, str]:
+def _quickest_order(task: Task) -> tuple[float, float, Problem, str, str]:
     # Complete, so that every process plans the same order.
-    return -(task.problem["mu"] or math.inf), task.problem, task.model, task.quantity
+    gradient, tabor = task.problem["k"], task.problem["mu"]
+    return -1.0 if gradient is None else gradient, -(tabor or math.inf), task.problem, task.model, task.quantity
 
 
 def evaluate(model: str | Model, quantity: str, problem: Problem) -> Row:
