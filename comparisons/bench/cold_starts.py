@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from comparisons.bench.part import Numbers, Part, Settings
+from comparisons.bench.part import Numbers, Part
 from comparisons.external.template import write_template
 
 #: An interpreter that does nothing, to which the others are compared.
@@ -38,12 +38,12 @@ _FINISHED = {0, 1, 3}
 _OUT = "out"
 
 
-def plan(full: bool) -> list[Settings]:
+def plan(full: bool) -> list[Numbers]:
     """Return the commands."""
     return [{"command": command} for command in _COMMANDS]
 
 
-def measure(settings: Settings) -> Numbers:
+def cold_start(command: str) -> Numbers:
     """Return the CPU time of a command, that of its own processes included, and its wall-clock time.
 
     Raises
@@ -51,7 +51,6 @@ def measure(settings: Settings) -> Numbers:
     RuntimeError
         If the command fails.
     """
-    command = settings["command"]
     with tempfile.TemporaryDirectory() as folder:
         arguments = ["-c", "pass"] if command == BARE else ["-m", "comparisons", *command.split()]
         if command == _OWN_MODEL:
@@ -87,6 +86,4 @@ def summary(rows: pd.DataFrame) -> pd.DataFrame:
     return rows[["command", "ratio", "cpu_seconds"]].rename(columns={"cpu_seconds": "CPU (s)"})
 
 
-COLD_STARTS = Part(
-    "cold-starts", "CPU time of commands from a cold start", plan, measure, ratios, summary, own_process=False
-)
+COLD_STARTS = Part("cold-starts", "CPU time of commands from a cold start", plan, cold_start, ratios, summary)

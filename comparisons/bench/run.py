@@ -10,17 +10,17 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+import pandas as pd
+
 from comparisons.bench.cold_starts import COLD_STARTS
-from comparisons.bench.measuring import measured
-from comparisons.bench.part import Measurement, Part, key, table_of
+from comparisons.bench.part import Part
 from comparisons.bench.work_precision import WORK_PRECISION
-from comparisons.console.progress import note
 from comparisons.data.file_names import BENCH, BENCH_SUMMARY
 from comparisons.output.style import save
+from comparisons.paper.cache import make_calls
 from comparisons.runs.atomic_files import atomic, prepare_folder, write_json
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.environment import environment
-from comparisons.runs.store import Form, Store
 
 #: Parts by name, in the order in which they are measured: the shortest first.
 PARTS = {part.name: part for part in (COLD_STARTS, WORK_PRECISION)}
@@ -46,10 +46,10 @@ def parts_of(names: Iterable[str] | None) -> list[Part]:
 
 
 class FinishedBench(NamedTuple):
-    """What a run prints, lines of at most 80 columns; and its failures."""
+    """What a run prints, lines of at most 80 columns; and a sentence for each failure."""
 
     summary: list[str]
-    failures: list[Measurement]
+    failures: list[str]
 
 
 def run_bench(folder: Path, only: Sequence[str] | None = None, *, full: bool = False) -> FinishedBench:
@@ -71,57 +71,31 @@ def run_bench(folder: Path, only: Sequence[str] | None = None, *, full: bool = F
     """
     parts = parts_of(only)
     prepare_folder(folder)
-    with Store(folder, FORM) as store:
-        store.drop(lambda measurement: measurement["status"] != "ok")
-        _measure(parts, full, store)
-        return _written(folder, parts, store, {"only": only and list(only), "full": full})
-
-
-#: Measurements in the store of a folder.
-FORM: Form[Measurement] = Form(
-    "measurements",
-    key=lambda row: [row["part"], key(row["settings"])],
-    read=lambda content: content,
-    write=lambda row: row,
-)
-
-
-def _measure(parts: Sequence[Part], full: bool, store: Store[Measurement]) -> None:
-    """Make the measurements that the store lacks, part by part."""
-    stored = {(row["part"], key(row["settings"])) for row in store.items}
-    missing = [
-        (part, settings) for part in parts for settings in part.plan(full) if (part.name, key(settings)) not in stored
-    ]
-    note(f"{len(missing)} measurements" + (f", {len(stored)} are stored" if stored else ""))
-    made = (measured(part, settings) for part, settings in missing)
-    store.complete("measurements", len(missing), made)
-
-
-def _written(
-    folder: Path, parts: Sequence[Part], store: Store[Measurement], arguments: dict[str, object]
-) -> FinishedBench:
-    """Write the tables and figures of the parts and the record of all that is stored; return what is printed."""
+    calls = [call for part in parts for call in part.calls(full)]
+    computed = make_calls(calls, folder, apart=True)
+    failures = [computed.outcomes[call].sentence for call in calls if computed.outcomes[call].failed]
     record = environment()
     machine = record["machine"]
     summary = [f"{machine['cpu']}, {machine['cores']} cores; ratios of one run on it:"[:80]]
-    failures = []
     for part in parts:
-        rows = [row for row in store.items if row["part"] == part.name]
-        failures += [row for row in rows if row["status"] != "ok"]
-        table = table_of(part, rows)
-        finished = table[table["status"] == "ok"]
-        table_file, *figure_files = part.files(folder)
-        with atomic(table_file) as file:
-            file.write(csv_text(table).encode())
-        if finished.empty:
-            continue
-        for figure_file in figure_files:
-            save(part.draw(finished), figure_file)  # type: ignore[misc]
-        lines = part.summary(finished).to_string(index=False, float_format="%.3g", na_rep="")
-        summary += [f"{part.title}:", *lines.splitlines()]
-    content = {"arguments": arguments, **record, "parts": store.parts()}
-    content["failures"] = sum(row["status"] != "ok" for row in store.items)
+        summary += _written(folder, part, part.table(full, computed.outcomes))
+    arguments = {"only": only and list(only), "full": full}
+    content = {"arguments": arguments, **record, "parts": computed.parts, "failures": len(failures)}
     write_json(content, folder / BENCH)
     with atomic(folder / BENCH_SUMMARY) as file:
         file.write("".join(f"{line}\n" for line in summary).encode())
     return FinishedBench(summary, failures)
+
+
+def _written(folder: Path, part: Part, table: pd.DataFrame) -> list[str]:
+    """Write the table and the figure of a part; return what is printed."""
+    finished = table[table["status"] == "ok"]
+    table_file, *figure_files = part.files(folder)
+    with atomic(table_file) as file:
+        file.write(csv_text(table).encode())
+    if finished.empty:
+        return []
+    for figure_file in figure_files:
+        save(part.draw(finished), figure_file)  # type: ignore[misc]
+    lines = part.summary(finished).to_string(index=False, float_format="%.3g", na_rep="")
+    return [f"{part.title}:", *lines.splitlines()]

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from comparisons.bench.part import Part, Settings
-from comparisons.bench.pull_off import measure
+from comparisons.bench.part import Numbers, Part
+from comparisons.bench.pull_off import cost_of_pull_off
 from comparisons.output.style import COLOURS, MARKERS, new_figure, styled
 from comparisons.paper.drawing import panels
 
@@ -32,7 +32,7 @@ _SETTINGS = {
 _LONG, _MU_OF_ELEMENTS = "2500", 1.0
 
 
-def plan(full: bool) -> list[Settings]:
+def plan(full: bool) -> list[Numbers]:
     """Return the solvers with all their settings."""
     return [
         {"n": 2.0, "k": 0.0, "mu": mu, "model": model, "setting": setting}
@@ -100,7 +100,7 @@ WORK_PRECISION = Part(
     "work-precision",
     "error against CPU time; ratio: to fscm of smaller error",
     plan,
-    measure,
+    cost_of_pull_off,
     ratios,
     summary,
     draw,

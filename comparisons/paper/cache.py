@@ -58,6 +58,11 @@ class Outcome(NamedTuple):
         """Whether the function raised an exception, or returned a dictionary with the status ``"failed"``."""
         return bool(self.failure) or (isinstance(self.result, dict) and self.result.get("status") == "failed")
 
+    @property
+    def sentence(self) -> str:
+        """The call and its failure."""
+        return f"{self.call.name}({', '.join(map(str, self.call.arguments))}): {self.failure}"
+
     def get(self) -> Any:
         """Return the result.
 
@@ -67,7 +72,7 @@ class Outcome(NamedTuple):
             If the function raised an exception; the message is its reason.
         """
         if self.failure:
-            raise ComputationFailed(f"{self.call.name}({', '.join(map(str, self.call.arguments))}): {self.failure}")
+            raise ComputationFailed(self.sentence)
         return self.result
 
 
@@ -77,6 +82,13 @@ def _make(call: CachedCall) -> Outcome:
         return Outcome(call, getattr(import_module(module), name)(*call.arguments))
     except (ComputationFailed, NotApplicable) as error:
         return Outcome(call, failure=str(error))
+    except Exception as error:
+        # A defect of a function costs its own results and no others.
+        return Outcome(call, failure=f"{type(error).__name__}: {error}")
+
+
+def _lost(call: CachedCall) -> Outcome:
+    return Outcome(call, failure=LOST)
 
 
 _FORM: Form[Outcome] = Form(
@@ -95,7 +107,7 @@ class MadeCalls(NamedTuple):
     parts: list[dict[str, Any]]
 
 
-def make_calls(calls: Iterable[CachedCall], folder: Path, jobs: int = 1) -> MadeCalls:
+def make_calls(calls: Iterable[CachedCall], folder: Path, jobs: int = 1, *, apart: bool = False) -> MadeCalls:
     """Make the calls that the store of a folder does not have, or has as failures, each once.
 
     Parameters
@@ -104,6 +116,8 @@ def make_calls(calls: Iterable[CachedCall], folder: Path, jobs: int = 1) -> Made
     folder : Path
     jobs : int
         Number of processes.
+    apart : bool
+        Whether each call is made in a new process, one after the other.
 
     Raises
     ------
@@ -117,7 +131,9 @@ def make_calls(calls: Iterable[CachedCall], folder: Path, jobs: int = 1) -> Made
         store.drop(lambda outcome: outcome.call in planned and outcome.failed)
         stored = {outcome.call for outcome in store.items}
         missing = [call for call in planned if call not in stored]
-        outcomes = each(_make, missing, jobs, lost=lambda call: Outcome(call, failure=LOST))
-        store.complete("paper", len(missing), outcomes)
+        groups = [[call] for call in missing] if apart else [missing]
+        # With one job a call is made in this process.
+        outcomes = (outcome for group in groups for outcome in each(_make, group, 2 if apart else jobs, lost=_lost))
+        store.complete("computations", len(missing), outcomes)
         parts = store.parts(lambda outcome: outcome.call in planned)
         return MadeCalls({outcome.call: outcome for outcome in store.items}, len(missing), parts)

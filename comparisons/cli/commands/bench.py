@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from comparisons.bench.part import Measurement
 from comparisons.bench.run import PARTS, run_bench
 from comparisons.cli.options import QUIET, file, option, several
 from comparisons.cli.screen import print_lines
@@ -35,11 +34,6 @@ def call(args: argparse.Namespace) -> int:
     if not args.quiet:
         print_lines(finished.summary)
     for failure in finished.failures:
-        log(_sentence(failure))
+        log(failure)
     note(f"tables, figures and record are in {args.out}")
     return FAILED if finished.failures else OK
-
-
-def _sentence(failure: Measurement) -> str:
-    settings = ", ".join(f"{name} = {value}" for name, value in failure["settings"].items())
-    return f"{failure['part']} ({settings}): failed: {failure['reason']}"

@@ -7,12 +7,17 @@ from matplotlib.figure import Figure
 
 from comparisons.bench import run
 from comparisons.bench.part import Part
+from comparisons.paper.cache import make_calls
+
+#: Sizes that were measured.
+SIZES = []
 
 
-def counted(settings):
-    if settings["size"] < 0:
+def counted(size):
+    SIZES.append(size)
+    if size < 0:
         raise ArithmeticError("a negative size")
-    return {"cpu_seconds": 0.5 * settings["size"]}
+    return {"cpu_seconds": 0.5 * size}
 
 
 def drawn(table):
@@ -29,16 +34,17 @@ TINY = Part(
     lambda rows: rows.assign(ratio=rows["cpu_seconds"]),
     lambda rows: rows[["size"]],
     drawn,
-    own_process=False,
 )
 
 
 @pytest.fixture
 def tiny(monkeypatch):
-    """The only part is the tiny one; returns a function that gives it another plan or another measurement."""
+    """The only part is the tiny one; returns a function that gives it another plan."""
 
     def change(**changed):
         monkeypatch.setattr(run, "PARTS", {"tiny": dataclasses.replace(TINY, **changed)})
 
+    monkeypatch.setattr(run, "make_calls", lambda calls, folder, apart: make_calls(calls, folder))
+    SIZES.clear()
     change()
     return change

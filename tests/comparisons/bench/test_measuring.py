@@ -1,14 +1,12 @@
 """Measurements of tiny sizes, their processes, CPU time and memory; never a time of another machine."""
 
-import os
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from comparisons.bench import cold_starts, pull_off
-from comparisons.bench.measuring import ENDED, cpu_seconds, measured, peak_memory
-from comparisons.bench.part import Part
+from comparisons.bench.pull_off import cost_of_pull_off, cpu_seconds, peak_memory
 
 #: The pull-off force for n = 2, k = 0, mu = 1.
 FORCE = 1.67066478
@@ -24,45 +22,26 @@ FORCE = 1.67066478
     ],
 )
 def test_a_solver_computes_the_pull_off_force(model, setting, error):
-    numbers = pull_off.measure({"model": model, "setting": setting, "n": 2.0, "k": 0.0, "mu": 1.0})
+    numbers = cost_of_pull_off(2.0, 0.0, 1.0, model, setting)
     assert abs(numbers["value"] - FORCE) < error * FORCE
     assert numbers.keys() == {"value", "u_num", "unknowns", "cpu_seconds", "cold_seconds", "megabytes"}
 
 
 def test_the_first_problem_is_a_neighbour_and_no_problem_comes_twice(monkeypatch):
-    factors = []
-    monkeypatch.setattr(pull_off, "_solve", lambda settings, factor=1.0: factors.append(factor) or {})
-    pull_off.measure({})
-    assert factors[0] == pytest.approx(1.1)
-    assert factors[1] == 1.0
-    assert len(set(factors)) == len(factors) > 2
+    numbers = []
+    solver = lambda problem, setting: numbers.append(problem.mu) or (1.0, 0.0, 7)  # noqa: E731
+    monkeypatch.setitem(pull_off._SOLVERS, "fscm", solver)
+    assert cost_of_pull_off(2.0, 0.0, 3.0, "fscm", "1e-04")["unknowns"] == 7
+    assert numbers[:2] == pytest.approx([3.3, 3.0], rel=1e-12)
+    assert len(set(numbers)) == len(numbers) > 2
 
 
 def test_commands_are_called_from_a_cold_start():
-    bare, numbers = (cold_starts.measure({"command": command}) for command in (cold_starts.BARE, "--help"))
+    bare, numbers = map(cold_starts.cold_start, (cold_starts.BARE, "--help"))
     assert (bare["exit_status"], numbers["exit_status"]) == (0, 0)
     assert 0.0 < bare["cpu_seconds"] < numbers["cpu_seconds"]
     with pytest.raises(RuntimeError, match="exit status 2: "):
-        cold_starts.measure({"command": "solve --model nothing --n 2 --k 0 --mu 1 --quantity pull_off_force"})
-
-
-def process_of(settings):
-    return {"process": os.getpid()}
-
-
-def ended(settings):
-    os._exit(1)
-
-
-def made(measure, own_process=True):
-    return measured(Part("test", "", None, measure, None, None, own_process=own_process), {"size": 3})
-
-
-def test_each_measurement_has_a_process_of_its_own_and_one_that_ends_is_a_failed_measurement():
-    own, this = (made(process_of, own_process)["numbers"]["process"] for own_process in (True, False))
-    assert own != this == os.getpid()
-    failed = made(ended)
-    assert (failed["status"], failed["reason"], failed["settings"]) == ("failed", ENDED, {"size": 3})
+        cold_starts.cold_start("solve --model nothing --n 2 --k 0 --mu 1 --quantity pull_off_force")
 
 
 def test_every_repetition_is_another_problem_the_first_output_counts_and_a_long_one_is_not_repeated(monkeypatch):
@@ -70,7 +49,7 @@ def test_every_repetition_is_another_problem_the_first_output_counts_and_a_long_
     assert cpu_seconds(lambda repetition: seen.append(repetition) or repetition)[0] == 0
     assert seen == [0, 1, 2]
     clock = iter([0.0, 5.0])
-    monkeypatch.setattr("comparisons.bench.measuring.time.process_time", lambda: next(clock))
+    monkeypatch.setattr("comparisons.bench.pull_off.time.process_time", lambda: next(clock))
     assert cpu_seconds(lambda repetition: repetition) == (0, 5.0)
 
 

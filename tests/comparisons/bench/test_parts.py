@@ -7,9 +7,9 @@ import pytest
 
 from comparisons.bench import work_precision
 from comparisons.bench.baseline import BENCH_BASELINE
-from comparisons.bench.part import table_of
 from comparisons.bench.run import PARTS
 from comparisons.bench.work_precision import CERTIFIED
+from comparisons.paper.cache import Outcome
 
 COMMITTED = Path(__file__).parents[3] / BENCH_BASELINE
 
@@ -30,13 +30,13 @@ def test_the_ratios_of_every_planned_measurement_are_those_committed(name):
 @pytest.mark.parametrize("name", list(PARTS))
 def test_a_part_is_drawn_and_summed_up_also_with_one_value_and_one_failure(name, tmp_path):
     part, (table, measured) = PARTS[name], stored(name)
-    good, bad = part.plan(True)[:2]
-    numbers = measured.iloc[0].drop([*good, "status", "reason"]).to_dict()
-    made = {"part": name, "settings": good, "numbers": numbers, "status": "ok", "reason": ""}
-    failed = {"part": name, "settings": bad, "numbers": {}, "status": "failed", "reason": "lost"}
-    few = table_of(part, [failed, made])
-    assert few["status"].tolist() == ["ok", "failed"]
-    assert table_of(part, [failed])["reason"].tolist() == ["lost"]
+    calls, settings = part.calls(False), part.plan(False)
+    numbers = measured.iloc[0].drop([*settings[0], "status", "reason"]).to_dict()
+    failed = {call: Outcome(call, failure="lost") for call in calls}
+    few = part.table(False, failed | {calls[0]: Outcome(calls[0], numbers)})
+    assert few["status"].tolist() == ["ok"] + ["failed"] * (len(calls) - 1)
+    assert few[list(settings[0])].to_dict("records") == settings
+    assert set(part.table(False, failed)["reason"]) == {"lost"}
     for rows in (table, few[few["status"] == "ok"]):
         assert max(map(len, part.summary(rows).to_string(index=False, float_format="%.3g").splitlines())) <= 80
         if part.draw:

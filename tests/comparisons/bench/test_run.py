@@ -11,13 +11,7 @@ from comparisons.bench.baseline import BENCH_BASELINE, renew
 from comparisons.bench.run import run_bench
 from comparisons.cli.main import main
 
-
-def measuring_sizes(sizes):
-    def measure(settings):
-        sizes.append(settings["size"])
-        return {"cpu_seconds": 0.5}
-
-    return measure
+from .conftest import SIZES
 
 
 def sizes_in(folder):
@@ -37,27 +31,23 @@ def test_a_run_writes_table_figure_and_record(tiny, tmp_path):
 
 
 def test_a_later_run_measures_what_is_missing_and_keeps_what_there_is(tiny, tmp_path):
-    sizes = []
-    tiny(measure=measuring_sizes(sizes))
     run_bench(tmp_path)
-    assert sizes == sizes_in(tmp_path) == [1, 2]
+    assert SIZES == sizes_in(tmp_path) == [1, 2]
     run_bench(tmp_path, full=True)
+    assert SIZES == sizes_in(tmp_path) == [1, 2, 8]
     run_bench(tmp_path)
-    assert sizes == sizes_in(tmp_path) == [1, 2, 8]
+    assert (SIZES, sizes_in(tmp_path)) == ([1, 2, 8], [1, 2])
 
 
 def test_a_failure_is_retried_and_is_no_baseline(tiny, tmp_path):
-    sizes = []
-    plan = {"plan": lambda full: [{"size": -1}, {"size": 1}]}
-    tiny(**plan)
+    tiny(plan=lambda full: [{"size": -1}, {"size": 1}])
     finished = run_bench(tmp_path)
-    assert [row["reason"] for row in finished.failures] == ["ArithmeticError: a negative size"]
+    assert finished.failures == ["counted(-1): ArithmeticError: a negative size"]
     assert pd.read_csv(tmp_path / "tiny.csv")["status"].tolist() == ["failed", "ok"]
     with pytest.raises(ValueError, match="1 failed"):
         renew(tmp_path, tmp_path / "baseline")
-    tiny(**plan, measure=measuring_sizes(sizes))
-    assert run_bench(tmp_path).failures == []
-    assert sizes == [-1]
+    run_bench(tmp_path)
+    assert SIZES == [-1, 1, -1]
 
 
 def test_the_command_prints_ratios_and_ends_with_the_status(tiny, tmp_path, capsys):
@@ -67,7 +57,7 @@ def test_the_command_prints_ratios_and_ends_with_the_status(tiny, tmp_path, caps
     assert capsys.readouterr() == ("", "")
     tiny(plan=lambda full: [{"size": -1}])
     assert main(["bench", "--out", str(tmp_path / "c"), "--quiet"]) == 4
-    assert capsys.readouterr().err == "tiny (size = -1): failed: ArithmeticError: a negative size\n"
+    assert capsys.readouterr().err == "counted(-1): ArithmeticError: a negative size\n"
     # A part without a value has a table and no figure.
     assert "a negative size" in (tmp_path / "c" / "tiny.csv").read_text()
     assert not (tmp_path / "c" / "tiny.png").exists()

@@ -1,9 +1,12 @@
 """Cache of finished calls: one computation each, and stored results."""
 
+import os
+
 import pytest
 
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.paper.cache import CachedCall, make_calls
+from comparisons.runs.workers import LOST
 
 MADE = []
 
@@ -21,6 +24,18 @@ def fail(x):
     raise ComputationFailed(f"{x} does not converge")
 
 
+def process(x):
+    return os.getpid()
+
+
+def end(x):
+    os._exit(1)
+
+
+def defect(x):
+    return x["key"]
+
+
 def test_each_call_is_made_once_and_its_result_or_failure_is_read_again(tmp_path):
     MADE.clear()
     calls = [CachedCall.of(double, 1), CachedCall.of(double, 2.5), CachedCall.of(fail, 3), CachedCall.of(refuse, 4)]
@@ -34,3 +49,11 @@ def test_each_call_is_made_once_and_its_result_or_failure_is_read_again(tmp_path
         with pytest.raises(ComputationFailed, match=reason):
             outcome.get()
     assert [outcome.failed for outcome in outcomes] == [False, False, True, True]
+
+
+def test_a_call_apart_has_a_process_of_its_own_and_a_defect_costs_its_own_result(tmp_path):
+    calls = [CachedCall.of(process, 1), CachedCall.of(process, 2), CachedCall.of(end, 3), CachedCall.of(defect, 4)]
+    outcomes = make_calls(calls, tmp_path, apart=True).outcomes
+    assert len({os.getpid(), *(outcomes[call].result for call in calls[:2])}) == 3
+    assert outcomes[calls[2]].failure == LOST
+    assert outcomes[calls[3]].failure.startswith("TypeError: ")
