@@ -17,6 +17,9 @@ MODULES = sorted(
 #: Modules whose examples solve several problems, or by finite elements, half a second or more; what they show is
 #: tested elsewhere too.
 LONG = {
+    "fscm.errors",
+    "fscm.experiment",
+    "comparisons.pipeline.figures",
     "comparisons.paper.figures.gradient_effect",
     "comparisons.paper.values.printed_values",
     "comparisons.problem.elastic_energy",

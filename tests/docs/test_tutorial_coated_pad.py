@@ -33,8 +33,10 @@ def stable(line):
 def test_the_file_of_the_page_is_that_of_the_examples():
     assert (DOCS / "examples" / "problems" / "coated_pad.toml").read_text(encoding="utf-8") == TOML
     assert [command[0] for command in COMMANDS] == ["describe", "solve", "curve"]
+    assert [f"{FORCE}" in text for text in PRINTED[:2]] == [True, True]
 
 
+@pytest.mark.heavy
 def test_describe_prints_what_the_page_shows_without_the_uncertain_values(folder, capsys):
     assert main([word for word in COMMANDS[0] if word != "--uncertain"]) == 0
     printed, on_page = capsys.readouterr().out.splitlines(), PRINTED[0].splitlines()

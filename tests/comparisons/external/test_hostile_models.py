@@ -5,13 +5,15 @@ import os
 import signal
 import subprocess
 import sys
+from contextlib import closing
 
 import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
 from comparisons.external import process_model
-from comparisons.external.model_source import close_models
+from comparisons.external.child import Child
+from comparisons.external.model_source import close_models, source_of
 from comparisons.external.replies import described
 from comparisons.model import ComputationFailed
 from comparisons.problem import Problem
@@ -108,9 +110,6 @@ CURVES = [
     ("Curve(np.arange(3.0), np.arange(4.0))", "displacement 3, load 4"),
     ("Curve(np.arange(3.0), np.array([0, 1j, 2]))", "type complex"),
     ("Curve(np.arange(3.0), np.array([0, np.nan, 2]))", "not finite"),
-    ("Curve([], [])", "displacement = [] must be"),
-    ("Curve(np.ones((2, 2)), np.ones((2, 2)))", "column displacement"),
-    ("Curve([1, 2], [1, 'b'])", "column load"),
     ("'curve'", "type str"),
 ]
 
@@ -118,9 +117,10 @@ CURVES = [
 def test_a_nonsense_curve_is_refused(write_model, capsys):
     curves = ", ".join(f"lambda: {curve}" for curve, _ in CURVES)
     spec = write_model(more=f"def curve(self, problem):\n    return [{curves}][int(problem.mu) - 1]()")
+    model = create(spec)
     for number, (_, sentence) in enumerate(CURVES, 1):
         with pytest.raises(ComputationFailed) as failure:
-            create(spec).curve(Problem.dimensionless(2, 0, number))
+            model.curve(Problem.dimensionless(2, 0, number))
         assert sentence in str(failure.value)
     assert main(["curve", "--model", spec, "jkr", "--n", "2", "--k", "0", "--mu", "1"]) == 4
     printed = capsys.readouterr()
@@ -132,25 +132,30 @@ def test_a_nonsense_curve_is_refused(write_model, capsys):
 LOADED = "class Model: name = version = citation = domain = 'x'; evaluate = max; "
 
 
-@pytest.mark.parametrize(
-    ("text", "sentence"),
-    [
-        ("import no_such_module_at_all", "no_such_module_at_all"),
-        ("x = 1\ndef f(:", "stranger.py, line 2"),
-        ("import os; os._exit(5)", "exit status 5"),
-        ("x = 1", "does not define Model"),
-        ("class Model: name = 'x'", "no version, citation, domain"),
-        (LOADED.replace("evaluate = max;", ""), "evaluate"),
-        (LOADED.replace("'x'", "'jkr'"), "a model of fscm-bench"),
-        (LOADED + "limits = max", "type builtin"),
-        (LOADED + "applies_to = 1", "applies_to"),
-        ("class Model:\n    def __init__(self):\n        raise ValueError('no such table')", "no such table"),
-    ],
-)
-def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, refused, text, sentence):
-    (tmp_path / "stranger.py").write_text(text)
-    message = refused(["solve", "--model", f"{tmp_path / 'stranger.py'}:Model", *FORCE], sentence)
-    assert "NotApplicable" not in message
+NOT_LOADED = [
+    ("import no_such_module_at_all", "no_such_module_at_all"),
+    ("x = 1\ndef f(:", "stranger.py, line 2"),
+    ("x = 1", "does not define Model"),
+    ("class Model: name = 'x'", "no version, citation, domain"),
+    (LOADED.replace("evaluate = max;", ""), "evaluate"),
+    (LOADED + "limits = max", "type builtin"),
+    (LOADED + "applies_to = 1", "applies_to"),
+    ("class Model:\n    def __init__(self):\n        raise ValueError('no such table')", "no such table"),
+    ("import os; os._exit(5)", "exit status 5"),
+]
+
+
+def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, refused):
+    file, spec = tmp_path / "stranger.py", f"{tmp_path / 'stranger.py'}:Model"
+    for text, sentence in (NOT_LOADED[0], (LOADED.replace("'x'", "'jkr'"), "a model of fscm-bench")):
+        file.write_text(text)
+        refused(["solve", "--model", spec, *FORCE], sentence)
+    source = source_of(spec)
+    with closing(Child(source)) as child:
+        for text, sentence in NOT_LOADED:
+            file.write_text(text)
+            with pytest.raises(ComputationFailed, match=sentence):
+                described(child.exchange({"request": "describe"}), source)
 
 
 NAMES = ("<b>bold</b>", "", "../up", "line\nbreak", "x" * 65, "given", "NaN")
@@ -172,7 +177,7 @@ def test_a_run_completes_the_others_and_its_files_are_its_own(write_model, few_c
     specs = [
         write_model(name="good"),
         write_model(f"for file in Path({str(out)!r}).iterdir():\n    file.write_text('mine')\n{GOOD}", "vandal"),
-        write_model(f"if problem.k:\n    os._exit(0)\n{GOOD}", "leaver"),
+        write_model(f"if problem.k and problem.mu == 1:\n    os._exit(0)\n{GOOD}", "leaver"),
         write_model(more="name = f'stranger-{os.getpid()}'"),
     ]
     assert main(["run", "--jobs", "1", "--out", str(out), "--model", *specs]) == 4

@@ -10,7 +10,7 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.external import child
 from comparisons.external.model_source import close_models, source_of
-from comparisons.external.replies import result_of
+from comparisons.external.replies import curve_of, result_of
 from comparisons.model import ComputationFailed, HasCurve, Model, NotApplicable
 from comparisons.problem import Problem
 from comparisons.registry import create
@@ -172,9 +172,15 @@ def test_a_defect_of_a_program_is_one_sentence_and_costs_one_result(write_progra
         assert model.evaluate(Problem.dimensionless(2, 0, 0.5), QUANTITY).value == 1.7
 
 
+ARRAYS = '{"status": "ok", "displacement": %s, "load": %s}'
+
+
 @pytest.mark.parametrize(
     ("reply", "sentence"),
     [
+        (ARRAYS % ("[]", "[]"), r"displacement = \[\] must be"),
+        (ARRAYS % ("[[1, 1], [1, 1]]", "[[1, 1], [1, 1]]"), "column displacement"),
+        (ARRAYS % ("[1, 2]", '[1, "b"]'), "column load"),
         ('{"status": "ok", "value": NaN, "u_num": 0}', "wrote NaN, which is not a finite number"),
         ('{"status": "ok", "value": 1e999, "u_num": 0}', "value = inf must be a finite"),
         ('{"status": "ok", "value": 1.7, "u_num": 0, "unum": 1}', "unknown key 'unum'"),
@@ -185,15 +191,16 @@ def test_a_defect_of_a_program_is_one_sentence_and_costs_one_result(write_progra
     ],
 )
 def test_a_reply_that_is_no_result_is_one_sentence(reply, sentence):
+    read = curve_of if "load" in reply else result_of
     with pytest.raises(ComputationFailed, match=sentence):
-        result_of(reply.encode())
+        read(reply.encode())
 
 
 def test_a_program_that_keeps_its_line_or_does_not_start_is_ended(write_program, monkeypatch):
     with pytest.raises(ValueError, match=r"cannot be started .*whose first line"):
         create(write_program("", script="no program\n"))
-    monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "1.5")
-    with pytest.raises(ComputationFailed, match=r"within 1.5 s \(FSCM_BENCH_TIME_LIMIT\) .* must flush"):
+    monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "0.5")
+    with pytest.raises(ComputationFailed, match=r"within 0.5 s \(FSCM_BENCH_TIME_LIMIT\) .* must flush"):
         create(write_program("printf '{}'; sleep 60")).evaluate(CASE, QUANTITY)
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from comparisons.paper.studies import fit_by_jkr
 from comparisons.paper.studies.finite_strain import meeting_points
-from comparisons.paper.studies.fit_by_jkr import fitted_by_jkr
 
 
 def test_geometry_and_strain_cancel_where_their_parts_are_equal():
@@ -22,10 +22,15 @@ def test_geometry_and_strain_cancel_where_their_parts_are_equal():
     assert math.isnan(never.elasto_adhesion_number)
 
 
-def test_jkr_finds_the_values_of_soft_spheres_alone():
+def test_jkr_finds_the_values_of_soft_spheres(monkeypatch):
+    monkeypatch.setattr(fit_by_jkr, "_POINTS", 100)
+    assert list(fit_by_jkr.fitted_by_jkr(0.0, 1.0, 10.0).values()) == pytest.approx([1.0063, 0.9993], abs=1e-3)
+
+
+@pytest.mark.heavy
+def test_jkr_does_not_find_the_values_of_stiff_spheres():
     """Far below a Tabor number of 1 its modulus is a third of the true one, its work of adhesion too large."""
-    soft, stiff = (fitted_by_jkr(0.0, 1.0, mu) for mu in (30.0, 0.1))
-    assert list(soft.values()) == pytest.approx([1.0, 1.0], abs=2e-3)
     # Several minima are about as good there.
+    stiff = fit_by_jkr.fitted_by_jkr(0.0, 1.0, 0.1)
     assert 1.15 < stiff["work_of_adhesion"] < 1.45
     assert 0.2 < stiff["modulus"] < 0.5

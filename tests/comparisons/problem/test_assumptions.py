@@ -123,6 +123,7 @@ def test_a_stiff_solid_has_small_errors():
     assert all(row["value"] < row["limit"] for row in assumed["measures"])
 
 
+@pytest.mark.heavy
 def test_a_solution_with_finite_strain_on_request():
     """A row of the table."""
     ball = ball_on(2e-2, 0.3, 0.35)

@@ -13,12 +13,15 @@ import fscm
 from comparisons.cli.main import main
 from comparisons.description import equivalent_power_law as module
 from comparisons.description.equivalent_power_law import equivalent_power_law
+from comparisons.description.overview import overview
+from comparisons.description.text import description_text
 from comparisons.problem import elastic_energy, equivalent_solid
 from comparisons.problem.elastic_energy import energy_spectrum
 from comparisons.problem.equivalent_solid import LARGEST_K, equivalent_solids, least_wrong, power_law_of
 from comparisons.problem.reading import load_problem
 from comparisons.runs.tasks import evaluate
 from tests.comparisons.problems import on_solid
+from tests.comparisons.rows import row
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
 COATED = EXAMPLES / "coated_solid.toml"
@@ -43,8 +46,9 @@ def test_the_transform_of_a_straight_line_is_accurate_at_small_and_large_argumen
 def transformed_once():
     """The spectrum of a problem is computed once."""
     with pytest.MonkeyPatch.context() as patch:
+        once = cache(energy_spectrum)
         for user in (module, equivalent_solid):
-            patch.setattr(user, "energy_spectrum", cache(energy_spectrum))
+            patch.setattr(user, "energy_spectrum", once)
         yield
 
 
@@ -110,17 +114,40 @@ def test_the_error_is_that_of_both_solids_in_the_solver(coated):
     assert power_law["closed_form_within"] == {"1 %": None, "5 %": "md-improved"}
 
 
-def test_a_closed_form_has_the_value_of_the_equivalent_and_the_error_of_the_fit(coated, monkeypatch):
+def force_of_jkr(problem):
+    return (3.0 + problem.solid["k"]) / 2.0 * math.pi * 1e-7 * 0.05
+
+
+def test_a_closed_form_has_the_value_of_the_equivalent_and_the_error_of_the_fit(coated):
     problem, _ = coated
     law = evaluate("jkr", "pull_off_force", problem)
-    monkeypatch.setattr(elastic_energy, "_POINTS", 2 * elastic_energy._POINTS)
-    monkeypatch.setattr(equivalent_solid, "energy_spectrum", energy_spectrum)
-    fine, _ = equivalent_solids.__wrapped__(problem)
-    force = (3.0 + fine.solid["k"]) / 2.0 * math.pi * 1e-7 * 0.05
-    assert abs(law.value - force) < law.u_num < 2e-3 * force
+    force, of_coarser = map(force_of_jkr, equivalent_solids(problem))
+    assert law.value == pytest.approx(force, rel=1e-12)
+    assert abs(force - of_coarser) < law.u_num < 2e-3 * force
     assert "equivalent power law" in law.reason
     # A model that solves the equations of a power law is no reference for another solid.
     assert evaluate("atlas", "pull_off_force", problem).status == "not-applicable"
+
+
+@pytest.mark.heavy
+def test_the_error_of_the_fit_bounds_the_change_by_more_wave_numbers(coated, monkeypatch):
+    problem, _ = coated
+    force, of_coarser = map(force_of_jkr, equivalent_solids(problem))
+    monkeypatch.setattr(elastic_energy, "_POINTS", 2 * elastic_energy._POINTS)
+    monkeypatch.setattr(equivalent_solid, "energy_spectrum", energy_spectrum)
+    fine, _ = equivalent_solids.__wrapped__(problem)
+    assert abs(force - force_of_jkr(fine)) < abs(force - of_coarser)
+
+
+@pytest.mark.parametrize(
+    ("of_surface", "of_law", "words"),
+    [(0.1, 0.1, "of the surface"), (0.9, 0.1, "equivalent power law"), (0.9, 0.9, "no Tabor number")],
+)
+def test_a_tabor_number_is_printed_where_its_modulus_is_that_of_the_contact(coated, of_surface, of_law, words):
+    problem, law = coated
+    law = law | {"surface_compliance_deviation": of_surface, "compliance_deviation": of_law}
+    content = overview(problem, row("fscm", value=5e-8, u_num=1e-16))
+    assert words in description_text(problem, content, law, [], None).splitlines()[2]
 
 
 def test_a_solid_that_no_power_law_stands_for(monkeypatch):

@@ -5,7 +5,7 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import BrokenExecutor
+from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -86,8 +86,7 @@ import os, signal, threading
 from comparisons.runs.workers import each
 threading.Timer({seconds}, os.killpg, (0, signal.SIGINT)).start()
 try:
-    list(each(abs, [1, 2], 2, lost=abs))
-    list(each(abs, range(10**6), 2, lost=abs))
+    list(each(sum, [range(10**13)] * 9, 2, lost=sum))
 except KeyboardInterrupt:
     pass
 """
@@ -95,22 +94,25 @@ except KeyboardInterrupt:
 
 @pytest.mark.parametrize("seconds", [0.05, 0.3, pytest.param(1.5, marks=pytest.mark.heavy)])
 def test_ctrl_c_leaves_no_traceback(seconds):
+    """While the processes start, and while they work."""
     command = [sys.executable, "-c", INTERRUPTED.format(seconds=seconds)]
     ended = subprocess.run(command, process_group=0, capture_output=True, text=True, timeout=600)
     assert (ended.returncode, ended.stderr) == (0, "")
 
 
-def test_an_interruption_waits_while_items_are_queued():
+def test_an_interruption_waits_until_all_items_are_queued(monkeypatch):
     queued = []
 
-    def queue():
-        with workers._interrupts_later():
+    class Interrupted(ThreadPoolExecutor):
+        def submit(self, *call):
             os.kill(os.getpid(), signal.SIGINT)
-            queued.append("all")
+            queued.append(call[-1])
+            return Future()
 
+    monkeypatch.setattr(workers, "ThreadPoolExecutor", Interrupted)
     with pytest.raises(KeyboardInterrupt):
-        queue()
-    assert queued == ["all"]
+        list(each(nap, [1, 2, 3], 2, lost=str))
+    assert queued == [1, 2, 3]
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
