@@ -3,8 +3,6 @@
 import io
 import re
 import shlex
-import subprocess
-import sys
 from contextlib import chdir, redirect_stdout
 from dataclasses import fields
 from functools import cache
@@ -94,11 +92,7 @@ def test_the_stored_force_of_the_pad_is_that_of_the_finite_elements():
 
 
 def test_the_python_of_the_readme_runs(tmp_path):
-    """In a process of its own, as a reader runs it."""
-    code = "".join(blocks(ROOT / "README.md", "python"))
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    (line, *_) = done.stdout.splitlines()
+    (line, *_) = printed_by("".join(blocks(ROOT / "README.md", "python")), tmp_path)
     value, u_num = map(float, line.split(" +- "))
     assert value == pytest.approx(1.78848171, abs=5e-9)
     assert 0.0 < u_num < 1e-9

@@ -39,7 +39,7 @@ def test_a_script_of_the_gallery_draws(path, monkeypatch, tmp_path):
     assert line == "=" * len(title)
     exec(compile(text, str(path), "exec"), {"__name__": "__main__"})
     (figure,) = figures
-    figure.canvas.draw()
+    figure.draw_without_rendering()
     for axes in figure.axes:
         assert axes.has_data()
         # Not the axis of a colour bar, which has no label here.

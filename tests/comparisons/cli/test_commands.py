@@ -90,7 +90,6 @@ def test_help_has_examples_that_are_admissible(capsys, command):
 
 
 def test_python_m_comparisons_calls_itself_so():
-    for arguments, status in (["dance"], 2), (["list", "-h"], 0):
-        done = subprocess.run([sys.executable, "-m", "comparisons", *arguments], capture_output=True, text=True)
-        assert done.returncode == status
-        assert "python -m comparisons" in done.stdout + done.stderr
+    done = subprocess.run([sys.executable, "-m", "comparisons", "dance"], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "python -m comparisons" in done.stderr

@@ -155,7 +155,7 @@ def test_gates_that_are_left_out_are_counted(small_grid, tmp_path, capsys):
 
 #: Bits that are flipped in each file, one at a time, chosen by this seed.  In files that neither command reads, all of
 #: them have a flip at once: each time costs a whole judgement and a report.
-FLIPS, SEED = 12, 20262
+FLIPS, SEED = 4, 20262
 
 
 def flipped(content, rng):

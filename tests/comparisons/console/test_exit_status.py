@@ -24,7 +24,6 @@ from comparisons.runs.csv_format import write_table
 from tests.comparisons.external.conftest import comes_true, has_ended
 
 ROOT = Path(__file__).resolve().parents[3]
-CASE = ["--n", "2", "--k", "0.4", "--mu", "1"]
 LIST = ["list", "quantities"]
 NO_ROOM = os.strerror(errno.ENOSPC)
 
@@ -82,7 +81,7 @@ def program(command, redirected, **environment):
 @needs_full_device
 @pytest.mark.parametrize(
     ("command", "unbuffered"),
-    [(LIST, ""), (["--help"], "1"), (["solve", "--model", "jkr", "--quantity", "pull_off_force", *CASE], "")],
+    [(LIST, ""), (["--help"], "1")],
 )
 def test_a_full_standard_output(command, unbuffered):
     status, _, message = program(command, "> /dev/full", PYTHONUNBUFFERED=unbuffered)

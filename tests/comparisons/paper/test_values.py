@@ -25,11 +25,14 @@ def table(committed):
     return table.fillna({"model": "", "unit": "", "scheme": "", "scheme_verdict": ""})
 
 
-# The errors of Fig. 16(b) take minutes; a statement is judged by the region, too.
+#: The errors of Fig. 16(b) take minutes; a statement is judged by the region, too.  `fscm` tests the critical number.
+LONG = {"insensitive_region", "critical_tabor_number"}
+
+
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, marks=[pytest.mark.heavy] * (name == "insensitive_region"))
+        pytest.param(name, marks=[pytest.mark.heavy] * (name in LONG))
         for name in sorted(COMPUTED.keys() - {"largest_relative_error"})
     ],
 )

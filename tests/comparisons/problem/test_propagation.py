@@ -97,7 +97,8 @@ def test_units_of_force_and_of_length_change_the_force_alone_and_contributions_a
     assert stated["standard_deviation"] == pytest.approx(math.hypot(*contributions), rel=1e-12)
 
 
-INTERVALS = PAD.replace("1 GPa +- 0.05 GPa", "[0.9, 1.1] GPa").replace("(100 +/- 5) nm", "[95, 105] nm")
+INTERVALS = EXACT.replace('"1 GPa"', '"[0.9, 1.1] GPa"').replace('R = "100 nm"', 'R = "[95, 105] nm"')
+INTERVALS = INTERVALS.replace("nu = 0.3", 'nu = "0.3 +- 0.02"')
 
 
 def test_intervals_give_a_range(tmp_path):

@@ -82,14 +82,12 @@ def test_an_ini_file_names_them_and_one_gate_can_be_chosen(small_grid, pytester)
     pytester.runpytest_inprocess("-p", PLUGIN, "test_mine.py").assert_outcomes(passed=1)
 
 
-def test_problem_files_take_the_place_of_the_standing_cases(pytester):
-    """In a process of its own, as of a user: closed forms need no other models."""
+def test_problem_files_take_the_place_of_the_standing_cases(small_grid, pytester):
     entries = {"reference": "bradley", "cases": '{ "punch.R" = ["1 um", "2 um"] }', "min_cases": 2}
     cases = grid_text(["jkr"], problem="pad.toml", vary={"punch.R": ["1 um", "2 um"]})
-    pytester.makefile(".toml", cases=cases, pad=PAD, gates=gate("PADS", "jkr", -0.26, -0.24, **entries))
+    pytester.makefile(".toml", cases=cases, pad=PAD)
     pytester.makeini("[pytest]\nfscm_bench_cases = cases.toml\n")
-    options = ["--fscm-bench-gates=gates.toml", "--fscm-bench-model=jkr", "-rA"]
-    result = pytester.runpytest_subprocess("-p", PLUGIN, *options)
+    result = run(pytester, gate("PADS", "jkr", -0.26, -0.24, **entries), "-rA", models=["jkr"])
     result.assert_outcomes(passed=2)
     result.stdout.fnmatch_lines(["*PADS?jkr pad.toml; punch.R=1 um?*"])
 
