@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from functools import cached_property
 from typing import Any
 
 import lmfit
@@ -105,7 +106,7 @@ class Search:
         """Return numbers with the pull-off force of the record and, if a modulus is free, a Tabor number."""
         numbers = dict.fromkeys((key.name for key in self.keys), 0.0)
         loads = self.observed.record.load
-        force = self._load_zero() - float(loads.min())
+        force = self._load_zero - float(loads.min())
         if _ADHESION in numbers:
             posed = Problem.dimensionless(n=self.problem.posed.n, k=self.problem.posed.k, mu=mu)
             # The unit of the load is proportional to the work of adhesion.
@@ -200,7 +201,7 @@ class Search:
 
     def _largest(self, values: dict[str, float]) -> float:
         """The largest load of the record from its zero."""
-        zero = values.get("load", self._load_zero() / self.load_range) * self.load_range
+        zero = values.get("load", self._load_zero / self.load_range) * self.load_range
         return float(self.observed.record.load.max()) - zero
 
     def zeros(self, values: dict[str, float]) -> tuple[Array, float]:
@@ -225,7 +226,7 @@ class Search:
             low, high = max(low, value - reach), min(high, value + reach)
             room = {} if math.isinf(low) and math.isinf(high) else {"min": low, "max": high}
             parameters.add(plain(key.name), value=value, **room)
-        parameters.add("load", value=start.get("load", self._load_zero() / self.load_range))
+        parameters.add("load", value=start.get("load", self._load_zero / self.load_range))
         if "displacement" in start:
             displacement = start["displacement"]
         else:
@@ -254,6 +255,7 @@ class Search:
             raise ComputationFailed("no values of the free keys describe the curve")
         return result
 
+    @cached_property
     def _load_zero(self) -> float:
         """The load of the tenth that is farthest from the solid; zero if it changes there as in contact."""
         load = self.observed.record.load[np.argsort(self._position)]

@@ -49,8 +49,6 @@ class Certified:
         Half-width of the interval of displacements.
     force, displacement : str
         Ball "[midpoint +/- radius]".
-    quick : bool
-        Whether the proof takes seconds and not a minute.
     """
 
     form: SphereForm
@@ -58,7 +56,6 @@ class Certified:
     eta: float
     force: str
     displacement: str
-    quick: bool = False
 
 
 CERTIFIED = {
@@ -68,7 +65,6 @@ CERTIFIED = {
         1e-3,
         "[1.96895637932829 +/- 1e-11]",
         "[-0.058632631557597 +/- 1.2e-12]",
-        quick=True,
     ),
     "mu = 1/2": Certified(
         SphereForm(fmpq(1, 2), 6, 400),

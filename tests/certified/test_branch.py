@@ -11,19 +11,19 @@ from tests.certified.panel_bounds import NotProved
 from tests.certified.pull_off_enclosure import CERTIFIED
 from tests.certified.sphere_form import SphereForm
 
-FORM, COUNT = SphereForm(fmpq(1, 10), 5, 80), 48
+FORM, COUNT = SphereForm(fmpq(1, 10), 5, 60), 40
 LONG_FORM, LONG_COUNT = SphereForm(fmpq(1, 10), 5, 120), 64
 PULL_OFF = -0.0586
 
 
 @pytest.fixture(scope="module")
 def pieces() -> list[Piece]:
-    return branch(FORM, COUNT, -0.1, -0.045)
+    return branch(FORM, COUNT, -0.08, -0.045)
 
 
 def test_a_short_branch_has_one_minimum(pieces):
     assert one_minimum(pieces)
-    assert pieces[0].lower <= arb(-0.1)
+    assert pieces[0].lower <= arb(-0.08)
     assert pieces[-1].upper >= arb(-0.045)
     assert any(p.lower < PULL_OFF < p.upper for p in pieces if p.shape is Shape.CONVEX)
     # It needs the order.

@@ -33,7 +33,6 @@ from fem_reference._large_strain.surface import Surface, local_slopes
 from fem_reference._large_strain.whole_path import path_states
 from fem_reference.large_strain import _discretisation
 from tests.fem_reference.triangles_of_finite_strain import Square
-from tests.marks import heavy
 
 #: Of derivatives by central differences.
 DIFFERENCE_TOLERANCE = 1e-7
@@ -243,15 +242,6 @@ def test_the_work_of_the_load_is_the_energy(nu, friction):
     assert np.abs([state.load_slope for state in path[2:-2]] - slopes).max() < 2e-4 * scale
 
 
-def test_the_state_is_independent_of_where_the_iteration_began():
-    states = family(sphere(5e-3, 2.0, 0.3))
-    there = states.state(0.0).load
-    other = family(sphere(5e-3, 2.0, 0.3))
-    for x in (0.05, 0.08, 0.03):
-        other.state(x)
-    assert other.state(0.0).load == pytest.approx(there, rel=1e-11)
-
-
 def test_a_sphere_pulls_off_as_the_first_trial_did():
     solution = solve_large_strain(sphere(5e-3, 2.0, 0.3), "pull_off_force")
     assert solution.value / math.pi == pytest.approx(1.525, abs=1e-3)
@@ -358,10 +348,11 @@ def test_what_has_no_answer_is_refused():
     with pytest.raises(ValueError, match="vanishes at the surface"):
         solve_large_strain(soft_surface, "pull_off_force")
     with pytest.raises(NotConverged, match=r"unstable from 0\.548"):
-        solve_large_strain(sphere(0.02, 3.0, 0.3), "pull_off_force")
+        family(sphere(0.02, 3.0, 0.3)).state(0.0)
 
 
-@pytest.mark.parametrize(("number", "mu"), [(5e-3, 2.0), *heavy((1e-3, 3.0), (0.02, 0.5))])
+@pytest.mark.heavy
+@pytest.mark.parametrize(("number", "mu"), [(5e-3, 2.0), (1e-3, 3.0), (0.02, 0.5)])
 def test_both_forms_agree_within_their_bounds(number, mu):
     forms = ("displacement", "mixed")
     first, second = (solve_large_strain(sphere(number, mu, 0.3), "pull_off_force", form=form) for form in forms)
@@ -405,9 +396,13 @@ def test_the_mesh_before_contact_is_that_of_the_spot_on_which_it_begins():
     assert 0.02 < family(sphere(5e-3, 2.0, 0.3), "jump_in").event.radius < 0.038
 
 
-def test_the_bounds_of_a_state_contain_that_of_a_higher_degree():
-    problem = sphere(1e-3, 0.5, 0.3)
-    coarse, fine = (family(problem, order=order) for order in (4, 6))
+@pytest.mark.parametrize("form", ["displacement", "mixed"])
+def test_the_bounds_of_a_state_contain_that_of_a_higher_degree(form):
+    """Of the displacements alone, to which the other form is as near, and from wherever the iteration began."""
+    problem = sphere(5e-3, 0.5, 0.3)
+    coarse, fine = family(problem, form=form), family(problem, order=6)
+    for x in (0.05, 0.03):
+        fine.state(x)
     state, exact = coarse.state(0.0), fine.state(0.0)
     bounds = state_bounds(state, coarse.discretisation, coarse.event)
     for bound, name in zip(bounds, ("displacement", "load"), strict=True):
