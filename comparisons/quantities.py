@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from importlib.resources import files
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from comparisons.data.toml_text import shipped
 from comparisons.model import HasCurve, HasProfile, Model, NotApplicable, Result
 
 if TYPE_CHECKING:
     from comparisons.problem.problem import Problem
 
-_TABLES = tomllib.loads(files("comparisons.data").joinpath("quantities.toml").read_text(encoding="utf-8"))
+_TABLES = shipped("quantities.toml")
 
 
 class Kind(StrEnum):

@@ -26,14 +26,8 @@ def renew(folder: Path, target: Path = BENCH_BASELINE) -> list[Path]:
     ValueError
         If the run lacks a part, or a measurement failed; nothing is changed then.
     """
-    record = folder / BENCH
-    content = json.loads(record.read_text(encoding="utf-8"))
-    sources = [record, folder / BENCH_SUMMARY, *(path for part in parts_of(None) for path in part.files(folder))]
-    if missing := [path.name for path in sources if not path.is_file()]:
-        raise ValueError(
-            f"{folder} lacks {', '.join(missing)}: renew the baseline from the folder of a `fscm-bench bench` without "
-            "--only"
-        )
-    if content["failures"]:
-        raise ValueError(f"{folder} has {content['failures']} failed measurements: repeat `fscm-bench bench`")
-    return replace_files(sources, target)
+    failures = json.loads((folder / BENCH).read_text(encoding="utf-8"))["failures"]
+    if failures:
+        raise ValueError(f"{folder} has {failures} failed measurements: repeat `fscm-bench bench`")
+    sources = {name: [folder / name] for name in (BENCH, BENCH_SUMMARY)}
+    return replace_files(sources | {part.name: part.files(folder) for part in parts_of(None)}, folder, target)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import tomllib
 from functools import lru_cache
-from importlib.resources import files
 from typing import Any, NamedTuple
+
+from comparisons.data.toml_text import shipped
 
 #: Files of the descriptions; the columns that the first one states for every table hold in the tables of all files.
 FILES = ("columns.toml", "columns_of_figures.toml", "columns_of_solvers.toml")
@@ -45,8 +45,7 @@ def column(table: str, name: str) -> Column | None:
 
 @lru_cache(maxsize=1)
 def _contents() -> list[dict[str, Any]]:
-    folder = files("comparisons.data")
-    return [tomllib.loads(folder.joinpath(name).read_text(encoding="utf-8")) for name in FILES]
+    return list(map(shipped, FILES))
 
 
 @lru_cache(maxsize=1)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from importlib.resources import files
 from typing import Any
+
+from comparisons.data.toml_text import shipped
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,5 +63,4 @@ def paper_statements() -> list[PaperStatement]:
     >>> len(paper_statements()) >= 25
     True
     """
-    text = files("comparisons.data").joinpath("paper_statements.toml").read_text(encoding="utf-8")
-    return [PaperStatement(**table) for table in tomllib.loads(text)["statement"]]
+    return [PaperStatement(**table) for table in shipped("paper_statements.toml")["statement"]]

@@ -6,10 +6,10 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from dataclasses import dataclass
 from decimal import Decimal
-from importlib.resources import files
+
+from comparisons.data.toml_text import shipped
 
 #: Verdict on a number that has the printed digits only if its further digits are dropped.
 TRUNCATED = "agrees if truncated"
@@ -40,6 +40,8 @@ class PaperValue:
         Which of several of one name.
     exact : float or None
         Value of a formula.
+    term : str
+        The measure that computes it (`comparisons.paper.statements.measures`), if one does.
     """
 
     name: str
@@ -52,6 +54,7 @@ class PaperValue:
     k: float = math.nan
     index: int = 0
     exact: float | None = None
+    term: str = ""
 
     @property
     def value(self) -> float:
@@ -106,6 +109,5 @@ def paper_values(name: str | None = None) -> list[PaperValue]:
     >>> [number.text for number in paper_values("eta")]
     ['0.347', '0.499', '0.588', '0.803', '1.026']
     """
-    text = files("comparisons.data").joinpath("paper_values.toml").read_text(encoding="utf-8")
-    numbers = [PaperValue(**table) for table in tomllib.loads(text)["number"]]
+    numbers = [PaperValue(**table) for table in shipped("paper_values.toml")["number"]]
     return [number for number in numbers if name in (None, number.name)]

@@ -5,11 +5,23 @@ from __future__ import annotations
 import sys
 import tomllib
 from collections.abc import Iterator
+from importlib.resources import files
 from typing import Any
 
 #: Most characters of a key or of a text; the longest of our files has 330.  The search for the known name nearest to an
 #: unknown one, and the reading of a unit, take minutes for a megabyte.
 LONGEST_WORD = 10_000
+
+
+def shipped(name: str) -> dict[str, Any]:
+    """Return the tables of a file in this folder.
+
+    Examples
+    --------
+    >>> shipped("kinds.toml")["punch"]["sphere"]["keys"]
+    {'R': 'length'}
+    """
+    return tomllib.loads(files("comparisons.data").joinpath(name).read_text(encoding="utf-8"))
 
 
 def parse(text: str, source: str) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -33,20 +33,28 @@ def renew(folder: Path, target: Path = PAPER_BASELINE) -> list[Path]:
     ValueError
         If the folder lacks a figure; nothing is changed then.
     """
-    sources = {figure.name: figure.files_in(folder) for figure in paper_figures()}
-    if missing := [name for name, files in sources.items() if not files]:
-        raise ValueError(
-            f"{folder} lacks {', '.join(missing)}: renew the baseline from the folder of a whole `fscm-bench paper`"
-        )
-    return replace_files([path for files in sources.values() for path in files], target)
+    return replace_files({figure.name: figure.files_in(folder) for figure in paper_figures()}, folder, target)
 
 
-def replace_files(sources: Iterable[Path], target: Path) -> list[Path]:
-    """Replace the files of a folder by copies of others; return their paths."""
+def replace_files(sources: Mapping[str, Sequence[Path]], folder: Path, target: Path) -> list[Path]:
+    """Replace the files of the folder `target` by copies of those in a finished folder; return their paths.
+
+    Parameters
+    ----------
+    sources : mapping of str to sequence of Path
+        Files of `folder` by the name of what they belong to.
+
+    Raises
+    ------
+    ValueError
+        If `folder` lacks one; nothing is changed then.
+    """
+    if missing := [name for name, files in sources.items() if not files or not all(path.is_file() for path in files)]:
+        raise ValueError(f"{folder} lacks {', '.join(missing)}: renew the baseline from the folder of a whole command")
     target.mkdir(parents=True, exist_ok=True)
     for stale in target.iterdir():
         stale.unlink()
-    copies = {target / path.name: path for path in sources}
+    copies = {target / path.name: path for files in sources.values() for path in files}
     for copy, source in copies.items():
         with atomic(copy) as file:
             file.write(source.read_bytes())

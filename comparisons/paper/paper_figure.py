@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Generator, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -15,6 +15,7 @@ from rich.console import RenderableType
 from comparisons.output.latex import latex
 from comparisons.output.markup import markdown
 from comparisons.output.style import save, styled
+from comparisons.output.terminal import records
 from comparisons.paper.cache import CachedCall, Outcome
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text
@@ -117,6 +118,15 @@ def table_of(rows: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
+class Reading(NamedTuple):
+    """The main table of a figure as texts: all columns, those for a terminal and for paper, and what stands below."""
+
+    whole: pd.DataFrame
+    on_screen: pd.DataFrame
+    on_paper: pd.DataFrame
+    notes: str
+
+
 @dataclass(frozen=True, slots=True)
 class PaperFigure:
     """One figure or table.
@@ -136,10 +146,8 @@ class PaperFigure:
         table only.
     size : tuple of float
         Width and height of the page in inches.
-    texts : callable or None
-        Makes texts of the tables, by the suffix of the file each goes to (".md").
-    shown : callable or None
-        Makes the table that the command prints.
+    reading : callable or None
+        Makes texts of the main table; None for a figure whose tables are numbers only.
     follows_path : bool
         Whether the rows of its tables lie along equilibrium paths.  The solver places these points, so that rounding
         may change where they lie and how many there are.
@@ -151,8 +159,7 @@ class PaperFigure:
     plan: Callable[[], Plan[Tables]]
     picture: Callable[..., None] | None = None
     size: tuple[float, float] = (7.2, 3.4)
-    texts: Callable[[Tables], dict[str, str]] | None = None
-    shown: Callable[[Tables], RenderableType] | None = None
+    reading: Callable[[pd.DataFrame], Reading] | None = None
     follows_path: bool = False
 
     def draw(self, tables: Tables) -> Figure | None:
@@ -163,6 +170,18 @@ class PaperFigure:
             figure = Figure(figsize=self.size, layout="constrained")
             self.picture(figure, **{name or "table": table for name, table in tables.items()})
         return figure
+
+    def texts(self, tables: Tables) -> dict[str, str]:
+        """Return the main table for reading as a page, and in LaTeX, by the suffix of the file each goes to."""
+        if not self.reading:
+            return {}
+        whole, _, on_paper, notes = self.reading(tables[""])
+        tex = latex(on_paper, f"{self.title}. {notes}", self.stem.replace("_", "-"))
+        return {".md": f"{markdown(whole, self.title)}\n{notes}\n", ".tex": tex}
+
+    def printed(self, tables: Tables) -> RenderableType | None:
+        """Return the table that the command prints, None for a figure whose tables are numbers only."""
+        return records(self.reading(tables[""]).on_screen, self.title) if self.reading else None
 
     def table_file(self, name: str) -> str:
         """Return the name of the CSV file of a table."""
@@ -182,8 +201,7 @@ class PaperFigure:
         """
         picture = self.draw(tables)
         texts = {self.table_file(name): csv_text(table) for name, table in tables.items()}
-        if self.texts:
-            texts |= {f"{self.stem}{suffix}": text for suffix, text in self.texts(tables).items()}
+        texts |= {f"{self.stem}{suffix}": text for suffix, text in self.texts(tables).items()}
         for name, text in texts.items():
             with atomic(folder / name) as file:
                 file.write(text.encode())
@@ -213,15 +231,7 @@ def paper_figure(
     def declare(plan: Callable[[], Plan[Tables]]) -> Callable[[], Plan[Tables]]:
         stem, title = plan.__name__, (plan.__doc__ or "").strip().removesuffix(".")
         number = stem[3:5].lstrip("0") if stem.startswith("fig") else stem.replace("_", "-")
-        figure = PaperFigure(name or number, stem, title, plan, picture, **options)
-        if figure.name in FIGURES:
-            raise ValueError(f"two figures have the name {figure.name!r}: {FIGURES[figure.name].stem} and {stem}")
-        FIGURES[figure.name] = figure
+        FIGURES[name or number] = PaperFigure(name or number, stem, title, plan, picture, **options)
         return plan
 
     return declare
-
-
-def texts_of(whole: pd.DataFrame, short: pd.DataFrame, title: str, notes: str, label: str) -> dict[str, str]:
-    """Return a table for reading as a page, and one in LaTeX for which a page of paper has room."""
-    return {".md": f"{markdown(whole, title)}\n{notes}\n", ".tex": latex(short, f"{title}. {notes}", label)}

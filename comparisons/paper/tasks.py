@@ -26,7 +26,7 @@ from comparisons.paper.cache import CachedCall
 from comparisons.paper.paper_figure import Plan, rows_of
 from comparisons.problem import Problem
 from comparisons.registry import create
-from comparisons.runs.tasks import evaluate
+from comparisons.runs.tasks import Task, evaluate_task
 from fscm import Analysis, solve
 from fscm import Problem as FscmProblem
 from fscm.laws import LennardJones
@@ -52,25 +52,22 @@ _FARTHEST, _STEPS = 6.0, 240
 _AROUND_EDGE = np.concatenate([-np.geomspace(0.3, 1e-3, 40), [0.0], np.geomspace(1e-3, 0.3, 40)])
 
 
-def _with_status(**missing: None) -> Callable[[Callable[..., Json]], Callable[..., Json]]:
-    """Add ``status`` and ``reason`` to what a function returns; without a result they stand beside these values."""
+def _with_status(function: Callable[..., Json]) -> Callable[..., Json]:
+    """Add ``status`` and ``reason`` to what a function returns; without a result they stand alone."""
 
-    def of(function: Callable[..., Json]) -> Callable[..., Json]:
-        @wraps(function)
-        def result(*arguments: Any) -> Json:
-            try:
-                return {**missing, "status": "ok", "reason": ""} | function(*arguments)
-            except NotApplicable as refusal:
-                return {**missing, "status": "not-applicable", "reason": str(refusal)}
-            except (ComputationFailed, ValueError) as failure:
-                return {**missing, "status": "failed", "reason": str(failure)}
+    @wraps(function)
+    def result(*arguments: Any) -> Json:
+        try:
+            return {"status": "ok", "reason": ""} | function(*arguments)
+        except NotApplicable as refusal:
+            return {"status": "not-applicable", "reason": str(refusal)}
+        except (ComputationFailed, ValueError) as failure:
+            return {"status": "failed", "reason": str(failure)}
 
-        return result
-
-    return of
+    return result
 
 
-@_with_status(value=None, u_num=None)
+@_with_status
 def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
     """Evaluate a quantity by a model.
 
@@ -94,7 +91,7 @@ def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
     >>> quantity("bradley", "jump_in_gap", 2, 0.4, 1)["status"]
     'not-applicable'
     """
-    row = evaluate(create(model), name, Problem.dimensionless(n, k, mu))
+    row = evaluate_task(Task(model, name, Problem.dimensionless(n, k, mu)))
     return {name: getattr(row, name) for name in ("value", "u_num", "status", "reason")}
 
 
@@ -106,7 +103,7 @@ def values_of(name: str, cases: Iterable[tuple[str, float, float, float]]) -> Pl
     )
 
 
-@_with_status()
+@_with_status
 def curve(model: str, n: float, k: float, mu: float) -> Json:
     """Trace the force-displacement curve of a model, from far away into contact.
 
@@ -136,7 +133,7 @@ def curve(model: str, n: float, k: float, mu: float) -> Json:
     }
 
 
-@_with_status()
+@_with_status
 def profile(model: str, n: float, k: float, mu: float) -> Json:
     """Return the surface of a model where P is smallest, out to the gap `FARTHEST_GAP`.
 

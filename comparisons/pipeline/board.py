@@ -100,7 +100,7 @@ def _entry(folder: Path, root: Path, site: Path, earlier: list[BoardEntry], jobs
     submission = None
     try:
         submission = read_submission(folder)
-        if any(entry.is_of(submission) for entry in earlier):
+        if submission.folder in [entry.submission.folder for entry in earlier if entry.submission]:
             raise ValueError(f"{submission.name} {submission.version} is there twice: each needs its own version")
         _judge(submission, site, earlier, jobs)
         judged = entry_of(site / submission.folder)

@@ -8,13 +8,12 @@ are not the arguments of a class in both solvers.
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from importlib.resources import files
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from comparisons.data.toml_text import shipped
 from comparisons.problem.punch_shapes import RoundedFlat, SmoothedProfile
 
 if TYPE_CHECKING:
@@ -164,7 +163,7 @@ _BUILDERS: dict[str, Callable[[ModuleType, Section], Any]] = {
     "law.table": _tabulated_law,
 }
 
-_TABLES = tomllib.loads(files("comparisons.data").joinpath("kinds.toml").read_text(encoding="utf-8"))
+_TABLES = shipped("kinds.toml")
 
 
 def _forms(names: Mapping[str, str]) -> dict[str, Form]:

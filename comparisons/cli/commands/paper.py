@@ -36,7 +36,7 @@ def call(args: argparse.Namespace) -> int:
             log(f"{figure.stem}: {written.failure}")
             continue
         console.print(f"{figure.stem}: {figure.title} ({len(written.files)} files)")
-        if figure.shown:
-            console.print(figure.shown(written.tables))
+        if printed := figure.printed(written.tables):
+            console.print(printed)
     console.print(f"written to {args.out}")
     return FAILED if any(written.failure for written in finished) else OK

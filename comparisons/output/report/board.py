@@ -78,11 +78,6 @@ class BoardEntry:
     judged: Entry | None
     reason: str = ""
 
-    def is_of(self, submission: Submission) -> bool:
-        """Whether it is the same version of the same model."""
-        stated = self.submission
-        return stated is not None and (stated.name, stated.version) == (submission.name, submission.version)
-
 
 def standings(entries: Sequence[BoardEntry]) -> pd.DataFrame:
     """Return the errors and verdicts of every version that was judged; `newest` marks the newest one of a model.

@@ -120,11 +120,6 @@ def by_clause(comparisons: Iterable[Evidence]) -> list[Evidence]:
     It is the largest failure, else what is least certain to hold.  A limit that reads a word is kept beside the others:
     the verdict may change with it.
 
-    Raises
-    ------
-    ValueError
-        If there is no comparison.
-
     Examples
     --------
     >>> limit = Number(2.0, 0.0, READING)
@@ -133,8 +128,6 @@ def by_clause(comparisons: Iterable[Evidence]) -> list[Evidence]:
     [('a', 3, 2), ('b', 2, 1)]
     """
     groups = grouped(comparisons, lambda row: (row.clause, row.model, row.is_read))
-    if not groups:
-        raise ValueError("a statement has no comparison: its cases are empty")
     decisive = []
     for rows in groups.values():
         least_certain = min(rows, key=lambda row: (_RANK[row.outcome], row.margin))
@@ -186,17 +179,8 @@ def verdict(evidence: Iterable[Evidence]) -> str:
 
 
 def read_number(evidence: Iterable[Evidence]) -> float | None:
-    """Return the number that reads a word of the statement, or None if every comparison is of two computed numbers.
-
-    Raises
-    ------
-    ValueError
-        If there are several: a factor would not say which of them must change.
-    """
-    numbers = {row.limit.value for row in evidence if row.is_read}
-    if len(numbers) > 1:
-        raise ValueError(f"a statement is judged by {sorted(numbers)}; it must be judged by one number")
-    return numbers.pop() if numbers else None
+    """Return the number that reads a word of the statement, or None if every comparison is of two computed numbers."""
+    return next((row.limit.value for row in evidence if row.is_read), None)
 
 
 def verdict_at(evidence: Iterable[Evidence], number: float) -> str:

@@ -9,9 +9,9 @@ import pandas as pd
 
 from comparisons.data.paper_statements import PaperStatement
 from comparisons.data.paper_statements import paper_statements as stated
+from comparisons.data.toml_text import shipped
 from comparisons.numerics.number_text import value_text
-from comparisons.output.terminal import records
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure, texts_of, together
+from comparisons.paper.paper_figure import Plan, Reading, Tables, paper_figure, together
 from comparisons.paper.statements.evidence import (
     FAILS,
     HOLDS,
@@ -25,21 +25,7 @@ from comparisons.paper.statements.evidence import (
 )
 from comparisons.paper.statements.kinds import comparisons_of
 
-_TITLE = "Statements of the paper, judged"
-_NOTES = (
-    "Statements in words of our own. True: every comparison holds by more than the sum of the bounds; false: none of "
-    "the clauses holds; true in part: some do. A clause is a case wherever a statement is about cases; own cases: "
-    "those that the paper shows or names. A clause that fails by fscm must fail by fem, too. In brackets: a bound on "
-    "the error in units of the last digit, at least 5e-10. A word without a number (well, small) is read as the "
-    "number in the column of the test; flips: the factor by which this number must change for another verdict."
-)
-#: Heads of columns for reading, and the columns for which a terminal and a page have room.
-_HEADS = {
-    "holds_in": "holds in",
-    "own_cases": "own cases",
-    "fails_for": "fails for",
-    "beyond_paper": "beyond the paper",
-}
+#: Columns for which a terminal and a page have room.
 _SHORT = ["section", "statement", "verdict", "holds in", "fails for", "beyond the paper", "flips"]
 _ON_PAPER = [name for name in _SHORT if name != "beyond the paper"]
 #: A parameter in the name of a clause.
@@ -161,25 +147,17 @@ def _evidence_frame(statement: str, evidence: Iterable[Evidence]) -> pd.DataFram
     )
 
 
-def readable(table: pd.DataFrame) -> pd.DataFrame:
+def readable(table: pd.DataFrame) -> Reading:
     """Return the table for reading: empty columns of a row as nothing."""
-    return table.fillna("").drop(columns=["id"]).rename(columns=_HEADS)
-
-
-def _texts(tables: Tables) -> dict[str, str]:
-    texts = readable(tables[""])
-    return texts_of(texts, texts[_ON_PAPER], _TITLE, _NOTES, "paper-statements")
+    texts = table.fillna("").drop(columns="id").rename(columns={"beyond_paper": "beyond the paper"})
+    texts = texts.rename(columns=lambda name: name.replace("_", " "))
+    return Reading(texts, texts[_SHORT], texts[_ON_PAPER], shipped("paper_statements.toml")["notes"])
 
 
 # The turning points are counted at the points that the solver places.
-@paper_figure(
-    name="statements",
-    texts=_texts,
-    shown=lambda tables: records(readable(tables[""])[_SHORT], _TITLE),
-    follows_path=True,
-)
+@paper_figure(name="statements", reading=readable, follows_path=True)
 def paper_statements() -> Plan[Tables]:
-    """Statements of the paper in words of our own, a verdict on each, and its evidence."""
+    """Statements of the paper, judged."""
     statements = stated()
     comparisons = yield from together({statement.id: comparisons_of(statement) for statement in statements})
     evidence = {statement.id: decisive(statement, comparisons[statement.id]) for statement in statements}

@@ -11,15 +11,15 @@ import pandas as pd
 
 from comparisons.data.paper_values import PaperValue
 from comparisons.data.paper_values import paper_values as printed_values
+from comparisons.data.toml_text import shipped
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import CohesiveEvents
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.semi_rigid import SemiRigid
 from comparisons.numerics.number_text import LEAST_SHOWN, value_text
-from comparisons.output.terminal import records
 from comparisons.paper.figures.gradient_effect import LAST_K, insensitive_regions, largest_chi
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure, result_of, texts_of, together
+from comparisons.paper.paper_figure import Plan, Reading, Tables, paper_figure, result_of, together
 from comparisons.paper.statements.measures import ROUNDING, measured, named
 from comparisons.paper.tasks import SHAPES, TRACTION
 from comparisons.paper.values.scheme_forces import HEIGHT, exact_force
@@ -50,17 +50,13 @@ class Computed(NamedTuple):
     u_scheme: float = math.nan
 
 
-def _measured(text: str) -> Callable[[PaperValue], Plan[Computed]]:
-    """Plan a term at a case without Tabor number; of all shapes, if the limit is the same, what is farthest off."""
-
-    def plan(printed: PaperValue) -> Plan[Computed]:
-        k = 0.0 if math.isnan(printed.k) else printed.k
-        shapes = SHAPES if math.isnan(printed.n) else (printed.n,)
-        numbers = yield from together({n: measured(text, "fscm", named(n, k, 1.0)) for n in shapes})
-        farthest = max(numbers.values(), key=lambda number: abs(number.value - printed.value))
-        return Computed(farthest.value, farthest.u)
-
-    return plan
+def _measured(printed: PaperValue) -> Plan[Computed]:
+    """Plan its term at a case without Tabor number; of all shapes, if the limit is the same, what is farthest off."""
+    k = 0.0 if math.isnan(printed.k) else printed.k
+    shapes = SHAPES if math.isnan(printed.n) else (printed.n,)
+    numbers = yield from together({n: measured(printed.term, "fscm", named(n, k, 1.0)) for n in shapes})
+    farthest = max(numbers.values(), key=lambda number: abs(number.value - printed.value))
+    return Computed(farthest.value, farthest.u)
 
 
 def _strength(paper_value: PaperValue) -> Plan[Computed]:
@@ -148,20 +144,19 @@ def _insensitive_region(paper_value: PaperValue) -> Plan[Computed]:
     return Computed(ends[1.0][index], _REGION_ROUNDING, math.nan, _GRID, step, 0.0)
 
 
-#: How each number is computed, by its name.
-COMPUTED: dict[str, Callable[[PaperValue], Plan[Computed]]] = {
+#: How numbers that are no measures are computed, by their names.
+_COMPUTED: dict[str, Callable[[PaperValue], Plan[Computed]]] = {
     "theoretical_strength": _strength,
-    "bradley_pull_off": _measured("pull_off_force bradley"),
-    "critical_tabor_number": _measured("critical_tabor_number"),
-    "eta": _measured("eta_of"),
-    "jump_in_limit": _measured("coefficient_in"),
-    "jump_out_limit": _measured("coefficient_out"),
-    "jump_in_prefactor": _measured("coefficient_in"),
     "jump_in_exponent": _exponent,
     "largest_relative_error": _largest_relative_error,
     "largest_chi": _largest_chi,
     "insensitive_region": _insensitive_region,
 }
+
+
+def computed_again(printed: PaperValue) -> Plan[Computed]:
+    """Plan a number that the paper prints."""
+    return _measured(printed) if printed.term else _COMPUTED[printed.name](printed)
 
 
 def judged(paper_value: PaperValue, computed: Computed) -> dict[str, str | float]:
@@ -179,7 +174,7 @@ def judged(paper_value: PaperValue, computed: Computed) -> dict[str, str | float
     }
 
 
-def readable(table: pd.DataFrame) -> pd.DataFrame:
+def readable(table: pd.DataFrame) -> Reading:
     """Return the table as texts, the computed number with the digits that its uncertainty leaves."""
     rows = []
     for row in table.to_dict("records"):
@@ -195,28 +190,13 @@ def readable(table: pd.DataFrame) -> pd.DataFrame:
         rows.append(
             texts | {"scheme": row["scheme"], "by scheme": by_scheme, "verdict by scheme": row["scheme_verdict"]}
         )
-    return pd.DataFrame(rows)
+    texts = pd.DataFrame(rows)
+    return Reading(texts, texts, texts, shipped("paper_values.toml")["notes"])
 
 
-_TITLE = "Numbers printed in the paper, computed again"
-_NOTES = (
-    "In brackets: a bound on the error in units of the last digit, at least 5e-10. Difference: of the sizes. The "
-    "verdict is on the converged number, as in a run. Agrees if truncated: the digits agree if further ones are "
-    "dropped. "
-    "Scheme: one for all numbers of a figure, with the number and the verdict that it gives. Of Fig. 16(b) it is the "
-    "paper's own: f(r_max) is the height of the punch, in z0, where its integration ends, and sigma_0 the cohesive "
-    "stress. Of Fig. 11 it is a grid that the paper does not state."
-)
-
-
-def _texts(tables: Tables) -> dict[str, str]:
-    table = readable(tables[""])
-    return texts_of(table, table, _TITLE, _NOTES, "paper-values")
-
-
-@paper_figure(name="numbers", texts=_texts, shown=lambda tables: records(readable(tables[""]), _TITLE))
+@paper_figure(name="numbers", reading=readable)
 def paper_values() -> Plan[Tables]:
-    """Numbers that the paper prints, a verdict on each, and what one scheme for each figure gives."""
+    """Numbers printed in the paper, computed again."""
     printed = printed_values()
-    computed = yield from together({index: COMPUTED[value.name](value) for index, value in enumerate(printed)})
+    computed = yield from together(dict(enumerate(map(computed_again, printed))))
     return {"": pd.DataFrame([judged(value, computed[index]) for index, value in enumerate(printed)])}

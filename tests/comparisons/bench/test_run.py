@@ -78,6 +78,6 @@ def test_only_a_whole_run_renews_the_baseline(tiny, tmp_path, monkeypatch):
     assert (BENCH_BASELINE / "tiny.csv").read_bytes() == Path("run", "tiny.csv").read_bytes()
     assert baseline.main(["--check", "run"]) == 2
     Path("run", "tiny.png").unlink()
-    with pytest.raises(ValueError, match=r"lacks tiny\.png"):
+    with pytest.raises(ValueError, match="lacks tiny:"):
         renew(Path("run"))
     assert len(list(BENCH_BASELINE.iterdir())) == 4
