@@ -6,9 +6,9 @@ for any quantity.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from itertools import product
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -36,8 +36,8 @@ COLUMNS = {
 
 #: Columns of `error_summary`.
 _GROUP = ["quantity", "model", "reference"]
-_COUNTS = ("asked", "answered", "not_applicable", "failed", "cases")
-_SUMMARY = (*_GROUP, *_COUNTS, "largest", "u_largest", "size", *CASE, "rms", "u")
+_STATUSES = {"answered": "ok", "not_applicable": "not-applicable", "failed": "failed"}
+_SUMMARY = (*_GROUP, "asked", *_STATUSES, "cases", "largest", "u_largest", "size", *CASE, "rms", "u")
 
 
 def _with_kappa(table: pd.DataFrame) -> pd.DataFrame:
@@ -224,18 +224,13 @@ def error_summary(table: pd.DataFrame) -> pd.DataFrame:
     >>> summary[["asked", "answered", "failed", "largest", "mu", "rms"]].round(6).values.tolist()
     [[3.0, 2.0, 1.0, 0.04, 2.0, 0.035355]]
     """
-    groups = with_problem(table).groupby(_GROUP, sort=False)
-    rows = [dict(zip(_GROUP, key, strict=True)) | _summed(rows) for key, rows in groups]
-    return without_empty_problem(pd.DataFrame(rows, columns=list(_SUMMARY)))
-
-
-def _summed(rows: pd.DataFrame) -> dict[str, Any]:
-    statuses, errors = rows["status"].value_counts(), rows[rows["kappa"].notna()]
-    numbers = (len(rows), *(int(statuses.get(name, 0)) for name in ("ok", "not-applicable", "failed")), len(errors))
-    summed: dict[str, Any] = dict(zip(_COUNTS, numbers, strict=True))
-    if errors.empty:
-        return summed | {"problem": ""}
-    worst = errors.iloc[int(errors["kappa"].abs().to_numpy().argmax())]
-    sizes = {"largest": worst["kappa"], "u_largest": worst["u_kappa"], "size": abs(worst["kappa"])}
-    sizes |= {"rms": float(np.sqrt(np.mean(errors["kappa"].to_numpy(float) ** 2))), "u": errors["u_kappa"].max()}
-    return summed | sizes | {name: worst[name] for name in CASE}
+    table = with_problem(table)
+    ended = {f"is {status}": table["status"] == status for status in _STATUSES.values()}
+    groups = table.assign(**ended).groupby(_GROUP, sort=False)
+    counts = {name: groups[f"is {status}"].sum() for name, status in _STATUSES.items()}
+    sizes = {"rms": groups["kappa"].agg(lambda kappa: math.sqrt((kappa**2).mean())), "u": groups["u_kappa"].max()}
+    summary = pd.DataFrame({"asked": groups.size(), **counts, "cases": groups["kappa"].count(), **sizes})
+    worst = worst_rows(table[table["kappa"].notna()], _GROUP).set_index(_GROUP)[["kappa", "u_kappa", *CASE]]
+    summary = summary.join(worst.rename(columns={"kappa": "largest", "u_kappa": "u_largest"})).reset_index()
+    summary = summary.assign(size=summary["largest"].abs(), problem=summary["problem"].fillna(""))
+    return without_empty_problem(summary[list(_SUMMARY)])

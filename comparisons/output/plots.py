@@ -39,13 +39,13 @@ class Plot:
 
     Attributes
     ----------
-    id, title, x_label, y_label, caption : str
+    id, x_label, y_label : str
     choices : sequence of Column
         Columns by whose texts the points are grouped.
     points : DataFrame
         One row for each point: group, options (the texts), model, label, x, y, ends of the band, and the text at it.
-    table : str
-        The id of the table with the numbers.
+    title, table, caption : str
+        Its title, the id of the table with the numbers, and its caption; empty where no page shows it.
     x_scale : str
         "linear" or "log".
     mark : str
@@ -59,13 +59,13 @@ class Plot:
     """
 
     id: str
-    title: str
     x_label: str
     y_label: str
     choices: Sequence[Column]
     points: pd.DataFrame
-    table: str
-    caption: str
+    title: str = ""
+    table: str = ""
+    caption: str = ""
     x_scale: str = "linear"
     mark: str = "both"
     views: dict[str, list[float]] = field(default_factory=dict)
@@ -181,13 +181,10 @@ def agreement(table: pd.DataFrame) -> Plot:
     choices = columns("quantity")
     return Plot(
         id="plot-agreement",
-        title="Difference divided by the sum of the bounds",
         x_label="case, by n, k and μ",
         y_label="difference / sum of bounds",
         choices=choices,
         points=_points(rows, choices, lambda row: "", cases, rows["en"]),
-        table="agreement",
-        caption="",
     )
 
 

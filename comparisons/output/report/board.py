@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import pandas as pd
 
@@ -12,6 +13,7 @@ from comparisons.output import plots
 from comparisons.output.errors import error_summary
 from comparisons.output.report.leaderboard import Entry, standing
 from comparisons.output.report.page import Block, Page
+from comparisons.output.report.tables import relative_errors
 from comparisons.output.table import CASE, SHORT_PERCENT, Table, columns, percents, words
 
 #: Regions of the cases, by the headings of their columns.
@@ -111,11 +113,11 @@ def board_page(entries: Sequence[BoardEntry]) -> Page:
     entries : sequence of BoardEntry
     """
     rows = standings(entries)
-    blocks = {} if rows.empty else _results(entries, rows)
+    blocks = {"submissions": [_submissions(entries)]} | ({} if rows.empty else _results(entries, rows))
     count = rows["model"].nunique() if len(rows) else 0
     judged = sum(entry.judged is not None for entry in entries)
     lines = [f"Submissions: {len(entries)}, of which {judged} are judged."]
-    return Page("board", f"{count} models of adhesive contact and their errors", blocks | _submissions(entries), lines)
+    return Page("board", f"{count} models of adhesive contact and their errors", blocks, lines)
 
 
 def _results(entries: Sequence[BoardEntry], rows: pd.DataFrame) -> dict[str, Sequence[Block]]:
@@ -125,12 +127,13 @@ def _results(entries: Sequence[BoardEntry], rows: pd.DataFrame) -> dict[str, Seq
     board = [_MODEL, *columns("verdict", "quantity"), *_ERRORS, *_ORIGIN]
     versions = [_MODEL, *_ORIGIN[:2], *columns("verdict", "quantity"), *_ERRORS]
     kappa = _kappa(entries, set(newest["folder"]))
+    plot = plots.kappa(kappa) if len(kappa) else None
     return {
         "models": [
             Table("models", "The newest version of each model, the smallest largest error first", board, newest)
         ],
-        "regions": [_regions(kappa, newest)] if len(kappa) else [],
-        "errors": _plot(kappa) if len(kappa) else [],
+        "regions": [_regions(kappa, newest)] if plot else [],
+        "errors": [plot, relative_errors(kappa, plot)] if plot else [],
         "history": [Table("history", "Largest errors by version", versions, history)],
     }
 
@@ -157,29 +160,16 @@ def _regions(kappa: pd.DataFrame, newest: pd.DataFrame) -> Table:
     return Table("regions", "Largest |κ| in percent with its sign, by region", [*columns(*keys), *layout], table)
 
 
-def _plot(kappa: pd.DataFrame) -> Sequence[Block]:
-    """Return the relative errors over a parameter, and their numbers."""
-    plot = plots.kappa(kappa)
-    layout = columns("model", "quantity", *CASE, "value", "reference", "reference's value", "κ (%)", "u of κ")
-    return [plot, Table("kappa", "Relative errors", layout, kappa, fold="Numbers of this plot", group=plot.group)]
-
-
-def _submissions(entries: Sequence[BoardEntry]) -> dict[str, Sequence[Block]]:
-    """Return the section of all submissions: those that were not judged, with the reason, and what each states."""
-    refused = [
-        {"path": entry.path, "model": entry.submission and entry.submission.name, "reason": entry.reason}
-        for entry in entries
-        if not entry.judged
-    ]
-    layout = [words("folder", "path"), words("model"), words("reason", kind="prose")]
-    not_judged = Table("refused", "Not judged", layout, pd.DataFrame(refused))
+def _submissions(entries: Sequence[BoardEntry]) -> Table:
+    """Return every submission with what it states, and its verdict or the reason why it has none."""
     rows = []
     for entry in entries:
+        row: dict[str, Any] = {"path": entry.path, "status": "not judged", "reason": entry.reason, "folder": ""}
         if submission := entry.submission:
-            row = {name: getattr(submission, name) for name in ("version", "date", "licence", "citation", "folder")}
-            status = str(overall(entry.judged.stored.verdicts)) if entry.judged else "not judged"
-            row |= {"model": submission.name, "status": status, "authors": ", ".join(submission.authors)}
-            rows.append(row if entry.judged else row | {"folder": ""})
-    prose = [words(name, kind="prose") for name in ("authors", "citation")]
-    layout = [_MODEL, words("status", kind="verdict"), *_ORIGIN, *prose]
-    return {"submissions": [not_judged, Table("submissions", "Every submission", layout, pd.DataFrame(rows))]}
+            row |= asdict(submission) | {"model": submission.name, "authors": ", ".join(submission.authors)}
+        if entry.judged and submission:
+            row |= {"status": str(overall(entry.judged.stored.verdicts)), "folder": submission.folder}
+        rows.append(row)
+    layout = [words("folder", "path"), _MODEL, words("status", kind="verdict"), words("reason", kind="prose")]
+    layout += [*_ORIGIN, *(words(name, kind="prose") for name in ("authors", "citation"))]
+    return Table("submissions", "Every submission", layout, pd.DataFrame(rows))

@@ -126,7 +126,7 @@ def _blocks(stored: Stored, summary: pd.DataFrame) -> dict[str, Iterable[Block]]
         "gates": tables.gates(stored) if stored.judged else [],
         "worst": tables.worst_cases(stored) if stored.judged else [],
         "values": [block for plot, keys in over_keys for block in (plot, tables.values(stored, plot, keys))],
-        "errors": [kappa, *tables.errors(stored, kappa)] if kappa else [],
+        "errors": [kappa, tables.relative_errors(stored.kappa, kappa), tables.largest_errors(stored)] if kappa else [],
         "shapes": [block for plot in curves for block in (plot, tables.curve_points(stored, plot))],
         "order": [tables.convergence(stored.results)],
         "numbers": tables.numbers_of(stored),

@@ -99,17 +99,20 @@ def errors_of_models(summary: pd.DataFrame) -> Table:
     return Table("summary", "Largest and root mean square error of each model", layout, ordered)
 
 
-def errors(stored: Stored, plot: Plot) -> Iterator[Table]:
-    """Yield the relative errors of a plot, and the largest of each n and k."""
+def relative_errors(kappa: pd.DataFrame, plot: Plot) -> Table:
+    """Return the relative errors of a plot."""
     layout = columns("model", "quantity", *CASE_COLUMNS, "value", "reference", "reference's value", "κ (%)", "u of κ")
-    caption = "Relative errors against the reference"
-    yield Table("kappa", caption, layout, stored.kappa, fold=_PLOT, group=plot.group)
+    return Table("kappa", "Relative errors against the reference", layout, kappa, fold=_PLOT, group=plot.group)
+
+
+def largest_errors(stored: Stored) -> Table:
+    """Return the largest relative error of each model for each n and k."""
     layout = columns("model", "quantity", "n", "k", "μ", "κ (%)")
     layout += [Column("where", lambda row: "an end of the range" if row["at_end"] else "inside")]
     layout += [*columns("cases"), words("paper (%)", "paper_percent"), words("digits of the paper", "verdict")]
     caption = "Relative error of largest absolute value over the computed Tabor numbers, with its sign"
     fold = "Largest error of each model for each n and k"
-    yield Table("largest", caption, layout, stored.largest_kappa, fold=fold)
+    return Table("largest", caption, layout, stored.largest_kappa, fold=fold)
 
 
 def convergence(results: pd.DataFrame) -> Table:
