@@ -60,39 +60,16 @@ LAYERS = {
         ("_bordered_factor", "_equilibrium", "_defect", "solution"),
         ("_newton", "_arc_length", "_path_end", "_adaptivity", "_branches"),
         ("_edge_width", "_contact_initiation", "_surface_rings", "_continuation"),
-        (
-            "_events",
-            "_jumps",
-            "_bounds",
-            "_completeness",
-            "_whole_path",
-            "_pull_off_path",
-            "_curve_density",
-            "folds",
-            "stability",
-        ),
+        ("_events", "_jumps", "_bounds", "_completeness", "_curve_density", "folds", "stability"),
+        ("_whole_path", "_pull_off_path"),
         ("path", "critical", "quantities", "analysis"),
         ("gibson", "stieltjes", "interpolation"),
         ("experiment", "states", "solver", "_event_adjoint", "_sensitivity"),
     ),
     "fem_reference": (
         ("_typing", "_threads", "_validation", "_presentation", "errors"),
-        (
-            "modulus",
-            "coating",
-            "poisson",
-            "depth_profiles",
-            "modulus_checks",
-            "punch",
-            "profiles",
-            "laws",
-            "tabulated_law",
-            "layers",
-            "solids",
-            "neo_hookean",
-            "problem",
-            "accuracy",
-        ),
+        ("modulus", "coating", "poisson", "depth_profiles", "modulus_checks", "layers", "solids", "neo_hookean"),
+        ("punch", "profiles", "laws", "tabulated_law", "problem", "accuracy"),
         ("_elastic",),
         ("_linear",),
         ("_contact",),
@@ -202,10 +179,6 @@ def test_a_module_imports_from_its_own_layer_or_those_before_it():
 def test_every_name_of_the_layers_exists(package):
     listed = [name for names in LAYERS[package] for name in names]
     assert sorted(listed) == sorted({name.split(".")[1] for name in modules() if name.startswith(f"{package}.")})
-
-
-def test_the_solver_does_not_load_the_verification():
-    assert not any("verification" in module for module in ours("fem_reference", modules()["fem_reference"]))
 
 
 @pytest.mark.parametrize("name", ["fscm/ring_code", "fem_reference/hankel_reference", "solvers/layered_jkr"])

@@ -23,8 +23,6 @@ CONFIGURATION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-
 PROJECT = CONFIGURATION["project"]
 RUNTIME, EXTRAS = PROJECT["dependencies"], PROJECT["optional-dependencies"]
 FOR_TESTS = EXTRAS["test"]
-#: Imported by the build alone.
-FOR_BUILD = CONFIGURATION["build-system"]["requires"]
 
 #: Files that the build adds.
 BUILT = ("PKG-INFO", "setup.cfg", "*.egg-info/*")
@@ -130,19 +128,12 @@ def test_the_constraints_have_the_lowest_version_of_every_requirement():
     assert {line.replace("==", ">=") for line in lines} >= {*RUNTIME, *FOR_TESTS}
 
 
-def test_a_release_is_refused_while_something_does_not_agree():
-    problems = runpy.run_path(str(ROOT / ".github" / "release_check.py"))["problems"]
-    version, address = PROJECT["version"], "https://host/owner/name"
-    assert not any("version" in line or "tag" in line for line in problems(f"v{version}", address))
-    assert any("v0.0.9" in line and version in line for line in problems("v0.0.9", address))
-    assert any("[project.urls]" in line and address in line for line in problems(f"v{version}", address))
-
-
-def test_a_release_needs_authors_and_a_doi(tmp_path):
+def test_a_release_needs_authors_a_doi_and_the_version_of_its_tag(tmp_path):
     (tmp_path / ".github" / "joss").mkdir(parents=True)
     for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff", ".github/release_check.py", ".github/joss/paper.md"):
         (tmp_path / name).write_bytes((ROOT / name).read_bytes())
     problems = runpy.run_path(str(tmp_path / ".github" / "release_check.py"))["problems"]
+    assert any("v0.0.9" in line and PROJECT["version"] in line for line in problems("v0.0.9", ""))
 
     def named():
         found = "\n".join(problems(f"v{PROJECT['version']}", ""))
@@ -156,7 +147,7 @@ def test_a_release_needs_authors_and_a_doi(tmp_path):
     assert named() == []
 
 
-def test_the_recipe_of_conda_has_the_requirements_and_the_names_of_the_project():
+def test_the_recipe_of_conda_has_the_requirements_and_the_version_of_the_project():
     text = (ROOT / ".github" / "packaging" / "conda" / "recipe.yaml").read_text(encoding="utf-8")
     recipe = yaml.safe_load(text)
     names = {"matplotlib": "matplotlib-base"}
@@ -164,11 +155,6 @@ def test_the_recipe_of_conda_has_the_requirements_and_the_names_of_the_project()
     expected = {f"{names.get(name, name)} >={version}" for name, _, version in needed}
     assert set(recipe["requirements"]["run"]) == expected | {f"python {PROJECT['requires-python']}"}
     assert recipe["context"]["version"] == PROJECT["version"]
-    assert recipe["package"]["name"] == PROJECT["name"]
-    (setuptools,) = FOR_BUILD
-    assert recipe["requirements"]["host"] == ["python 3.11.*", "pip", setuptools.replace(">=", " >=")]
-    (entry,) = recipe["build"]["python"]["entry_points"]
-    assert entry == f"fscm-bench = {PROJECT['scripts']['fscm-bench']}"
 
 
 @pytest.mark.parametrize("name", sorted(path.name for path in (ROOT / ".github/workflows").iterdir()))
@@ -176,6 +162,7 @@ def test_a_workflow_is_pinned_and_has_few_rights(name):
     text = (ROOT / ".github" / "workflows" / name).read_text(encoding="utf-8")
     workflow = yaml.safe_load(text)
     assert workflow["permissions"] == {"contents": "read"}
+    assert "pull_request_target" not in text
     used = re.findall(r"uses: (\S+)", text)
     assert used
     assert [action for action in used if not re.fullmatch(r"[\w./-]+@[0-9a-f]{40}", action)] == []

@@ -4,7 +4,6 @@ import io
 import re
 import shlex
 from contextlib import chdir, redirect_stdout
-from dataclasses import fields
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,7 +13,7 @@ import pytest
 import fem_reference
 import fscm
 from comparisons.cli import main as cli
-from comparisons.judging.gates import Gate, load_gates
+from comparisons.judging.gates import load_gates
 from comparisons.runs.cases import load_grids
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -148,15 +147,3 @@ def test_links_and_names_of_modules_resolve():
         names = re.findall(r"`((?:fscm|fem_reference|comparisons|tests)/[\w/]+\.\w+)`", text)
         wrong += [(path.name, name) for name in names if not (ROOT / name).exists()]
     assert wrong == []
-
-
-def test_every_key_of_a_gate_is_explained():
-    """In one table of one document, the one with the key of the candidate."""
-    (table,) = [
-        paragraph
-        for path in DOCUMENTS
-        for paragraph in path.read_text(encoding="utf-8").split("\n\n")
-        if paragraph.startswith("| key |") and "| `candidate`" in paragraph
-    ]
-    explained = {name for line in table.splitlines() for name in re.findall(r"`(\w+)`", line.split("|")[1])}
-    assert explained == {field.name for field in fields(Gate)}

@@ -63,11 +63,6 @@ def test_the_command_prints_ratios_and_ends_with_the_status(tiny, tmp_path, caps
     assert not (tmp_path / "c" / "tiny.png").exists()
 
 
-@pytest.mark.parametrize(("option", "value"), [("--only", "speed"), ("--out", "/dev/null/x")])
-def test_wrong_input_is_one_sentence(option, value, refused):
-    refused(["bench", option, value], value)
-
-
 def test_only_a_whole_run_renews_the_baseline(tiny, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     run_bench(Path("run"))

@@ -89,15 +89,6 @@ def defaults(action, **inputs):
     return inputs_by_default | {name.replace("_", "-"): value for name, value in inputs.items()}
 
 
-def test_it_installs_from_wheels_without_an_index(action, tmp_path):
-    program = stub(tmp_path, "python", 'echo "$@"')
-    install = step(action, "Install fscm-bench")
-    variables = environment(install, defaults(action, wheels="my wheels"), tmp_path)
-    done = shell(install["run"], tmp_path, variables, program.parent)
-    offline = "-m pip install --no-index --find-links my wheels fscm-bench"
-    assert done.stdout.splitlines() == [offline, f"{offline}[report]"]
-
-
 def test_nothing_is_installed_by_its_bare_name(job, tmp_path):
     """Anybody may register the name in a package index: without an address the job fails before pip runs."""
     program = stub(tmp_path, "python", 'echo "$@"')

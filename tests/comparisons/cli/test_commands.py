@@ -30,14 +30,6 @@ def test_a_comparison_is_cited_with_its_models_and_its_reference(folder, capsys)
     assert "@misc{model-jkr," in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("form", ["text", "bibtex"])
-def test_without_a_folder_it_has_the_commit_that_the_version_has(form, capsys):
-    assert main(["--version"]) == 0
-    version = capsys.readouterr().out.strip().removeprefix("fscm-bench ")
-    assert main(["cite", "--format", form]) == 0
-    assert f"version {version}" in capsys.readouterr().out
-
-
 def test_a_changed_table_is_refused(folder, refused):
     (folder / "results.csv").write_text("model\n")
     refused(["cite", folder], "results.csv")
@@ -61,21 +53,6 @@ def test_fields_for_paraview(tmp_path, monkeypatch):
     assert mesh.point_data["sigma_zz"][surface].max() == pytest.approx(1.0264, abs=5e-3)
     assert mesh.points[:, 1].max() <= 0.0
     assert picture.read_bytes().startswith(b"\x89PNG")
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["fem"], "nothing to do"),
-        (["fem", "--vtu", "x.vtu", "--n", "2"], "--k, --mu"),
-        ([*CASE, "--vtu", "x.vtk"], "vtu"),
-        ([*CASE, "--plot", "x.png", "--nu", "0.5"], "nu"),
-        (["fem", "--n", "-1", "--k", "0", "--mu", "1", "--plot", "x.png"], "n = -1"),
-    ],
-)
-def test_bad_input_is_one_sentence(arguments, message, refused, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    refused(arguments, message)
 
 
 @pytest.mark.parametrize("command", ["", *_COMMANDS])

@@ -142,17 +142,6 @@ def test_a_gate_whose_rival_is_not_computed_is_refused_and_adding_it_helps(small
     assert "1 of 1 gates pass" in capsys.readouterr().out
 
 
-def test_gates_that_are_left_out_are_counted(small_grid, tmp_path, capsys):
-    other_gate = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
-    later = small_grid.replace("TEN-PERCENT", "LATER").replace('"quick"', '"full"')
-    rules = gates(small_grid + other_gate + later, tmp_path)
-    for command in (["run", "--jobs", "1", "--model", "ten-percent", "--out"], ["judge"]):
-        assert main([*command, str(tmp_path / "run"), *rules]) == 0
-        message = capsys.readouterr().err
-        assert re.search("1 of 3 gates of .*gates.toml are left out: their candidate is not given", message)
-        assert re.search("1 of 3 gates of .*gates.toml are left out: they are of the tier full", message)
-
-
 #: Bits that are flipped in each file, one at a time, chosen by this seed.  In files that neither command reads, all of
 #: them have a flip at once: each time costs a whole judgement and a report.
 FLIPS, SEED = 4, 20262

@@ -94,6 +94,15 @@ def with_case(**changed):
         (["run", "--jobs", "many"], "--jobs"),
         (["run", "--tier", "slow"], "'slow'"),
         (["run", "--model", "hertz"], "md-improved"),
+        (["bench", "--only", "speed"], "speed"),
+        (["bench", "--out", "/dev/null/x"], "/dev/null/x"),
+        *[
+            (["run", *words.split()], "--random")
+            for words in ("--model jkr --random -1", "--model jkr --seed 1", "--random 3")
+        ],
+        (["fem"], "nothing to do"),
+        (["fem", "--vtu", "x.vtu", "--n", "2"], "--k, --mu"),
+        (["fem", *CASE, "--vtu", "x.vtk"], "vtu"),
         (["list", "colours"], "'colours'"),
         (["dance"], "'dance'"),
         ([], "COMMAND"),

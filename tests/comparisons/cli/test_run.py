@@ -109,22 +109,6 @@ def test_quiet_prints_what_does_not_pass_and_nothing_else(small_grid, tmp_path, 
     assert capsys.readouterr().err.startswith("FAIL TEN-PERCENT")
 
 
-def test_stored_failures_are_computed_again(small_grid, tmp_path, monkeypatch):
-    models = ("--model", "ten-percent", "fails")
-    computed = []
-
-    def counted(tasks, jobs):
-        computed.extend(task.model for task in tasks)
-        return compute(tasks, jobs)
-
-    monkeypatch.setattr(computing, "compute", counted)
-    assert run(tmp_path, *models) == 4
-    assert len(computed) == 12
-    assert run(tmp_path, *models) == 4
-    assert computed[12:] == ["fails"] * 4
-    assert not read_table(tmp_path / "results.csv").duplicated(["model", "quantity", "n", "k", "mu"]).any()
-
-
 def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):
     this_machine = computing_environment()
     other_machine = this_machine | {"python": "3.99.0", "cpu": "another"}

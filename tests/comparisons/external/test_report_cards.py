@@ -245,11 +245,6 @@ def test_data_have_a_card_without_evaluations(run_of_data):
     assert lines["evaluated again"] == "nothing: data do not change"
 
 
-@pytest.mark.parametrize("options", ["--model jkr --random -1", "--model jkr --seed 1", "--random 3"])
-def test_wrong_options_are_refused_with_their_name(options, tmp_path, refused):
-    refused(["run", "--out", tmp_path / "out", *options.split()], "--random")
-
-
 def test_the_sentence_on_a_model_in_error_has_the_reason():
     broken = verdict_table([Judged("A", "pull_off_force", "mine", "fscm", reason="mine has no row")])
     assert verdict_sentence("mine", broken) == "ERROR: mine has no row (A)"

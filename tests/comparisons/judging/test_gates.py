@@ -64,18 +64,16 @@ MEASURED = '"measured"\nworst_measured = '
     [
         ("min_cases = 3", "min_case = 3", "unknown key 'min_case': did you mean min_cases?"),
         ("min_cases = 3", "", "min_cases missing"),
-        *(("min_cases = 3", f"min_cases = {value}", "min_cases = ") for value in ("0", '"3"')),
+        ("min_cases = 3", "min_cases = 0", "min_cases = "),
         ("A-GATE", "\u0391-GATE", "capitals"),
         ('"jkr"', '"jrk"', "unknown candidate 'jrk': did you mean jkr?"),
         ('"fscm"', '"given"', "unknown reference 'given'"),
-        ('"rel"', '"relative"', "metric = 'relative' must be one of rel,"),
         ('"rel"', '"curve"', "unknown quantity"),
         ("pull_off_force", "force_curve", "unknown quantity"),
         # Limits that admit nothing, everything, or any model.
         ("lower = -0.1", "lower = 0.2", "admit nothing"),
         (GATE, CURVE.replace("upper = 0.1", "upper = 0"), "to 0 must be"),
         ("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = inf", "one must be finite"),
-        ("lower = -0.1", "lower = nan", "lower = nan"),
         # Uncertainties.
         *(("1e-6", value, "max_reference_uncertainty") for value in ("0", "inf", "nan")),
         *(("1e-6", f"1e-6\nmax_candidate_uncertainty = {u}", "max_candidate_uncertainty") for u in ("0", "nan", "inf")),
@@ -90,6 +88,7 @@ MEASURED = '"measured"\nworst_measured = '
         ("n = [1, 2]", "n = [2, 1]", "cases.n = [2, 1] must be [low, high]"),
         ("n = [1, 2]", "m = [1, 2]", "'m': did you mean mu?"),
         ("n = [1, 2]", '"solid.kind" = "coat"', "'coat': did you mean coating?"),
+        ("n = [1, 2]", '"solid.kind" = [1, 2]', "solid.kind"),
         ("n = [1, 2]", '"solid.thickness" = ["1 GPa", "2 GPa"]', "cases.solid.thickness"),
         ("n = [1, 2]", '"solid.thickness" = ["2 nm", "1 nm"]', "low <= high"),
         ('tags = ["blue"]', "tags = []", "cases.tags = []"),
@@ -97,7 +96,6 @@ MEASURED = '"measured"\nworst_measured = '
         # What was measured.
         ('"derived"', '"measured"', "states its worst_measured"),
         ("min_cases = 3", "min_cases = 3\nworst_measured = 0.1", "states its worst_measured"),
-        ("min_cases = 3", "min_cases = 3\nmeasured_range = [0, 0.1]", "states its worst_measured"),
         *(
             ('"derived"', MEASURED + worst, f"worst_measured = {worst}")
             for worst in ("nan", "inf", "0.1001", "-0.1001")
@@ -114,9 +112,7 @@ MEASURED = '"measured"\nworst_measured = '
         ),
         # Texts.
         *(("A limit.", text, "grounds") for text in ("", " \\n\\t ", "A \\u001b[31mlimit.", "A\\u202e limit.")),
-        ("min_cases = 3", 'min_cases = 3\n"\\u001b[31m" = 1', r"unknown key '\x1b[31m'"),
         ('"A limit."', '"A limit."\nshared_grounds = "x"', "either grounds, one sentence, or shared_grounds"),
-        ('grounds = "A limit."', "", "either grounds, one sentence, or shared_grounds"),
         ('grounds = "A limit."', 'shared_grounds = "none"', "unknown shared grounds 'none'"),
         ("[[gate]]", '[grounds]\nspare = "A limit."\n[[gate]]', "no gate has the shared grounds spare"),
         # Files of another form.

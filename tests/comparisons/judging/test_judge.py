@@ -163,24 +163,10 @@ def test_verdicts(rows, gate, expected):
     assert verdict(rows, gate)[0] == expected
 
 
-@pytest.mark.parametrize(
-    ("words", "rows", "gate"),
-    [
-        ("candidate jkr: 0.005 (the reference fscm: 5.5e-07)", results({"jkr": 0.01}, fscm=2.0, jkr=2.195), GATE),
-        *(
-            (f"mostly by u of the {role} {model}: 0.0", results({model: 0.01}, fscm=2.0, jkr=2.1, dmt=2.101), RIVAL)
-            for role, model in (("candidate", "jkr"), ("reference", "fscm"), ("rival", "dmt"))
-        ),
-        # All digits of the limit.
-        (
-            "is 0.0015 of the reference's value; the gate tolerates 0.0012345",
-            results({"fscm": 3e-3}, fscm=2, jkr=2),
-            GATE,
-        ),
-    ],
-)
-def test_an_inconclusive_verdict_says_whose_uncertainty_it_is(words, rows, gate):
-    expect("INCONCLUSIVE", words, rows, gate.replace("0.001", "1.2345e-3" if "12345" in words else "1e-1"))
+@pytest.mark.parametrize(("role", "model"), [("candidate", "jkr"), ("reference", "fscm"), ("rival", "dmt")])
+def test_an_inconclusive_verdict_says_whose_uncertainty_it_is(role, model):
+    rows = results({model: 0.01}, fscm=2.0, jkr=2.1, dmt=2.101)
+    expect("INCONCLUSIVE", f"mostly by u of the {role} {model}: 0.0", rows, RIVAL.replace("0.001", "0.1"))
 
 
 CURVE = GATE.replace("pull_off_force", "force_curve").replace('"rel"', '"curve"').replace("= -0.1", "= -inf")
@@ -242,13 +228,6 @@ def test_an_error_that_was_not_measured_fails_although_it_keeps_the_limits_or_is
     assert verdict(results(large, fscm=2.0, jkr=2.6), gate.replace("0.001", "3.0"))[0] == "FAIL"
     # An expected failure is strict in every case.
     assert verdict(results(fscm=2.0, jkr=lambda k, mu: 2.0 if k else 2.5), KNOWN)[0] == "XPASS"
-
-
-def test_a_case_that_does_not_apply_names_its_cure():
-    rows = results(fscm=2.0, jkr=2.0)
-    rows.loc[(rows["model"] == "jkr") & (rows["k"] == 0.4), ["status", "reason"]] = "not-applicable", "k = 0 alone"
-    expect("ERROR", "jkr: k = 0 alone (", rows)
-    expect("ERROR", 'cases = { k = [0, 0] }, or state not_applicable = "leave-out"', rows)
 
 
 def test_gates_for_models_that_are_given():

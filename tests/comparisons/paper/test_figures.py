@@ -1,7 +1,5 @@
 """Figures of the paper: the data beside each picture against closed forms, limits, identities and the models."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -14,7 +12,6 @@ from comparisons.paper.tasks import curve, jumps, profile, quantity, surface
 from comparisons.problem import Problem
 from comparisons.registry import create
 
-STRENGTH = 16 * math.sqrt(3) / 27
 STRESSES = {"md-original": THEORETICAL_STRENGTH, "md-improved": eta(2.0)}
 
 
@@ -78,15 +75,6 @@ def test_the_surface_is_in_equilibrium(n, k, mu):
     assert shape["pressure"] == pytest.approx(8 / 3 * (q**9 - q**3), abs=1e-12)
     for name in ("gap", "pressure", "deformation"):
         assert 0 < shape[f"u_{name}"].min() <= shape[f"u_{name}"].max() < 1e-5
-
-
-def test_the_pressure_carries_the_pull_off_force_and_the_strength_is_reached():
-    shape = surface(2.0, 0.4, 1.0)
-    # p = -(8/3) (f + 1)^-3 beyond r = 6, where f is 18.
-    beyond = 8 / 3 / (18 + 1 - shape["displacement"]) ** 2
-    load = np.trapezoid(shape["pressure"], np.array(shape["radius"]) ** 2) - beyond
-    assert -load == pytest.approx(of_model("fscm", "pull_off_force", 2.0, 0.4, 1.0).value, abs=2e-3)
-    assert min(shape["pressure"]) == pytest.approx(-STRENGTH, abs=1e-6)
 
 
 def test_jumps_are_the_quantities_of_the_model_and_there_is_none_below_the_critical_tabor_number():

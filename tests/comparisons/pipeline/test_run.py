@@ -97,12 +97,7 @@ def test_names_are_exported_and_the_import_is_light():
     assert done.stdout == "False False\n"
 
 
-def test_a_sweep_of_curves_alone_has_no_errors_in_its_tables_and_replaces_no_file_of_a_user(toys, tmp_path):
-    (tmp_path / "grid.toml").write_text("# mine")
-    with pytest.raises(ValueError, match=r"grid\.toml"):
-        run(GRID, folder=tmp_path)
-    assert (tmp_path / "grid.toml").read_text() == "# mine"
-    (tmp_path / "grid.toml").unlink()
+def test_a_sweep_of_curves_alone_has_no_errors_in_its_tables(toys, tmp_path):
     finished = run(GRID.replace("pull_off_force", "force_curve"), folder=tmp_path)
     assert finished.tables.kappa.empty
     assert not finished.tables.curves.empty

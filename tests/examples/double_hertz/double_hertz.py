@@ -40,20 +40,7 @@ T_MAX, STEPS = 150.0, 301
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 
 #: It is not evaluated elsewhere; inside, "not applicable" would count as a failure.
-DOMAIN = {
-    "quantities": [
-        "pull_off_force",
-        "pull_off_displacement",
-        "jump_out_displacement",
-        "zero_load_displacement",
-        "force_curve",
-    ],
-    "n": [2, 2],
-    "k": [0, 0.9],
-    "mu": [1e-3, 100],
-}
-
-_CONTACT_ONLY = "the equations hold in contact only, and the gap is zero there"
+DOMAIN = {"quantities": ["pull_off_force", "force_curve"], "n": [2, 2], "k": [0, 0.9], "mu": [1e-3, 100]}
 
 
 class DoubleHertz:
@@ -70,18 +57,10 @@ class DoubleHertz:
 
     def evaluate(self, problem, quantity):
         """Return the quantity as a Result, or raise NotApplicable."""
-        method = {
-            "pull_off_force": lambda states: -states.least("load")[1],
-            "pull_off_displacement": lambda states: states.at(states.least("load")[0])[0],
-            "jump_out_displacement": lambda states: states.fold(),
-            "zero_load_displacement": lambda states: states.zero_load(),
-        }.get(quantity)
-        if method is None:
-            raise NotApplicable(_CONTACT_ONLY)
-        value = float(method(States(problem)))
-        # A minimum is flat: its place is only known to the root of what its value is known to.
-        relative = 1e-6 if quantity == "pull_off_displacement" else 1e-10
-        return Result(value, u_num=relative * max(1.0, problem.mu))
+        if quantity != "pull_off_force":
+            raise NotApplicable("the example has the pull-off force and the curve")
+        _, least = States(problem).least_load()
+        return Result(-float(least), u_num=1e-10 * max(1.0, problem.mu))
 
     def curve(self, problem):
         """Return the contact branch from first contact on."""
@@ -135,34 +114,18 @@ class States:
         x = a + beyond
         return width / 2 * float(_WEIGHTS @ (x**k * beyond * (x + a)))
 
-    def least(self, what):
-        """Return (t, value) where the displacement or the load is smallest."""
-        index = ("displacement", "load").index(what)
+    def least_load(self):
+        """Return (t, load) where the load is smallest."""
         grid = np.linspace(0.0, T_MAX, STEPS)
-        values = [self.at(t)[index] for t in grid]
-        best = int(np.argmin(values))
+        loads = [self.at(t)[1] for t in grid]
+        best = int(np.argmin(loads))
         bounds = (grid[max(best - 1, 0)], grid[min(best + 1, STEPS - 1)])
-        found = minimize_scalar(lambda t: self.at(t)[index], bounds=bounds, method="bounded", options={"xatol": 1e-9})
-        return (found.x, found.fun) if found.fun < values[best] else (grid[best], values[best])
-
-    def fold(self):
-        """Return the smallest displacement in contact, unless it is where contact ends."""
-        t, displacement = self.least("displacement")
-        if t == 0.0:
-            raise NotApplicable("the displacement grows from first contact on: there is no fold")
-        return displacement
-
-    def zero_load(self):
-        """Return the displacement in contact where the load vanishes."""
-        start, _ = self.least("load")
-        return self.at(self._reaches(0.0, start))[0]
+        least = minimize_scalar(lambda t: self.at(t)[1], bounds=bounds, method="bounded", options={"xatol": 1e-9})
+        return (least.x, least.fun) if least.fun < loads[best] else (grid[best], loads[best])
 
     def end(self):
         """Return the t at which the load is as compressive as the pull-off is tensile."""
-        start, least = self.least("load")
-        return self._reaches(-least, start)
-
-    def _reaches(self, load, start):
-        if self.at(T_MAX)[1] < load:
+        start, least = self.least_load()
+        if self.at(T_MAX)[1] < -least:
             raise ComputationFailed("the load stays below that up to the thinnest cohesive zone followed")
-        return brentq(lambda t: self.at(t)[1] - load, start, T_MAX, xtol=1e-13)
+        return brentq(lambda t: self.at(t)[1] + least, start, T_MAX, xtol=1e-13)
