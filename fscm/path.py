@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
@@ -52,7 +53,8 @@ class EquilibriumPath(Columns):
     edge_radius : ndarray
         Radius where the tension is largest; nan while the central gap is above the gap of largest tension.
     u_displacement, u_load : float
-        Numerical uncertainty of every delta and P: the largest bound at every twelfth point, as for events.
+        Numerical uncertainty of every delta and P: the largest bound at every twelfth point, as for events; nan if it
+        was not computed.
     folds : tuple of Fold
         All turning points of load and displacement, in the order of the path.
     stable_under_displacement, stable_under_load : ndarray of bool
@@ -106,6 +108,7 @@ def trace(
     start_gap: float | None = None,
     longest_step: float = _LONGEST_STEP,
     largest_turn: float = _LARGEST_TURN,
+    with_bounds: bool = True,
 ) -> EquilibriumPath:
     """Follow the whole equilibrium path.
 
@@ -169,7 +172,7 @@ def trace(
         states = _up_to(states, max_load)
         shown = [fold for fold in folds if any(fold[0] is state for state in states)]
     check_reach(problem.punch, edge_radius(states[-1]))
-    u_displacement, u_load = _largest_errors(states[::_CHECK_EVERY])
+    u_displacement, u_load = _largest_errors(states[::_CHECK_EVERY]) if with_bounds else (math.nan, math.nan)
     return EquilibriumPath(
         np.array([s.central_gap for s in states]),
         np.array([s.displacement for s in states]),

@@ -165,7 +165,7 @@ def _between(problem: fscm.Problem, end: float) -> Array:
 def _fine(problem: fscm.Problem, end: float) -> Array:
     """Return a path that ends at a load, with points between its states by a spline, shape (2, m)."""
     try:
-        traced = fscm.trace(problem, "quick", max_load=end, longest_step=_STEP, largest_turn=_TURN)
+        traced = fscm.trace(problem, "quick", max_load=end, longest_step=_STEP, largest_turn=_TURN, with_bounds=False)
     except (fscm.NotConverged, ValueError) as error:
         raise ComputationFailed(f"the FSCM has no path for the values that were tried ({error})") from None
     path = np.array([traced.displacement, traced.load])

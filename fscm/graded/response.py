@@ -25,6 +25,9 @@ _BEYOND = 4
 _BESSEL = 2.0 / math.pi
 # Largest change of log c for which the response is updated by its rate: the error is below that of the table.
 _SAME = 1e-12
+# Degree of the table for meshes of up to _COARSE nodes a panel, whose states have errors of 1e-7 and more, and for
+# finer ones.  Its own bound of its error is in that of every value (measured worst 5e-8 and 9e-11 of the largest D).
+_COARSE, _LOW_DEGREE, _HIGH_DEGREE = 10, 11, 15
 
 
 class GradedResponse:
@@ -38,13 +41,21 @@ class GradedResponse:
 
     def __init__(self, solid: GradedHalfSpace) -> None:
         self.kernel = GradedKernel(solid, _LONGEST)
-        self._table = ImageTable(self.kernel.images, solid.length)
+        self._tables: dict[int, ImageTable] = {}
+        self._depth = solid.length
         self._length = min([solid.length, *solid.interfaces])
 
     @property
     def softest(self) -> float:
         """Largest compliance at any wave number, in units of that of the surface, at least 1."""
         return self.kernel.images.largest
+
+    def _table(self, order: int) -> ImageTable:
+        """The table for meshes of so many nodes a panel."""
+        degree = _LOW_DEGREE if order <= _COARSE else _HIGH_DEGREE
+        if degree not in self._tables:
+            self._tables[degree] = ImageTable(self.kernel.images, self._depth, degree)
+        return self._tables[degree]
 
     def remainder(
         self, mesh: PanelMesh, c: float, reusable: tuple[PanelMesh, float, Remainder] | None = None
@@ -53,7 +64,7 @@ class GradedResponse:
         previous = None
         if reusable is not None and abs(math.log(c / reusable[1])) <= _SAME:
             previous = reusable[0], reusable[2].moved(math.log(c / reusable[1]))
-        return remainder(self._table, self._length, mesh, c, previous)
+        return remainder(self._table(mesh.order), self._length, mesh, c, previous)
 
     def far(self, radius: float) -> float:
         """Response at the center to a distant ring, in units of that of a homogeneous solid."""
@@ -69,7 +80,7 @@ class GradedResponse:
         bessel = np.sqrt(np.minimum(1.0, _BESSEL / (c * mesh.nodes[:, None] * xi)))
         strength = np.abs(pressure) * mesh.weights * mesh.nodes
         seen = c * weights * (strength @ bessel)
-        table = self._table.error * np.abs(pressure) * mesh.weights
+        table = self._table(mesh.order).error * np.abs(pressure) * mesh.weights
         shares = mesh.nodes / (mesh.nodes[:, None] + mesh.nodes)
         return bessel @ seen + shares @ table, float(np.sum(seen) + np.sum(table))
 

@@ -45,7 +45,7 @@ def test_the_error_of_the_kernel_is_a_part_of_the_bound():
 def test_a_refined_mesh_keeps_the_response_between_its_old_panels():
     ends = [-1.0, -0.75, -0.5, -0.1, 0.0, 0.25, 1.0, 3.0, 9.0]
     coarse, fine = (PanelMesh(np.array(x), 8, 1.0) for x in (ends, sorted({*ends, -0.3, 0.1} - {3.0})))
-    table, length, step = response_of(SOFT_BELOW)._table, 0.6, 1e-4
+    table, length, step = response_of(SOFT_BELOW)._table(8), 0.6, 1e-4
     for c in (1.0, 20.0):
         full = remainder(table, length, fine, c)
         reused = remainder(table, length, fine, c, (coarse, remainder(table, length, coarse, c)))
