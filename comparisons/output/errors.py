@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 
 from comparisons.data.paper_values import paper_values
+from comparisons.judging.summary import COVERAGE, coverage
 from comparisons.numerics.bounds import combined, relative_difference, relative_uncertainty
 from comparisons.problem import PARAMETERS
 from comparisons.quantities import QUANTITIES
@@ -36,8 +37,7 @@ COLUMNS = {
 
 #: Columns of `error_summary`.
 _GROUP = ["quantity", "model", "reference"]
-_STATUSES = {"answered": "ok", "not_applicable": "not-applicable", "failed": "failed"}
-_SUMMARY = (*_GROUP, "asked", *_STATUSES, "cases", "largest", "u_largest", "size", *CASE, "rms", "u")
+_SUMMARY = (*_GROUP, *COVERAGE[:-1], "cases", "largest", "u_largest", "size", *CASE, "rms", "u")
 
 
 def _with_kappa(table: pd.DataFrame) -> pd.DataFrame:
@@ -225,11 +225,11 @@ def error_summary(table: pd.DataFrame) -> pd.DataFrame:
     [[3.0, 2.0, 1.0, 0.04, 2.0, 0.035355]]
     """
     table = with_problem(table)
-    ended = {f"is {status}": table["status"] == status for status in _STATUSES.values()}
-    groups = table.assign(**ended).groupby(_GROUP, sort=False)
-    counts = {name: groups[f"is {status}"].sum() for name, status in _STATUSES.items()}
-    sizes = {"rms": groups["kappa"].agg(lambda kappa: math.sqrt((kappa**2).mean())), "u": groups["u_kappa"].max()}
-    summary = pd.DataFrame({"asked": groups.size(), **counts, "cases": groups["kappa"].count(), **sizes})
+    groups = table.groupby(_GROUP, sort=False)
+    rms = groups["kappa"].agg(lambda kappa: math.sqrt((kappa**2).mean()))
+    summary = pd.DataFrame({"cases": groups["kappa"].count(), "rms": rms, "u": groups["u_kappa"].max()})
+    counts = [coverage(statuses) for _, statuses in groups["status"]]
+    summary = summary.join(pd.DataFrame(counts, index=summary.index, columns=list(COVERAGE)))
     worst = worst_rows(table[table["kappa"].notna()], _GROUP).set_index(_GROUP)[["kappa", "u_kappa", *CASE]]
     summary = summary.join(worst.rename(columns={"kappa": "largest", "u_kappa": "u_largest"})).reset_index()
     summary = summary.assign(size=summary["largest"].abs(), problem=summary["problem"].fillna(""))

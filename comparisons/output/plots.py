@@ -122,12 +122,6 @@ def _points(
     return table[np.isfinite(table[["x", "y", "low", "high"]].astype(float)).all(axis="columns")]
 
 
-def in_registry(quantity: str) -> tuple[int, str]:
-    """Return the order of a quantity; one that is not in the registry comes last."""
-    names = list(ALL_QUANTITIES)
-    return names.index(quantity) if quantity in names else len(names), quantity
-
-
 def kappa(table: pd.DataFrame, over: str = "") -> Plot:
     """Relative errors over the parameter that varies most, one picture for each pair of the others.
 
@@ -189,7 +183,9 @@ def agreement(table: pd.DataFrame) -> Plot:
 
 
 def _ranks(quantities: pd.Series) -> pd.Series:
-    return quantities.map(in_registry)
+    """Order of quantities; one that is not in the registry comes last."""
+    names = list(ALL_QUANTITIES)
+    return quantities.map(lambda name: (names.index(name) if name in names else len(names), name))
 
 
 def curves(table: pd.DataFrame) -> list[Plot]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import partial
 from itertools import product
 from typing import Any
@@ -11,7 +10,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, MaxNLocator
 
 from comparisons.output.errors import relative_error
@@ -26,8 +24,8 @@ _TRANSITION = (0.01, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3
 #: The closed forms are power laws of mu: two points are the line.  JKR is drawn where it is near the curves.
 _ENDS, _JKR_FROM = (_TRANSITION[0], _TRANSITION[-1]), 0.3
 _K = 0.4
-#: Face of the markers of a model (None: the colour of its line), and the colour of what is common to every n.
-_FACES, _OF_ALL = {"md-original": "white", "md-improved": None}, "0.45"
+#: Face of the markers of a model; None: the colour of its line.
+_FACES = {"md-original": "white", "md-improved": None}
 #: Ten a decade, the preferred numbers of the series R10 but for rounding.
 TABOR_NUMBERS = tuple(float(f"{mu:.3g}") for mu in np.geomspace(0.01, 10.0, 31))
 
@@ -132,18 +130,6 @@ def fig15_pull_off_by_rigid_limit() -> Plan[Tables]:
     return {"": tables[""]}
 
 
-def _kappa_handles(shapes: Iterable[float]) -> list[Line2D]:
-    """Return what the legend shows: the colour and marker of each n, increasing, and the line of each model."""
-    handles = [
-        Line2D([], [], color=COLOURS[index], marker=MARKERS[index], ms=3.5, label=f"$n$ = {n:g}")
-        for index, n in enumerate(sorted(shapes))
-    ]
-    for model, face in _FACES.items():
-        style: dict[str, Any] = {"color": _OF_ALL, "marker": MARKERS[0], "ms": 3.5, "mfc": face or _OF_ALL}
-        handles.append(Line2D([], [], ls=model_styles([model])[model].line, label=model, **style))
-    return handles
-
-
 def _kappa_panels(complete: Axes, enlarged: Axes, kappa: pd.DataFrame) -> None:
     """Draw kappa (of one quantity and gradient exponent) into two axes: all of it, and near zero."""
     for index, (n, of_shape) in enumerate(kappa.sort_values("mu").groupby("n")):
@@ -152,8 +138,8 @@ def _kappa_panels(complete: Axes, enlarged: Axes, kappa: pd.DataFrame) -> None:
             colour, line = COLOURS[index], model_styles([model])[model].line
             style: dict[str, Any] = {"color": colour, "marker": MARKERS[index], "mfc": face or colour, "ms": 3.5}
             error, u = 100 * points["kappa"], 100 * points["u_kappa"]
-            for axes in (complete, enlarged) if len(points) else ():
-                axes.plot(points["mu"], error, ls=line, label=f"$n$ = {n:g}, {model}", **style)
+            for axes, label in ((complete, f"$n$ = {n:g}, {model}"), (enlarged, "_")):
+                axes.plot(points["mu"], error, ls=line, label=label, **style)
                 axes.fill_between(points["mu"], error - u, error + u, color=colour, alpha=0.2)
     for axes in (complete, enlarged):
         axes.set(xscale="log", xlabel=r"Tabor number $\mu$")
@@ -172,8 +158,8 @@ def _by_soft(figure: Figure, table: pd.DataFrame, kappa: pd.DataFrame) -> None:
     scaled.set(xscale="log")
     _log_forces(scaled, table["ratio"].min() / 1.2, table["ratio"].max() * 1.2)
     _kappa_panels(complete, enlarged, kappa)
-    fscm = Line2D([], [], label="fscm, colours as $n$", **MODEL_LINES["fscm"])
-    figure.legend(handles=[fscm, *_kappa_handles(_SHAPES)], loc="outside lower center", ncols=7, columnspacing=1.2)
+    scaled.plot([], [], label="fscm, colours as $n$", **MODEL_LINES["fscm"])
+    figure.legend(loc="outside lower center", ncols=5)
 
 
 @paper_figure(_by_soft, size=(9.6, 3.8))

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from comparisons.models.closed_form import EPS
+from comparisons.numerics.number_text import case_text
 from comparisons.paper.paper_figure import Plan, result_of, together
 from comparisons.paper.statements.evidence import Number
 from comparisons.paper.tasks import JUMPS, jumps, quantity
@@ -86,7 +87,7 @@ def label(case: Case, without: str = "") -> str:
     >>> label((("n", 2.0), ("k", 0.4)))
     'n = 2, k = 0.4'
     """
-    return ", ".join(f"{name} = {value:g}" for name, value in case if name != without)
+    return case_text({name: value for name, value in case if name != without})
 
 
 def measure(title: str, *needs: Need, model: str = "") -> Callable[[Callable[..., Measured]], Callable[..., Measured]]:

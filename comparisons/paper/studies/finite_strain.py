@@ -18,7 +18,7 @@ from comparisons.description.strain_errors import Change, ball_on, strain_change
 from comparisons.numerics.bounds import relative_difference, relative_uncertainty
 from comparisons.output.style import COLOURS, LINES
 from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import panels
+from comparisons.paper.drawing import legend_below, level, panels
 from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, rows_of, together
 from comparisons.paper.tasks import quantity
 from comparisons.runs.tasks import evaluate
@@ -93,9 +93,9 @@ def _picture(figure: Figure, table: pd.DataFrame, cancel: pd.DataFrame) -> None:
             axes.fill_between(x, percent - u, percent + u, color=colour, alpha=0.2, lw=0.0)
         meeting = cancel[(cancel["nu"] == nu) & (cancel["mu"] == mu)]["elasto_adhesion_number"]
         axes.plot(meeting, 0.0 * meeting, "o", ms=4, color=COLOURS[0], mfc="none")
-        axes.axhline(0.0, color="0.5", lw=0.6)
+        level(axes, color="0.5", lw=0.6)
         axes.set(xscale="log", ylim=(-15.0, 15.0))
-    figure.legend(*lattice[0].get_legend_handles_labels(), loc="outside lower center", ncol=3)
+    legend_below(figure, 3)
 
 
 @paper_figure(_picture, size=(7.2, 4.4))

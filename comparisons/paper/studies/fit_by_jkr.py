@@ -19,7 +19,7 @@ from comparisons.fitting.machine import Machine
 from comparisons.fitting.parameters import free_keys
 from comparisons.fitting.record import Record
 from comparisons.output.style import COLOURS, LINES
-from comparisons.paper.drawing import panels
+from comparisons.paper.drawing import legend_below, level, panels
 from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, rows_of
 from comparisons.problem import Problem, Section
 from comparisons.runs.tasks import evaluate
@@ -87,9 +87,9 @@ def _picture(figure: Figure, table: pd.DataFrame) -> None:
         for (k, load), line in table.groupby(["k", "largest_load"]):
             colour, dashes = COLOURS[_GRADIENTS.index(k)], LINES[_LARGEST_LOADS.index(load)]
             axes.plot(line["mu"], line[column], color=colour, ls=dashes, lw=1.1, label=f"k = {k:g}, load to {load:g} P")
-        axes.axhline(1.0, color="0.5", lw=0.6)
+        level(axes, 1.0, color="0.5", lw=0.6)
         axes.set(xscale="log")
-    figure.legend(*lattice[0].get_legend_handles_labels(), loc="outside lower center", ncol=4)
+    legend_below(figure, 4)
 
 
 @paper_figure(_picture, size=(7.2, 3.2))

@@ -17,7 +17,7 @@ from comparisons.models.cohesive_events import CohesiveEvents
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.semi_rigid import SemiRigid
-from comparisons.numerics.number_text import LEAST_SHOWN, value_text
+from comparisons.numerics.number_text import LEAST_SHOWN, case_text, value_text
 from comparisons.paper.figures.gradient_effect import LAST_K, insensitive_regions, largest_chi
 from comparisons.paper.paper_figure import Plan, Reading, Tables, paper_figure, result_of, together
 from comparisons.paper.statements.measures import ROUNDING, measured, named
@@ -179,10 +179,9 @@ def readable(table: pd.DataFrame) -> Reading:
     rows = []
     for row in table.to_dict("records"):
         unit = f" {row['unit']}" if row["unit"] else ""
-        case = [f"{name} = {row[name]:g}" for name in ("n", "k") if not math.isnan(row[name])]
         small = abs(row["difference"]) <= LEAST_SHOWN
         texts = {name: row[name] for name in ("where", "quantity")}
-        texts["case"] = ", ".join([*case, *filter(None, [row["model"]])])
+        texts["case"] = ", ".join(filter(None, [case_text({name: row[name] for name in ("n", "k")}), row["model"]]))
         texts["printed"] = row["printed"] + unit
         texts["computed"] = value_text(row["computed"], row["u"]) + unit
         texts |= {"verdict": row["verdict"], "difference": "0" if small else f"{row['difference']:+.2g}{unit}"}
