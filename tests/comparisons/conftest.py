@@ -166,16 +166,8 @@ def typeset(tmp_path):
         pytest.skip(reason)
 
     def compiled(*tables, fits=True):
-        packages = "array,booktabs,longtable,pdflscape,siunitx"
-        document = "\n".join(
-            [
-                r"\documentclass[a4paper]{article}",
-                rf"\usepackage{{{packages}}}",
-                r"\begin{document}",
-                *tables,
-                r"\end{document}",
-            ]
-        )
+        head = r"\documentclass[a4paper]{article}\usepackage{array,booktabs,longtable,pdflscape,siunitx}"
+        document = "\n".join([head, r"\begin{document}", *tables, r"\end{document}"])
         (tmp_path / "table.tex").write_text(document, encoding="utf-8")
         order = [program, "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape", "table.tex"]
         done = subprocess.run(order, cwd=tmp_path, capture_output=True, check=False, stdin=subprocess.DEVNULL)

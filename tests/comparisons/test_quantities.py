@@ -21,12 +21,10 @@ def test_a_value_is_that_of_the_model_and_points_have_what_else_it_knows():
     ("name", "value", "admitted"),
     [
         ("pull_off_force", 0.0, False),
-        ("pull_off_force", 1.0, True),
         ("hysteresis_energy", 0.0, True),
         ("hysteresis_energy", -1e-9, False),
         ("jump_in_gap", -0.5, True),
         ("jump_out_gap", -1.0, False),
-        ("zero_load_displacement", -3.0, True),
         ("critical_tabor_number", 0.0, False),
     ],
 )

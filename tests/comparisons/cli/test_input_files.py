@@ -70,18 +70,8 @@ def test_paths_in_a_folder_and_paths_that_lead_out(tmp_path):
     (folder / "loop").symlink_to("../loop")
     (folder / "c").symlink_to("b/d")
     (tmp_path / "link").symlink_to("folder")
-    for name in (
-        "../a",
-        "/etc/hostname",
-        "b/../../a",
-        "b/../a",
-        "out",
-        "loop",
-        "b/up/a",
-        "a\0b",
-        "..",
-        str(folder / "a"),
-    ):
+    outside = ["../a", "/etc/hostname", "b/../../a", "b/../a", "out", "loop", "b/up/a", ".."]
+    for name in (*outside, "a\0b", str(folder / "a")):
         with pytest.raises(ValueError, match="leads out of the folder"):
             path_inside(folder, name)
     for name in ("a", "b/d", "./b//d", "c"):

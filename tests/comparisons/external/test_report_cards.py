@@ -8,7 +8,6 @@ from comparisons.domain import Domain
 from comparisons.external.model_source import close_models
 from comparisons.judging.fresh_cases import draw
 from comparisons.judging.gates import load_gates
-from comparisons.judging.judge import Judged, verdict_table
 from comparisons.judging.report_card import card_lines, verdict_sentence
 from comparisons.pipeline import inputs, report_cards
 from comparisons.pipeline.run import run
@@ -230,21 +229,9 @@ def test_the_digits_of_a_numerical_reference_are_no_pass(run_of_data):
     assert sentence.startswith("INCONCLUSIVE: 3 of 4 values are those of atlas")
 
 
-def test_a_run_without_a_gate_on_a_given_model_is_an_error(run_of_data):
-    judgement = run_of_data([2.0] * 4, GATE.replace('id = "GIVEN"', 'id = "OTHERS"').replace('"given"', '"jkr"'))
-    assert verdict_sentence("measured", judgement.verdicts) == "no gate was evaluated"
-    assert read_record(judgement.folder / "run.json")["verdicts"]["all"] == "ERROR"
-    assert main(["judge", str(judgement.folder)]) == 4
-
-
 def test_data_have_a_card_without_evaluations(run_of_data):
     judgement = run_of_data([2.0] * 4)
     assert judgement.verdict == "PASS"
     lines = dict(card_lines("measured", judgement.verdicts, judgement.cards["measured"], Domain(())))
     assert "a value in 4 of 4 (8 outside)" in lines["GIVEN"]
     assert lines["evaluated again"] == "nothing: data do not change"
-
-
-def test_the_sentence_on_a_model_in_error_has_the_reason():
-    broken = verdict_table([Judged("A", "pull_off_force", "mine", "fscm", reason="mine has no row")])
-    assert verdict_sentence("mine", broken) == "ERROR: mine has no row (A)"

@@ -9,17 +9,12 @@ from comparisons import create
 from comparisons.paper.statements import formulas, measures, paths, surfaces
 from comparisons.paper.statements.evidence import (
     FAILS,
-    FALSE,
     HOLDS,
-    IN_PART,
     READING,
-    TRUE,
     UNDECIDED,
     Evidence,
     Number,
     by_clause,
-    flips,
-    verdict_at,
 )
 from comparisons.paper.statements.kinds import extrapolated, vanishes
 from comparisons.paper.statements.paths import count_jumps, turning_points
@@ -53,31 +48,6 @@ def test_each_clause_model_and_kind_of_limit_keeps_the_largest_failure_before_wh
     assert [row.outcome for row in by_clause(rows[:2])] == [UNDECIDED]
     more = [comparison(-2.0, clause="n = 1"), comparison(-3.0, model="fem"), comparison(-4.0, title=READING)]
     assert [row.value.value for row in by_clause([*rows, *more])] == [2.0, -2.0, -3.0, -4.0]
-
-
-def read(*values, limit=2.0, relation="<", u=0.0, title=READING):
-    return [
-        comparison(value, limit, u, relation=relation, clause=f"mu = {i}", title=title)
-        for i, value in enumerate(values)
-    ]
-
-
-@pytest.mark.parametrize(
-    ("evidence", "expected"),
-    [
-        (read(3.0, 5.0), {IN_PART: 1.5, TRUE: 2.5}),
-        (read(1.0, 5.0), {FALSE: 0.5, TRUE: 2.5}),
-        (read(3.0, relation=">"), {FALSE: 1.5}),
-        # Within its bound nothing is decided.
-        (read(3.0, u=0.5), {TRUE: 1.75}),
-        (read(1e-9, u=1.0), {}),
-        (read(1.0, title="another computed number"), {}),
-    ],
-)
-def test_the_nearest_factor_of_every_other_verdict(evidence, expected):
-    assert flips(evidence) == pytest.approx(expected)
-    for other, factor in flips(evidence).items():
-        assert verdict_at(evidence, 2.0 * factor * (1.0 + math.copysign(1e-6, factor - 1.0))) == other
 
 
 def sequence(function, u=0.0):

@@ -6,6 +6,9 @@ from comparisons.cli.main import main
 from comparisons.model import ComputationFailed
 from comparisons.paper.paper_figure import PaperFigure, calls_of, given, result_of
 from comparisons.paper.registry import NAMES, paper_figures
+from comparisons.pipeline.figures import make_figures
+from comparisons.pipeline.judgement import judge_folder
+from comparisons.runs.record import check_files, read_record
 
 
 def fail(x):
@@ -39,7 +42,15 @@ def test_a_failed_call_leaves_out_its_own_figure_only_and_two_runs_give_the_same
     tmp_path, capsys, refused, monkeypatch
 ):
     refused(["paper", "--figure", "99", "--out", tmp_path], "'99'")
-    assert main(["paper", "--figure", "2", "--jobs", "1", "--out", str(tmp_path / "a")]) == 0
+    (finished,) = make_figures(["2"], tmp_path / "a")
+    record = read_record(tmp_path / "a" / "run.json")
+    assert (record["command_name"], record["arguments"]) == ("paper", {"figure": ["2"]})
+    assert set(record["files"]) == {path.name for path in finished.files}
+    check_files(record, tmp_path / "a")
+    make_figures(["2"], tmp_path / "a")
+    assert read_record(tmp_path / "a" / "run.json")["rows"]["resumed"] == record["rows"]["all"]
+    with pytest.raises(ValueError, match="which no gate judges"):
+        judge_folder(tmp_path / "a")
     monkeypatch.setattr("comparisons.pipeline.figures.paper_figures", lambda names: [FAILING, *paper_figures(names)])
     assert main(["paper", "--figure", "2", "--jobs", "1", "--out", str(tmp_path / "b")]) == 4
     printed = capsys.readouterr()

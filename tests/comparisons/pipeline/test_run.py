@@ -8,8 +8,6 @@ import pytest
 import comparisons
 from comparisons.cli.main import main
 from comparisons.data.file_names import RUN_FILES, VERDICT_FILES
-from comparisons.pipeline.figures import make_figures
-from comparisons.pipeline.judgement import judge_folder
 from comparisons.pipeline.run import run
 from comparisons.runs.record import check_files, read_record
 from tests.comparisons.conftest import GRID as STANDING
@@ -68,23 +66,6 @@ def test_grids_of_a_user_can_be_judged_at_once_and_later(small_grid, tmp_path, c
     assert main(["judge", str(tmp_path / "later"), "--gates", str(tmp_path / "gates.toml")]) == 1
     assert read_record(tmp_path / "later" / "run.json")["command_name"] == "run"
     assert main(["judge", str(tmp_path / "later")]) == 1
-
-
-def test_the_figures_of_the_paper_have_a_record(tmp_path):
-    (finished,) = make_figures(["2"], tmp_path)
-    assert finished.failure == ""
-    record = read_record(tmp_path / "run.json")
-    assert record["command_name"] == "paper"
-    assert record["arguments"] == {"figure": ["2"]}
-    assert set(record["files"]) == {path.name for path in finished.files}
-    assert sum(part["computations"] for part in record["parts"]) == record["rows"]["all"]
-    make_figures(["2"], tmp_path)
-    assert read_record(tmp_path / "run.json")["rows"]["resumed"] == record["rows"]["all"]
-    with pytest.raises(ValueError, match="which no gate judges"):
-        judge_folder(tmp_path)
-    (tmp_path / "fig02_kernel_functions.csv").write_text("changed")
-    with pytest.raises(ValueError, match=r"fig02_kernel_functions\.csv was changed"):
-        check_files(record, tmp_path)
 
 
 def test_names_are_exported_and_the_import_is_light():

@@ -96,12 +96,9 @@ def test_what_is_written_is_read(tmp_path):
 @pytest.mark.parametrize(
     ("change", "named"),
     [
-        ({"format": 1}, "format"),
         ({"parts": [{"started": "2026-01-01T00:00:00+00:00"}]}, "parts"),
-        ({"surprise": 1}, "surprise"),
         ({"cases_sha256": "short"}, "cases_sha256"),
         ({"started": "yesterday"}, "started"),
-        ({"rows": {"all": -1, "resumed": 0}}, "rows.all"),
         ({"arguments": {"tier": "quick"}}, "arguments"),
         ({"gates_sha256": None}, "gates_sha256"),
     ],

@@ -61,13 +61,10 @@ def test_each_model_has_a_row_with_its_coverage(small_grid, tmp_path):
     assert "not judged in the same way" not in page
 
 
-def test_runs_of_different_gates_are_mixed_only_if_the_page_states_it(small_grid, tmp_path, capsys):
+def test_runs_of_different_gates_are_mixed_only_if_the_page_states_it(small_grid, tmp_path, refused):
     folders = [run(tmp_path, "a", "ten-percent"), run(tmp_path, "b", "ten-percent", gate=GATE.replace("0.11", "0.2"))]
-    capsys.readouterr()
-    path = tmp_path / "board.html"
-    assert main(["leaderboard", *map(str, folders), "--out", str(path)]) == 2
-    assert "(different: gates)" in capsys.readouterr().err
-    assert not path.exists()
+    refused(["leaderboard", *folders, "--out", tmp_path / "board.html"], "(different: gates)")
+    assert not (tmp_path / "board.html").exists()
     page = board(folders, tmp_path, "--mixed")
     assert "These runs were not judged in the same way" in page
     assert [row["set"] for row in table_of(page)] == ["A", "B"]
@@ -131,17 +128,12 @@ def test_a_verdict_on_the_whole_model_counts_for_every_quantity():
         assert row["verdict"] == expected
 
 
-def test_a_part_of_a_sweep_and_a_wrong_path_are_refused(toys, tmp_path, capsys):
+def test_a_part_of_a_sweep_and_a_wrong_path_are_refused(toys, tmp_path, refused):
     (tmp_path / "grid.toml").write_text(GRID.replace('tier = "quick"\n', ""))
     sweep = ["sweep", str(tmp_path / "grid.toml"), "--jobs", "1", "--quiet"]
     assert main([*sweep, "--shard", "1/2", "--out", str(tmp_path / "part")]) == 0
     assert main([*sweep, "--out", str(tmp_path / "whole")]) == 0
-    for folder, out, sentence in (
-        ("part", "a.html", "is the part 1/2 of a sweep"),
-        ("whole", "a.txt", "must end in .html"),
-        ("none", "a.html", "is not the folder of a finished run"),
-    ):
-        assert main(["leaderboard", str(tmp_path / folder), "--out", str(tmp_path / out)]) == 2
-        assert sentence in capsys.readouterr().err
+    refused(["leaderboard", tmp_path / "part", "--out", tmp_path / "a.html"], "is the part 1/2 of a sweep")
+    refused(["leaderboard", tmp_path / "whole", "--out", tmp_path / "a.txt"], "must end in .html")
     # Nothing was judged.
     assert "verdict" not in table_of(board([tmp_path / "whole"], tmp_path))[0]
