@@ -33,7 +33,7 @@ from comparisons.data.file_names import (
     RESULTS,
 )
 from comparisons.paper import baseline as paper_baseline
-from comparisons.runs.atomic_files import atomic
+from comparisons.runs.atomic_files import write_file
 from comparisons.runs.case_columns import with_problem
 from comparisons.runs.committed import committed
 from comparisons.runs.csv_format import csv_text, read_table
@@ -91,8 +91,7 @@ def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
         contents[name] = (folder / source).read_bytes()
     target.mkdir(parents=True, exist_ok=True)
     for name, content in contents.items():
-        with atomic(target / name) as file:
-            file.write(content)
+        write_file(target / name, content)
     return [target / name for name in contents]
 
 

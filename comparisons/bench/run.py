@@ -18,7 +18,7 @@ from comparisons.bench.work_precision import WORK_PRECISION
 from comparisons.data.file_names import BENCH, BENCH_SUMMARY
 from comparisons.output.style import save
 from comparisons.paper.cache import make_calls
-from comparisons.runs.atomic_files import atomic, prepare_folder, write_json
+from comparisons.runs.atomic_files import prepare_folder, write_file, write_json
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.environment import environment
 
@@ -82,8 +82,7 @@ def run_bench(folder: Path, only: Sequence[str] | None = None, *, full: bool = F
     arguments = {"only": only and list(only), "full": full}
     content = {"arguments": arguments, **record, "parts": computed.parts, "failures": len(failures)}
     write_json(content, folder / BENCH)
-    with atomic(folder / BENCH_SUMMARY) as file:
-        file.write("".join(f"{line}\n" for line in summary).encode())
+    write_file(folder / BENCH_SUMMARY, "".join(f"{line}\n" for line in summary))
     return FinishedBench(summary, failures)
 
 
@@ -91,8 +90,7 @@ def _written(folder: Path, part: Part, table: pd.DataFrame) -> list[str]:
     """Write the table and the figure of a part; return what is printed."""
     finished = table[table["status"] == "ok"]
     table_file, *figure_files = part.files(folder)
-    with atomic(table_file) as file:
-        file.write(csv_text(table).encode())
+    write_file(table_file, csv_text(table))
     if finished.empty:
         return []
     for figure_file in figure_files:

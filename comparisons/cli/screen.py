@@ -11,7 +11,7 @@ from comparisons.console.exit_status import FAILED, OK, writing_stdout
 from comparisons.console.printable import printable
 from comparisons.console.progress import log, note
 from comparisons.console.safe_console import SafeConsole
-from comparisons.runs.atomic_files import atomic
+from comparisons.runs.atomic_files import write_file
 from comparisons.runs.rows import Row
 
 #: Columns of a table when stdout is not a terminal: the same text in every log and file.
@@ -37,8 +37,7 @@ def print_lines(lines: Iterable[str]) -> None:
 
 def write_page(text: str, path: Path, name: str) -> None:
     """Write a page and say where it is."""
-    with atomic(path) as page:
-        page.write(text.encode())
+    write_file(path, text)
     log(f"the {name} is {path}")
 
 

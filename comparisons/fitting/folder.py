@@ -24,7 +24,7 @@ from comparisons.output.style import COLOURS, new_figure, save, styled
 from comparisons.output.table import Column, Record, Table
 from comparisons.problem import Problem
 from comparisons.problem.units import prefixed_unit, si_text
-from comparisons.runs.atomic_files import atomic
+from comparisons.runs.atomic_files import write_file
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.store import Form, Store
 from comparisons.runs.workers import processes
@@ -154,8 +154,7 @@ def write_fits(folder: Path, items: Sequence[Mapping[str, Any]]) -> None:
         "fits.tex": latex(table.texts, table.caption, table.id),
     }
     for name, text in texts.items():
-        with atomic(folder / name) as file:
-            file.write(text.encode())
+        write_file(folder / name, text)
 
 
 def draw(fitted: Fit) -> Figure:

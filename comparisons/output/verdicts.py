@@ -23,7 +23,7 @@ from comparisons.output.table import CASE, Column, Record, Table, columns
 from comparisons.problem import PARAMETERS
 from comparisons.problem.problem import split_name
 from comparisons.quantities import CURVES
-from comparisons.runs.atomic_files import atomic
+from comparisons.runs.atomic_files import write_file
 from comparisons.runs.csv_format import write_table
 
 #: Names of gates that are listed in one sentence.
@@ -176,9 +176,6 @@ def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate], specs:
     ]
     by_gate = Table("verdicts", "Verdicts", layout, summary)
     worst = Table("verdicts", "Verdicts of fscm-bench, worst first, each in its worst case", _WORST_CASES, summary)
-    contents = {folder / JUNIT: junit(judged, again)}
+    write_file(folder / JUNIT, junit(judged, again))
     for suffix, text_of in FORMATS.items():
-        contents[folder / f"{VERDICTS}.{suffix}"] = text_of(by_gate, worst).encode()
-    for path, content in contents.items():
-        with atomic(path) as file:
-            file.write(content)
+        write_file(folder / f"{VERDICTS}.{suffix}", text_of(by_gate, worst))

@@ -9,7 +9,7 @@ import pandas as pd
 
 from comparisons.data.file_names import BASELINE_FOLDER
 from comparisons.paper.registry import paper_figures
-from comparisons.runs.atomic_files import atomic
+from comparisons.runs.atomic_files import write_file
 from comparisons.runs.committed import committed
 
 #: Folder of the committed figures, in a clone of the repository.
@@ -56,8 +56,7 @@ def replace_files(sources: Mapping[str, Sequence[Path]], folder: Path, target: P
         stale.unlink()
     copies = {target / path.name: path for files in sources.values() for path in files}
     for copy, source in copies.items():
-        with atomic(copy) as file:
-            file.write(source.read_bytes())
+        write_file(copy, source.read_bytes())
     return list(copies)
 
 

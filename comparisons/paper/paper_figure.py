@@ -17,7 +17,7 @@ from comparisons.output.markup import markdown
 from comparisons.output.style import save, styled
 from comparisons.output.terminal import records
 from comparisons.paper.cache import CachedCall, Outcome
-from comparisons.runs.atomic_files import atomic
+from comparisons.runs.atomic_files import write_file
 from comparisons.runs.csv_format import csv_text
 
 T = TypeVar("T")
@@ -203,8 +203,7 @@ class PaperFigure:
         texts = {self.table_file(name): csv_text(table) for name, table in tables.items()}
         texts |= {f"{self.stem}{suffix}": text for suffix, text in self.texts(tables).items()}
         for name, text in texts.items():
-            with atomic(folder / name) as file:
-                file.write(text.encode())
+            write_file(folder / name, text)
         pictures = [folder / f"{self.stem}{suffix}" for suffix in _FORMATS] if picture else []
         if picture:
             save(picture, *pictures)

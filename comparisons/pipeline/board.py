@@ -21,7 +21,7 @@ from comparisons.pipeline.run import run
 from comparisons.pipeline.submissions import read_submission, submission_folders
 from comparisons.pipeline.tables import REFERENCE
 from comparisons.registry import create
-from comparisons.runs.atomic_files import atomic, prepare_folder
+from comparisons.runs.atomic_files import prepare_folder, write_file
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.store import rows_in
 from comparisons.runs.tasks import plan
@@ -77,8 +77,7 @@ def make_board(submissions: Path, site: Path, jobs: int = 1) -> Board:
         # Each model is a process, which is not needed any more.
         close_models()
     page = site / INDEX
-    with atomic(page) as file:
-        file.write(render(board_page(entries)).encode())
+    write_file(page, render(board_page(entries)))
     return Board(page, entries)
 
 
@@ -90,8 +89,7 @@ def _prepare(site: Path) -> None:
         raise ValueError(f"{site} holds files that are not of a board; choose another folder with --out")
     if not code.exists() or code.read_text(encoding="utf-8") != fingerprint():
         shutil.rmtree(site / "models", ignore_errors=True)
-        with atomic(code) as file:
-            file.write(fingerprint().encode())
+        write_file(code, fingerprint())
 
 
 def _entry(folder: Path, root: Path, site: Path, earlier: list[BoardEntry], jobs: int) -> BoardEntry:
@@ -122,9 +120,7 @@ def _judge(submission: Submission, site: Path, earlier: list[BoardEntry], jobs: 
         with rows_in(target) as store, rows_in(site / judged[-1]) as source:
             store.take(source, lambda row: row.model == REFERENCE)
     run(models=[submission.spec], folder=target, jobs=jobs)
-    page = render(make_page(read_folder(target)))
-    with atomic(target / REPORT) as file:
-        file.write(page.encode())
+    write_file(target / REPORT, render(make_page(read_folder(target))))
 
 
 def leaderboard(folders: Sequence[Path], mixed: bool = False) -> str:

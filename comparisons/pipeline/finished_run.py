@@ -17,7 +17,7 @@ from comparisons.pipeline.judgement import Judgement, judge_and_write
 from comparisons.pipeline.report_cards import make_cards
 from comparisons.pipeline.tables import RunTables, make_tables, write_pictures, write_tables
 from comparisons.registry import ExternalIdentity, create
-from comparisons.runs.atomic_files import atomic
+from comparisons.runs.atomic_files import write_file
 from comparisons.runs.computation import Completed
 from comparisons.runs.record import read_record, record_content, write_record
 from comparisons.runs.rows import Row
@@ -76,8 +76,7 @@ def write_run(folder: Path, inputs: RunInputs, completed: Completed, started: st
         write_pictures(tables, folder)
     for path, content in texts.items():
         path.parent.mkdir(parents=True, exist_ok=True)
-        with atomic(path) as file:
-            file.write(content)
+        write_file(path, content)
     tasks = inputs.plan()
     judgement: Judgement | None = None
     if gates is not None:

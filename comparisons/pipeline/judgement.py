@@ -21,7 +21,7 @@ from comparisons.judging.selection import relevant
 from comparisons.judging.summary import COVERAGE, summarise
 from comparisons.output.verdicts import write_verdicts
 from comparisons.pipeline.inputs import RunInputs, read_gates, stored_inputs
-from comparisons.runs.atomic_files import atomic
+from comparisons.runs.atomic_files import write_file
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
@@ -115,8 +115,7 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
     assert inputs.gates is not None
     label, checksum = inputs.gates.source or "the standing gates", inputs.gates.sha256
     if name == "sweep":
-        with atomic(folder / GATES_TEXT) as file:
-            file.write(inputs.gates.text.encode())
+        write_file(folder / GATES_TEXT, inputs.gates.text)
         arguments["gates"] = label
         record |= {"command_name": "run", "gates_sha256": checksum}
     same_gates = checksum == record.get("gates_sha256")

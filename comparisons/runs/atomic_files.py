@@ -96,7 +96,12 @@ def atomic(path: Path) -> Iterator[IO[bytes]]:
         raise
 
 
+def write_file(path: Path, content: str | bytes) -> None:
+    """Write a text in UTF-8, or bytes, as `atomic`."""
+    with atomic(path) as file:
+        file.write(content.encode() if isinstance(content, str) else content)
+
+
 def write_json(content: dict[str, Any], path: Path) -> None:
     """Write a JSON object; NaN and infinity are refused."""
-    with atomic(path) as file:
-        file.write(json.dumps(content, indent=2, allow_nan=False).encode() + b"\n")
+    write_file(path, json.dumps(content, indent=2, allow_nan=False) + "\n")

@@ -12,7 +12,7 @@ import pandas as pd
 from comparisons.data.columns import column
 from comparisons.data.input_files import LARGEST_ROWS, read_bytes
 from comparisons.problem import PARAMETERS
-from comparisons.runs.atomic_files import atomic
+from comparisons.runs.atomic_files import write_file
 
 #: Start of a text that a spreadsheet evaluates, or that `csv_text` has marked already: both get an apostrophe, so that
 #: a reader can take away one.
@@ -48,8 +48,7 @@ def csv_text(table: pd.DataFrame) -> str:
 
 def write_table(table: pd.DataFrame, stem: Path) -> None:
     """Write a table as `stem`.csv, without wall-clock seconds: the file depends on code and cases alone."""
-    with atomic(stem.with_suffix(".csv")) as file:
-        file.write(csv_text(table.drop(columns="seconds", errors="ignore")).encode())
+    write_file(stem.with_suffix(".csv"), csv_text(table.drop(columns="seconds", errors="ignore")))
 
 
 def read_table(path: Path) -> pd.DataFrame:

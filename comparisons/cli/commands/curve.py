@@ -19,7 +19,7 @@ from comparisons.problem import Problem
 from comparisons.problem.evaluation import evaluated
 from comparisons.quantities import CURVES, Points
 from comparisons.registry import create, identify
-from comparisons.runs.atomic_files import atomic, writable_file
+from comparisons.runs.atomic_files import writable_file, write_file
 from comparisons.runs.csv_format import csv_text
 
 EXAMPLES = (
@@ -55,8 +55,7 @@ def call(args: argparse.Namespace) -> int:
     if problem.name:
         table, quantity = table.rename(columns=quantity.columns_in_si), quantity.in_si
     if file_of_points:
-        with atomic(file_of_points) as written:
-            written.write(csv_text(table).encode())
+        write_file(file_of_points, csv_text(table))
     if args.plot:
         axes = {CURVES[args.quantity].x.name: "x", CURVES[args.quantity].y.name: "y"}
         rows = _table(points_of_models, args.quantity).rename(columns=axes).assign(case=problem.label)
