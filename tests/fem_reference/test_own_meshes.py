@@ -76,6 +76,7 @@ def test_every_order_of_quantities_finds_the_events_after_a_jump_before_contact(
     assert 0.0 < gap.value == pytest.approx(other_gap.value, abs=gap.u_num + other_gap.u_num)
 
 
+@pytest.mark.heavy
 def test_the_bound_of_a_second_event_holds():
     """On the mesh of the pull-off the three values at zero load turn back, 1.4 bounds from the value."""
     problem = Problem(Exponential(2.0, 1.0, 2.0, 0.3), PowerPunch(5.0, 1.0), LAW)

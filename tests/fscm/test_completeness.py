@@ -190,7 +190,7 @@ def test_no_minimum_follows_the_end_of_a_path(E, thickness):
     """By JKR, up to three times the contact radius of the softest material: the load rises from the end on."""
     analysis, unit = stiff_on_soft(E, thickness)
     limit = jkr(Stack(((E, 0.4, thickness),), SUBSTRATE), WORK, R)
-    radii = np.geomspace(analysis.points[-1].state.scale * unit, limit.reach, 6)
+    radii = np.geomspace(analysis.points[-1].state.scale * unit, limit.reach, 3)
     loads = [limit.state(a).load for a in radii]
     assert loads[0] > 0.0
     assert np.all(np.diff(loads) > 0.0)

@@ -14,6 +14,7 @@ from fscm._events import MISSED_EXTREME
 from fscm._meshes import Meshes
 from fscm.solution import Parts
 from tests.fscm.equilibria_on_finer_meshes import pair
+from tests.marks import heavy
 
 #: The rate of an error is a central difference of errors of first order.  Measured worst 2e-4.
 RATE = 2e-3
@@ -139,7 +140,7 @@ def test_the_error_of_a_common_panel_cancels_as_far_as_the_pressures_are_the_sam
         assert parts.mesh == pytest.approx(2.0 * (3e-9 + 5e-9 + 2e-9 + 0.1e-9 + left), rel=1e-12)
 
 
-@pytest.mark.parametrize(("k", "mu", "slope"), [(0.3, 0.8, 1.5), (0.0, 2.0, 5.0)])
+@pytest.mark.parametrize(("k", "mu", "slope"), [(0.3, 0.8, 1.5), *heavy((0.0, 2.0, 5.0))])
 def test_the_hysteresis_of_a_rounded_cone_is_bounded_by_its_own_error(k, mu, slope):
     """The energy of a cone diverges with the end of the mesh, which differs between the ends of a jump."""
     problem = Problem(1, k, mu, RoundedCone(1.0, slope))

@@ -16,6 +16,7 @@ from fscm.laws import LennardJones, Mie
 from fscm.problem import Problem
 from fscm.punch import RoundedCone
 from fscm.tabulated_law import TabulatedLaw
+from tests.marks import heavy
 
 LAW = LennardJones()
 # 2 mu^2 p'_max = 1 with p'_max = 8 q^4 - 24 q^10 at q^6 = 2/15.
@@ -125,7 +126,7 @@ def test_hysteresis_is_the_area_between_loading_and_unloading(mu):
     assert model.solution("hysteresis_energy").value == pytest.approx(area, rel=1e-8)
 
 
-@pytest.mark.parametrize("n", [1.0, 2.0, pytest.param(5.0, marks=pytest.mark.heavy)])
+@pytest.mark.parametrize("n", [1.0, 2.0, *heavy(5.0)])
 def test_load_is_stationary_at_pull_off_and_zero_at_zero_load(n):
     for mu in (0.5, 2.0):
         model = solid(n, mu)
@@ -145,7 +146,7 @@ def test_no_jump_below_the_critical_tabor_number():
 
 
 @pytest.mark.parametrize(
-    ("n", "quantity"), [(2, "pull_off_force"), (2, "zero_load_displacement"), (5, "pull_off_force")]
+    ("n", "quantity"), [(5, "pull_off_force"), *heavy((2, "pull_off_force"), (2, "zero_load_displacement"))]
 )
 def test_the_solver_for_graded_solids_tends_to_it(n, quantity):
     # The leading correction is linear in 1 - k: Richardson from k = 0.9 and 0.95 leaves the quadratic one.

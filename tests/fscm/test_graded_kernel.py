@@ -44,9 +44,18 @@ SOLIDS = {
 OFTEN = ("offset", "exponential", "steep", "sharp layer", "table", "waves")
 
 
+#: So thick that the radii and waves of the tests are in the layer.
+THICK = Coating(1.0, 4.0, 1e12, 0.0, 0.3)
+
+
 @lru_cache
 def kernel(name):
     return GradedKernel(SOLIDS[name])
+
+
+@lru_cache
+def thick():
+    return GradedKernel(THICK)
 
 
 def test_a_stiff_layer_on_a_soft_one_on_a_stiff_solid_bends_over_many_thicknesses():
@@ -68,7 +77,7 @@ _ROUNDING = 1e-14
 
 @pytest.mark.parametrize("name", [*OFTEN, *heavy(*(name for name in SOLIDS if name not in OFTEN))])
 def test_the_images_are_wrong_by_no_more_than_their_bound_at_any_wave_number(name):
-    xi = np.geomspace(1e-4, 1e4, 961)
+    xi = np.geomspace(1e-4, 1e4, 241)
     assert np.all(np.abs(_signed_error(name, xi)) <= kernel(name).images.error(xi) + _ROUNDING)
 
 
@@ -106,20 +115,15 @@ def test_the_table_follows_the_images(name):
 def test_homogeneous_limits():
     r, t = 10.0 ** np.random.default_rng(2).uniform(-2.0, 2.0, (2, 50))
     plain = ring_response(0.0, r, t)
-    for solid in (
-        Exponential(2.0, 2.0, 1.0, 0.3),
-        OffsetPowerLaw(1.0, 1.0, 0.0, 1.0, 0.3),
-        Coating(2.0, 2.0, 1.0, 0.0, 0.3),
-    ):
-        assert np.allclose(GradedKernel(solid).response(r, t), plain, rtol=1e-9, atol=0.0)
-    thick, thin = Coating(1.0, 4.0, 1e12, 0.0, 0.3), Coating(1.0, 4.0, 1e-13, 0.0, 0.3)
-    assert np.allclose(GradedKernel(thick).response(r, t), plain, rtol=1e-9, atol=0.0)
+    thin = Coating(1.0, 4.0, 1e-13, 0.0, 0.3)
+    for kernel in (GradedKernel(Exponential(2.0, 2.0, 1.0, 0.3)), thick()):
+        assert np.allclose(kernel.response(r, t), plain, rtol=1e-9, atol=0.0)
     assert np.allclose(GradedKernel(thin, 1e3).response(r, t), 0.25 * plain, rtol=1e-9, atol=0.0)
 
 
 def test_nothing_is_left_of_the_images_beyond_their_last_wave_number():
-    """Under a layer so thick that its radii are there; strengths that cancelled below left 6e-9 of the kernel."""
-    images = GradedKernel(Coating(1.0, 4.0, 1e12, 0.0, 0.3)).images
+    """Strengths that cancelled below left 6e-9 of the kernel."""
+    images = thick().images
     xi = images.waves[-1] * np.geomspace(1.0, 1e4, 200)
     assert np.max(np.abs(images.at(xi) - 1.0)) < 1e-11
 

@@ -21,12 +21,14 @@ from fscm.analysis import Analysis
 from fscm.graded import response_of
 from fscm.graded.panels import remainder
 from fscm.stability import margins
+from tests.fscm.solved_once import analysis_of
 
 SOFT_BELOW = Coating(5.0, 1.0, 0.7, 0.1, 0.3)
+GRADED = Problem(2, 0.0, 0.3, graded=SOFT_BELOW)
 
 
 def test_rates_along_the_path_are_exact():
-    state = Analysis(Problem(2, 0.0, 1.0, graded=SOFT_BELOW)).event("pull_off").value
+    state = analysis_of(GRADED).event("pull_off").value
     rates, step = rates_of(state), 1e-3
     assert state.parameter == "log_scale"
     after, before = (moved(state, rates, parameter_of(state) + sign * step, 1e-12) for sign in (1.0, -1.0))
@@ -37,7 +39,7 @@ def test_rates_along_the_path_are_exact():
 
 
 def test_the_error_of_the_kernel_is_a_part_of_the_bound():
-    parts = solve(Problem(2, 0.0, 1.0, graded=SOFT_BELOW), "pull_off_force").parts
+    parts = analysis_of(GRADED).solution("pull_off_force").parts
     assert 0.0 < parts["kernel"] < 1e-7
     assert solve(Problem(2, 0, 1.0), "pull_off_force").parts["kernel"] == 0.0
 
@@ -64,7 +66,7 @@ def test_the_short_path_is_for_power_laws_alone():
     gaps = np.geomspace(0.75, 20.0, 100)
     law = TabulatedLaw(gaps, gaps**-9 - gaps**-3, tail_exponent=3)
     assert pull_off_path(Problem(2, 0.0, 1.0, law=law), Meshes()) is None
-    assert pull_off_path(Problem(2, 0.0, 1.0, graded=SOFT_BELOW), Meshes()) is None
+    assert pull_off_path(GRADED, Meshes()) is None
     assert pull_off_path(Problem(1, 0.2, 1.0, punch=RoundedCone(2.0)), Meshes()) is None
 
 
@@ -73,7 +75,7 @@ def test_what_needs_a_power_law_is_refused_in_one_sentence():
         Problem(2, 0.4, 1.0, graded=SOFT_BELOW)
     with pytest.raises(ValueError, match="is no graded solid"):
         Problem(2, 0.0, 1.0, graded=3.0)
-    state = Analysis(Problem(2, 0.0, 0.3, graded=SOFT_BELOW)).event("pull_off").value
+    state = analysis_of(GRADED).event("pull_off").value
     assert np.isfinite(margins(state, 0)).all()
     with pytest.raises(NotConverged, match="power-law modulus only"):
         margins(state, 1)

@@ -132,7 +132,7 @@ def test_units_do_not_move_anything_dimensionless(n, k, nu, E0, c0, Q, w, z0, me
 
 def test_results_have_the_units_of_the_problem():
     """A soft sphere in micrometres and pascals against its dimensionless problem."""
-    p = physical(E0=2e9, k=0.0, work_of_adhesion=0.2)
+    p = physical(E0=2e10, k=0.0, work_of_adhesion=0.2)
     core, units = p.dimensionless, p.units
     kinds = {"pull_off_force": "load", "jump_in_gap": "gap", "hysteresis_energy": "energy"}
     in_units, plain = solve_together(p, kinds), solve_together(core, kinds)

@@ -14,8 +14,8 @@ from fscm._meshes import Mesh, Meshes
 from fscm.graded import images, panels, patches, response
 
 COUNT = 40
-#: Of the light tests: a sphere on a sharp layer.
-LIGHT = (1,)
+#: Of the light tests: n = 3 on an offset power law.
+LIGHT = (29,)
 QUANTITIES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
 FINE = Meshes(value=Mesh(16, 1e-9), end_height=1e7)
 #: Rounding of the reference, relative: the scatter between orders 16 to 24 (test_honesty.py).

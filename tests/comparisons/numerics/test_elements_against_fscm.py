@@ -24,14 +24,19 @@ def _table():
     return table
 
 
-def _disagreements(number, elements):
-    """Quantities whose values differ by more than both bounds, or that exist by one method only."""
+@lru_cache(maxsize=4)
+def _by_fscm(number):
     n, k, mu, _ = problems(number + 1)[number]
-    names = [row["quantity"] for row in elements if row["quantity"] in fscm.QUANTITIES]
+    names = [row["quantity"] for row in _table()[number] if row["quantity"] in fscm.QUANTITIES]
     try:
-        other = fscm.solve_together(fscm.Problem(n, k, mu), names)
+        return fscm.solve_together(fscm.Problem(n, k, mu), names)
     except fscm.NotConverged:
         return {}
+
+
+def _disagreements(number, elements):
+    """Quantities whose values differ by more than both bounds, or that exist by one method only."""
+    other = _by_fscm(number)
     differing = {}
     for row in elements:
         name, status = row["quantity"], row["status"]
