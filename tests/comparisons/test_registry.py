@@ -1,10 +1,11 @@
-"""Registry of the models of its folder, and the contract that each of them keeps."""
+"""Registries of the models of a folder, with the contract that each of them keeps, and of the quantities."""
 
 import pytest
 
 from comparisons import registry
 from comparisons.model import HasCurve, Model
 from comparisons.problem import Problem
+from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import MODELS, create, declared_models
 from comparisons.runs.tasks import evaluate
 
@@ -76,3 +77,26 @@ def test_a_module_without_the_literal_declares_nothing(source):
 def test_a_declaration_must_be_a_literal():
     with pytest.raises(ValueError, match="malformed"):
         declared_models("MODELS = {name: name for name in ()}")
+
+
+def test_a_value_is_that_of_the_model_and_points_have_what_else_it_knows():
+    model, problem = create("jkr"), Problem.dimensionless(n=2, k=0, mu=0.3)
+    curve, points = model.curve(problem), CURVES["force_curve"].evaluate(model, problem)
+    assert QUANTITIES["pull_off_force"].evaluate(model, problem).value == pytest.approx(1.5, rel=1e-14)
+    assert (points.x, points.y) == (curve.displacement.tolist(), curve.load.tolist())
+    assert list(points.columns) == ["contact_radius"]
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "admitted"),
+    [
+        ("pull_off_force", 0.0, False),
+        ("hysteresis_energy", 0.0, True),
+        ("hysteresis_energy", -1e-9, False),
+        ("jump_in_gap", -0.5, True),
+        ("jump_out_gap", -1.0, False),
+        ("critical_tabor_number", 0.0, False),
+    ],
+)
+def test_the_sign_rule_is_that_of_the_scale(name, value, admitted):
+    assert QUANTITIES[name].admits(value) is admitted

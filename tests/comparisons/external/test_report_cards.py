@@ -160,13 +160,12 @@ def finished(tmp_path_factory):
     """The run of all these models, and the gates file and the folder."""
     folder = tmp_path_factory.mktemp("cards")
     (folder / "models").mkdir()
-    (folder / "gates.toml").write_text(GATE)
     specs = [conftest.model_file(folder / "models", body, name, more) for name, (body, more, *_) in MODELS.items()]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
         with pytest.MonkeyPatch.context() as during_the_run:
             leave_out_processes(during_the_run)
-            judgement = run("quick", folder / "gates.toml", specs, folder / "out", random=5, seed=1).judgement
+            judgement = run("quick", GATE, specs, folder / "out", random=5, seed=1).judgement
         yield judgement
         close_models()
 
@@ -204,34 +203,20 @@ def test_the_record_has_coverage_and_fresh_cases_and_a_new_judgement_is_the_same
     assert "Report cards of the given models" in (finished.folder / "report.html").read_text()
 
 
-@pytest.fixture
-def run_of_data(tmp_path, monkeypatch, write_data):
-    """Return a function that runs predictions for n = 2 in the cases above, and returns the judgement."""
-
-    def called(values, gate=GATE, reference="dmt"):
-        monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID.replace('"dmt"', f'"{reference}"')))
-        (tmp_path / "gates.toml").write_text(gate)
-        rows = [
-            f"pull_off_force,2,{k},{mu},{value!r},1e-6" for (_, k, mu), value in zip(STANDING[4:8], values, strict=True)
-        ]
-        return run("quick", tmp_path / "gates.toml", [str(write_data(rows))], tmp_path / "runs").judgement
-
-    return called
-
-
-def test_the_digits_of_a_numerical_reference_are_no_pass(run_of_data):
-    problems = [Problem.dimensionless(*case) for case in STANDING[4:8]]
-    values = [create("atlas").evaluate(problem, "pull_off_force").value for problem in problems]
+def test_the_digits_of_a_numerical_reference_are_no_pass_and_data_are_not_evaluated_again(
+    tmp_path, monkeypatch, write_data
+):
+    monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID.replace('"dmt"', '"atlas"')))
+    atlas, factors = create("atlas"), (1.0, 1.0, 1.0, 1.01)
+    forces = [atlas.evaluate(Problem.dimensionless(*case), "pull_off_force").value for case in STANDING[4:8]]
+    rows = [
+        f"pull_off_force,2,{k},{mu},{factor * force!r},1e-6"
+        for (_, k, mu), factor, force in zip(STANDING[4:8], factors, forces, strict=True)
+    ]
     gate = GATE.replace('"dmt"', '"atlas"').replace("1e-6", "1e-3")
-    judgement = run_of_data([*values[:3], 1.01 * values[3]], gate, "atlas")
-    assert judgement.verdict == "INCONCLUSIVE"
+    judgement = run("quick", gate, [str(write_data(rows))], tmp_path / "runs").judgement
     sentence = verdict_sentence("measured", judgement.verdicts)
     assert sentence.startswith("INCONCLUSIVE: 3 of 4 values are those of atlas")
-
-
-def test_data_have_a_card_without_evaluations(run_of_data):
-    judgement = run_of_data([2.0] * 4)
-    assert judgement.verdict == "PASS"
     lines = dict(card_lines("measured", judgement.verdicts, judgement.cards["measured"], Domain(())))
     assert "a value in 4 of 4 (8 outside)" in lines["GIVEN"]
     assert lines["evaluated again"] == "nothing: data do not change"
