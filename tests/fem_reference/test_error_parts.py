@@ -4,7 +4,6 @@ import math
 from dataclasses import replace
 from functools import lru_cache
 
-import numpy as np
 import pytest
 
 from fem_reference._contact import error_parts
@@ -13,7 +12,6 @@ from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._elastic.compliance import ScalingCompliance
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference._elastic.variants import FEATURES, variant
 from fem_reference.quantities import LOSSES, TABLE
 from tests.fem_reference.solved_together import PROBLEM, solved
 
@@ -85,22 +83,6 @@ def test_algebra_part_responds_to_rounding(monkeypatch):
     assert small < 1e-10
     assert large > 1e-8
     assert contact.compliance.matrix is matrix
-
-
-@pytest.mark.parametrize("feature", FEATURES)
-def test_variant_changes_one_feature(feature):
-    plain, coarser = SPEC.grid(), variant(SPEC, feature).grid()
-    assert hash(variant(SPEC, feature)) != hash(SPEC)
-    if feature == "ends":
-        assert 2.0 <= plain.extent / coarser.extent < 16.0
-        assert np.isin(coarser.r, plain.r).all()
-        assert np.isin(coarser.z[:-1], plain.z).all()
-        assert coarser.r[1] == plain.r[2]
-    else:
-        assert np.array_equal(plain.r, coarser.r)
-        assert np.array_equal(np.delete(plain.z, 1), coarser.z)
-    with pytest.raises(ValueError, match="choose one of"):
-        variant(SPEC, "edge")
 
 
 def test_placement_moves_the_edge_over_the_mesh():

@@ -1,6 +1,5 @@
 """Meshes along a path: completeness, small spots and narrow edges, and meshes of their own for uncertain events."""
 
-import math
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
@@ -27,7 +26,6 @@ from fem_reference._contact import completeness
 from fem_reference._contact.completeness import complete_path, displacement_range
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.mesh_choice import MeshChoice, chosen
-from fem_reference._elastic.mesh import graded_grid
 from fem_reference.accuracy import level_for
 from fem_reference.quantities import TABLE
 from tests.fem_reference.analytic_branch import AnalyticBranch
@@ -106,18 +104,6 @@ def test_an_edge_that_no_mesh_resolves_is_refused():
         solve(UNRESOLVED, "pull_off_force", "quick")
 
 
-def test_far_elements_have_a_share_of_the_density():
-    plain, finer = (graded_grid(1.0, 0.01, 0.01, 1000.0, 1.2, 0.05, far_share=share).r for share in (1.0, 0.5))
-    assert np.array_equal(graded_grid(1.0, 0.01, 0.01, 1000.0, 1.2, 0.05).r, plain)
-    far = finer[finer >= 2.0 * (1.0 - 1e-12)]
-    assert np.max(far[1:] / far[:-1]) <= math.exp(0.6) * (1.0 + 1e-12) < np.max(plain[-5:] / plain[-6:-1])
-    assert (finer[0], finer[-1]) == (0.0, 1000.0)
-    assert 1.0 in finer
-    for share in (0.0, 1.5):
-        with pytest.raises(ValueError, match="share of the density"):
-            graded_grid(far_share=share)
-
-
 @pytest.mark.heavy
 def test_an_edge_that_does_not_settle_is_searched_with_a_mesh_for_each_radius():
     """A flat end whose edge has the curvature radius 1: the deepest load was elsewhere on each mesh."""
@@ -168,18 +154,14 @@ def test_a_path_that_stays_undecided_is_refused(monkeypatch):
         complete_path(points)
 
 
-def test_a_path_that_turns_back_between_the_branches_is_refused():
+@pytest.mark.parametrize("touching", [([-1.0, -1.0], [-1.0, -1.0]), ([-1.0, -0.01], [-1.0, 10.0])])
+def test_a_path_that_turns_back_between_the_branches_is_refused(touching):
+    """Its load and displacement, and the displacement alone."""
     approach = AnalyticBranch(Polynomial([0.0, -1.0]), [0.0, -1.0], touching=False).points([3.0, 2.0, 1.0])
-    touching = AnalyticBranch(Polynomial([-1.0, -1.0]), [-1.0, -1.0]).points([0.0, 1.0, 2.0])
+    displacement, load = touching
+    contact = AnalyticBranch(Polynomial(displacement), load).points([0.0, 1.0, 2.0])
     with pytest.raises(NotConverged, match="path turns"):
-        complete_path([*approach, *touching])
-
-
-def test_a_turn_of_the_displacement_alone_between_the_branches_is_refused():
-    approach = AnalyticBranch(Polynomial([0.0, -1.0]), [0.0, -1.0], touching=False).points([3.0, 2.0, 1.0])
-    touching = AnalyticBranch(Polynomial([-1.0, -0.01]), [-1.0, 10.0]).points([0.0, 1.0, 2.0])
-    with pytest.raises(NotConverged, match="path turns"):
-        complete_path([*approach, *touching])
+        complete_path([*approach, *contact])
 
 
 def test_the_range_includes_turning_points_between_samples():

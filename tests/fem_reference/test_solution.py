@@ -14,7 +14,6 @@ from fem_reference import (
     AccuracyWarning,
     LennardJones,
     Mie,
-    NoSuchEvent,
     NotConverged,
     OffsetPowerLaw,
     PowerLaw,
@@ -153,11 +152,6 @@ def test_accuracy_names_are_those_of_numbers():
     assert levels[0] == levels[1]
     assert levels[2] == levels[3] == levels[4]
     assert len(set(levels)) == 4
-
-
-def test_stiff_solid_has_no_jump():
-    with pytest.raises(NoSuchEvent, match="too stiff"):
-        _pull_off(0.0, 0.1, accuracy="quick", quantity="jump_in_displacement")
 
 
 def test_impossible_input_is_refused():

@@ -12,8 +12,7 @@ from fscm.interpolation import fitting
 from fscm.interpolation.__main__ import main, nodes_in
 from fscm.interpolation.building import FACTOR, build, layouts, tail_bound
 from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, RELATIVE
-from fscm.interpolation.coordinates import BOX, LEAST_MU, MOST_MU
-from fscm.interpolation.design import rounded, sobol
+from fscm.interpolation.coordinates import BOX
 from fscm.interpolation.storage import stored
 
 TABLES = Path(__file__).resolve().parents[2] / "results" / "baseline" / "atlas"
@@ -88,15 +87,6 @@ def test_bounds_and_errors_hold_as_far_as_the_critical_tabor_number(quantity):
     assert np.all(errors <= bounds + u_num)
 
 
-def test_the_problems_of_the_verification_are_random_and_none_is_fitted():
-    unit = sobol(3, 2000, VERIFICATION_SEED)
-    n, k = (low + (high - low) * unit[:, i] for i, (low, high) in enumerate((BOX["n"], BOX["k"])))
-    columns = rounded("n", n), rounded("k", k), rounded("mu", LEAST_MU * (MOST_MU / LEAST_MU) ** unit[:, 2])
-    fitted, compared = (set(zip(*parameters(table(name)), strict=True)) for name in ("nodes", "verification"))
-    assert compared == set(zip(*columns, strict=True))
-    assert not compared & fitted
-
-
 def test_jumps_exist_where_the_solver_finds_them():
     rows = with_value("verification", "pull_off_force")
     n, k, mu = parameters(rows)
@@ -132,21 +122,6 @@ def test_bad_arguments_are_refused_in_one_sentence():
         assert "\n" not in str(caught.value)
     with pytest.raises(ValueError, match="skip"):
         atlas(2.0, 0.4, 1.0, "pull_off_force", missing="skip")
-
-
-def test_the_two_jumps_merge_at_the_critical_tabor_number():
-    critical = atlas(2, 0.4, 1.0, CRITICAL).value
-    mu = critical * (1.0 + np.array([1e-9, 1e-4, 1e-2]))
-    gaps, displacements = (
-        np.subtract(*(atlas(2, 0.4, mu, f"jump_{way}_{name}").value for way in ("in", "out")))
-        for name in ("gap", "displacement")
-    )
-    for difference in (gaps, displacements, atlas(2, 0.4, mu, "hysteresis_energy").value):
-        assert np.all(np.diff(difference) > 0.0)
-    assert abs(gaps[0]) < 1e-3
-    assert abs(displacements[0]) < 1e-9
-    value, bound = atlas(2, 0, [1.0, 0.3], "jump_in_gap", missing="nan")
-    assert np.isnan(value).tolist() == np.isnan(bound).tolist() == [False, True]
 
 
 def test_parameters_are_broadcast_scalars_give_floats_and_chunks_do_not_matter():

@@ -66,15 +66,6 @@ def test_the_uncertainty_covers_the_error(problem, quantity):
     assert solution.size == 200
 
 
-def test_the_curve_spans_the_range_of_central_gaps():
-    scheme = StieltjesScheme(Problem(2, 0.4, 0.5), 60, gap_step=0.5, first_gap=5.0, last_gap=0.2)
-    gap, displacement, load = scheme.curve()
-    assert (gap[0], gap[-1]) == (5.0, 0.2)
-    assert np.all(np.diff(gap) < 0)
-    assert len(gap) == len(displacement) == len(load) == 11
-    assert -displacement[0] == pytest.approx(5.0, abs=0.1)
-
-
 def test_events_that_are_not_on_the_path():
     calm = StieltjesScheme(Problem(2, 0.4, 0.5), 60, **COARSE)
     for name in ("jump_in", "jump_out"):
