@@ -79,6 +79,17 @@ CASE_OR_FILE = (
     file("--problem", help="a problem file in physical units instead of n, k, mu and nu; results are in SI"),
 )
 
+#: A problem file whose keys may be varied.
+VARIED_FILE = (
+    file("--problem", help="a problem file instead, whose keys may be varied; results are in SI"),
+    option(
+        "--vary",
+        metavar="KEY=VALUES",
+        action="append",
+        help="values of a key of the problem file: SECTION.KEY=A, B, C UNIT or SECTION.KEY=FIRST:LAST:NUMBER UNIT",
+    ),
+)
+
 #: Number of processes.
 JOBS = option("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one per core)")
 #: Folder for the results.

@@ -17,9 +17,10 @@ from comparisons.output.latex import UPRIGHT_WIDTH, latex
 from comparisons.output.markup import html_table
 from comparisons.output.style import save
 from comparisons.output.summaries import case_tables, side_by_side, summary_tables
-from comparisons.pipeline.inputs import Cases, grid_text, load_cases
+from comparisons.pipeline.inputs import Cases, cases_of_problem, grid_text, load_cases
 from comparisons.pipeline.run import run
 from comparisons.problem import Problem
+from comparisons.problem.evaluation import REFERENCES
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import COMPARABLE, create
 from comparisons.runs.csv_format import write_table
@@ -79,6 +80,8 @@ def compare(
     models: str | Iterable[str],
     grid: str | Path | None = None,
     *,
+    problem: Path | None = None,
+    vary: Sequence[str] = (),
     n: Sequence[float] | None = None,
     k: Sequence[float] | None = None,
     mu: Sequence[float] | None = None,
@@ -96,8 +99,12 @@ def compare(
         Names or SPECs, or "all" for every model of fscm-bench that has a value or a failure in one of the cases.
     grid : str or Path, optional
         A sweep file (of [[grid]] tables), or its text.  It states the quantities and the references.
+    problem : Path, optional
+        A problem file in place of a grid.
+    vary : sequence of str
+        Values of its keys, as ``"solid.thickness=5, 10 nm"``: every combination is a case.
     n, k, mu : sequence of float
-        Without a grid: every combination is a case.
+        Without a grid or a file: every combination is a case.
     nu : sequence of float, optional
         Poisson's ratios, for models that need one.
     quantities : sequence of str
@@ -129,14 +136,7 @@ def compare(
     if not specs:
         raise ValueError("no model is named; a comparison needs at least one")
     numbers = {"n": n, "k": k, "mu": mu, "nu": nu}
-    if grid is None:
-        missing = [name for name in ("n", "k", "mu") if numbers[name] is None or not len(numbers[name] or ())]
-        if missing:
-            raise ValueError(f"the cases need --{' and --'.join(missing)}, or a file of them as --grid FILE")
-        grid = _grid_text(numbers, quantities, reference or "fscm")
-    elif reference is not None or any(values is not None for values in numbers.values()):
-        raise ValueError("--grid states the cases and the references; leave out --n, --k, --mu, --nu and --reference")
-    cases = load_cases(grid, None)
+    cases = _cases(grid, problem, vary, numbers, quantities, reference)
     _check(cases, specs)
     finished = run(cases, models=specs, folder=folder, jobs=jobs)
     table = comparison_table(finished.tables.results, finished.inputs.cases.grids, finished.inputs.models)
@@ -148,6 +148,31 @@ def compare(
     # With the checksums of these files.
     write_record(read_record(finished.folder / RECORD), finished.folder / RECORD)
     return comparison
+
+
+def _cases(
+    grid: str | Path | None,
+    problem: Path | None,
+    vary: Sequence[str],
+    numbers: Mapping[str, Sequence[float] | None],
+    quantities: Sequence[str],
+    reference: str | None,
+) -> Cases:
+    """Return the cases of a grid, of a problem file, or of numbers."""
+    if problem is not None:
+        if grid is not None or any(values is not None for values in numbers.values()):
+            raise ValueError("--problem states the case; leave out --grid, --n, --k, --mu and --nu")
+        compared_with = reference or REFERENCES[0]
+        return cases_of_problem(problem, vary, [compared_with], quantities, compared_with)
+    if vary:
+        raise ValueError("--vary is for the keys of --problem FILE, which is missing")
+    if grid is None:
+        if missing := [name for name in ("n", "k", "mu") if numbers[name] is None or not len(numbers[name] or ())]:
+            raise ValueError(f"the cases need --{' and --'.join(missing)}, or --grid FILE, or --problem FILE")
+        grid = _grid_text(numbers, quantities, reference or REFERENCES[0])
+    elif reference is not None or any(values is not None for values in numbers.values()):
+        raise ValueError("--grid states the cases and the references; leave out --n, --k, --mu, --nu and --reference")
+    return load_cases(grid, None)
 
 
 def _of_applicable(table: pd.DataFrame, named: Sequence[str]) -> pd.DataFrame:

@@ -187,7 +187,9 @@ def load_cases(cases: str | Path, models: Sequence[str] | None, folder: Path | N
     return Cases(loaded, None, text, source, _files(loaded, folder) if folder else {})
 
 
-def cases_of_problem(problem: Path, vary: Sequence[str], models: Sequence[str], quantities: Sequence[str]) -> Cases:
+def cases_of_problem(
+    problem: Path, vary: Sequence[str], models: Sequence[str], quantities: Sequence[str], reference: str | None = None
+) -> Cases:
     """Return the grid of a problem file for every combination of values of its keys.
 
     Parameters
@@ -197,9 +199,11 @@ def cases_of_problem(problem: Path, vary: Sequence[str], models: Sequence[str], 
     vary : sequence of str
         ``SECTION.KEY=VALUES``, as of `comparisons.problem.variation.parse_variation`.
     models : sequence of str
-        Names; the first of `comparisons.problem.evaluation.REFERENCES` among them is the reference, if one is.
+        Names.
     quantities : sequence of str
         Of `comparisons.QUANTITIES`.
+    reference : str, optional
+        By default the first of `comparisons.problem.evaluation.REFERENCES` among the models, if one is.
 
     Raises
     ------
@@ -210,7 +214,7 @@ def cases_of_problem(problem: Path, vary: Sequence[str], models: Sequence[str], 
     texts: dict[str, Any] = {
         "id": problem.stem,
         "title": problem.name,
-        "reference": next((name for name in REFERENCES if name in models), ""),
+        "reference": reference or next((name for name in REFERENCES if name in models), ""),
         # Models from outside are given beside the grid, as for every other.
         "models": [name for name in models if name in MODELS] or [REFERENCES[0]],
         "quantities": list(quantities),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from comparisons.cli.options import JOBS, MODEL_SPEC, OUT, QUIET, file, numbers, option, several
+from comparisons.cli.options import JOBS, MODEL_SPEC, OUT, QUIET, VARIED_FILE, file, numbers, option, several
 from comparisons.cli.screen import output, print_end
 from comparisons.console.exit_status import FAILED
 from comparisons.console.progress import log
@@ -14,6 +14,7 @@ from comparisons.pipeline.compare import ALL, compare
 EXAMPLES = (
     "fscm-bench compare jkr md-improved --n 1 2 --k 0 0.4 --mu 0.1 1 3",
     "fscm-bench compare --model all --n 2 --k 0 --mu 0.1:10:20 --latex > table.tex",
+    'fscm-bench compare jkr dmt --problem pad.toml --vary "solid.thickness=5, 10, 20 nm"',
 )
 
 _MODELS = f"{MODEL_SPEC}; {ALL}: every model of fscm-bench that has a value in these cases"
@@ -22,6 +23,7 @@ OPTIONS = (
     option("models", metavar="MODEL", nargs="*", help=_MODELS),
     several("--model", metavar="MODEL", help="more models"),
     file("--grid", help="the cases: a file of [[grid]] tables, as for fscm-bench sweep"),
+    *VARIED_FILE,
     numbers("--n", help="values of n, or FROM:TO:COUNT; every combination of --n, --k and --mu is a case"),
     numbers("--k", help="values of k, or FROM:TO:COUNT, equally spaced"),
     numbers("--mu", logarithmic=True, help="values of mu, or FROM:TO:COUNT, logarithmically spaced: 0.1:10:20"),
@@ -47,6 +49,8 @@ def call(args: argparse.Namespace) -> int:
     finished = compare(
         [*args.models, *(args.model or ())],
         args.grid,
+        problem=args.problem,
+        vary=args.vary or (),
         n=args.n,
         k=args.k,
         mu=args.mu,

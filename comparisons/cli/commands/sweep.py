@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from comparisons.cli.options import JOBS, OUT, QUIET, file, option, several
+from comparisons.cli.options import JOBS, OUT, QUIET, VARIED_FILE, file, option, several
 from comparisons.cli.screen import output, print_end
 from comparisons.output.summaries import sweep_tables
 from comparisons.pipeline.finished_run import FinishedRun
@@ -19,13 +19,7 @@ EXAMPLES = (
 
 OPTIONS = (
     file("file", nargs="?", help="[[grid]] tables as in comparisons/data/cases.toml, without a tier"),
-    file("--problem", help="a problem file instead, whose keys may be varied; results are in SI"),
-    option(
-        "--vary",
-        metavar="KEY=VALUES",
-        action="append",
-        help="values of a key of the problem file: SECTION.KEY=A, B, C UNIT or SECTION.KEY=FIRST:LAST:NUMBER UNIT",
-    ),
+    *VARIED_FILE,
     several("--quantity", metavar="NAME", help="quantities of the problem file (default: pull_off_force)"),
     several(
         "--model",

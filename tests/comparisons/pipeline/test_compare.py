@@ -15,7 +15,7 @@ from comparisons.runs.cases import load_grids
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.frames import frame
 from comparisons.runs.record import check_files, read_record
-from tests.comparisons.grid_text import grid_text
+from tests.comparisons.grid_text import PAD, grid_text
 from tests.comparisons.rows import row
 
 QUANTITIES = ["pull_off_force", "zero_load_displacement"]
@@ -108,6 +108,19 @@ def test_a_reference_that_needs_no_poisson_ratio_is_the_one_of_a_case_with_it():
     assert list(texts.texts) == ["n", "k", "μ", "ν", "fscm", "fem"]
 
 
+def test_the_keys_of_a_problem_file_make_cases(tmp_path, capsys):
+    (tmp_path / "pad.toml").write_text(PAD)
+    vary = ["--problem", str(tmp_path / "pad.toml"), "--vary", "law.work_of_adhesion=1, 2 J/m^2"]
+    out = ["--out", str(tmp_path / "out"), "--jobs", "1"]
+    assert main(["compare", "dmt", *vary, "--reference", "bradley", *out]) == 0
+    table = read_table(tmp_path / "out" / "comparison.csv")
+    assert table["problem"].str.extract(r"work_of_adhesion=(\d)")[0].tolist() == ["1", "2"]
+    # The force is that of the punch alone, in newtons.
+    assert table["value"][1] == pytest.approx(2.0 * table["value"][0])
+    assert table["kappa"].tolist() == pytest.approx([0.0, 0.0], abs=1e-9)
+    assert set(table["reference"]) == {"bradley"}
+
+
 CASE = ["--n", "2", "--k", "0", "--mu", "1"]
 
 
@@ -128,6 +141,8 @@ CASE = ["--n", "2", "--k", "0", "--mu", "1"]
         (["jkr", *CASE[:-1], "1:2:1"], "1 values"),
         (["jkr", *CASE[:-1], "1:1:3"], "too near"),
         (["jkr", *CASE, "--n", "1:2:x"], "'1:2:x'"),
+        (["jkr", "--problem", "pad.toml", "--mu", "1"], "leave out --grid, --n, --k, --mu and --nu"),
+        (["jkr", *CASE, "--vary", "punch.R=1, 2 um"], "--problem FILE"),
     ],
 )
 def test_what_cannot_be_compared_is_one_sentence(tmp_path, refused, arguments, named):
