@@ -3,14 +3,22 @@
 import math
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from comparisons.domain import Domain, declared_domain
+from comparisons.judging.gates import load_gates
+from comparisons.judging.judge import judge
+from comparisons.judging.summary import summarise
 from comparisons.pipeline.inputs import load_cases, read_gates
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import MODELS, create
+from comparisons.runs.cases import load_grids
+from comparisons.runs.frames import frame
 from comparisons.runs.tasks import Task, evaluate, evaluate_task
+from tests.comparisons.conftest import GATES, with_entries
+from tests.comparisons.grid_text import grid_text
 
 FORCE = {"quantities": ["pull_off_force"]}
 
@@ -77,6 +85,23 @@ def test_a_model_is_not_evaluated_outside_its_domain(toys, monkeypatch):
     assert row.reason == "outside the domain that the model declares: pull_off_force for n = 2"
     row = evaluate_task(Task("ten-percent", "jump_in_gap", Problem.dimensionless(2, 0, 1)))
     assert row.reason == "outside the domain that the model declares: it has no jump_in_gap"
+
+
+def test_not_applicable_is_a_failure_inside_the_declared_domain_and_outside_it_nothing_counts():
+    """Outside, a row counts for nothing even if it has a value."""
+    limits = {"lower": -0.5, "upper": 0.5, "min_cases": 1, "not_applicable": "leave-out"}
+    gate = with_entries(GATES, candidate="given", reference="bradley", cases="{}", **limits)
+    grids = load_grids(grid_text(["jkr"], tier="quick", n=[2], k=[0], mu=[0.1, 0.5, 1, 2]))
+    rows = frame([evaluate_task(Task("bradley", "pull_off_force", case)) for case in grids[0].cases])
+    candidate = rows.assign(model="jkr", status=["ok", "ok", "not-applicable", "ok"])
+    candidate.loc[candidate["status"] != "ok", ["value", "u_num"]] = math.nan
+    domains = {"jkr": Domain.of({**FORCE, "mu": [0.1, 1]})}
+    table = judge(load_gates(gate), grids, pd.concat([rows, candidate]), None, ["jkr"], domains)
+    assert table["verdict"].tolist() == ["PASS", "PASS", "FAIL", "NOT-APPLICABLE"]
+    assert table["reason"].iloc[2].endswith("(inside the domain that the model declares)")
+    summary = summarise(table).iloc[0]
+    counts = summary[["asked", "answered", "not_applicable", "failed", "outside"]].tolist()
+    assert (summary["verdict"], counts) == ("FAIL", [3, 2, 1, 0, 1])
 
 
 def test_a_run_of_a_closed_form_has_no_standing_gate_whose_cases_it_does_not_compute():

@@ -156,7 +156,12 @@ NAMES = ("<b>bold</b>", "", "../up", "line\nbreak", "x" * 65, "given", "NaN")
 FILES = ("a.csv", [1], ["/etc/passwd"], ["\0"], ["nothing"])
 
 
-@pytest.mark.parametrize("stated", [*({"name": name} for name in NAMES), *({"files": files} for files in FILES)])
+WRONG = [{"version": 1}, {"citation": None}, {"applies_to": {"n": [2, 2]}}]
+
+
+@pytest.mark.parametrize(
+    "stated", [*({"name": name} for name in NAMES), *({"files": files} for files in FILES), *WRONG]
+)
 def test_a_description_that_could_do_harm_is_refused(tmp_path, stated):
     texts = dict.fromkeys(("name", "version", "citation", "domain"), "x")
     line = json.dumps({"status": "ok"} | texts | stated).encode()

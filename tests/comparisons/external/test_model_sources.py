@@ -204,18 +204,9 @@ def test_a_program_that_keeps_its_line_or_does_not_start_is_ended(write_program,
         create(write_program("printf '{}'; sleep 60")).evaluate(CASE, QUANTITY)
 
 
-@pytest.mark.parametrize(
-    ("describe", "sentence"),
-    [
-        ("{}", "name, version, citation, domain missing"),
-        (DESCRIBE.replace('"1"', "1"), "version = 1 must be a text"),
-        (DESCRIBE[:-1] + ', "applies_to": {"n": [2, 2]}}', "applies_to: quantities = None is not a list"),
-        (DESCRIBE[:-1] + ', "python": {}}', "unknown key 'python'"),
-    ],
-)
-def test_a_program_that_describes_no_model_cannot_be_loaded(write_program, describe, sentence):
-    with pytest.raises(ValueError, match=re.escape(sentence)):
-        create(write_program(ok(), describe))
+def test_a_program_that_describes_no_model_cannot_be_loaded(write_program):
+    with pytest.raises(ValueError, match="unknown key 'python'"):
+        create(write_program(ok(), DESCRIBE[:-1] + ', "python": {}}'))
 
 
 def test_a_program_has_the_limits_of_other_models_and_ends_with_it(write_program, tmp_path, monkeypatch):

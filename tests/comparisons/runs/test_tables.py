@@ -10,7 +10,7 @@ from unittest.mock import Mock
 
 import pandas as pd
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from comparisons.runs.atomic_files import atomic, prepare_folder, writable_file, write_json
@@ -29,6 +29,7 @@ def cells(table):
     return next(csv.DictReader(io.StringIO(csv_text(table), newline="")))
 
 
+@settings(max_examples=30)
 @given(st.floats(allow_nan=False, allow_infinity=False), st.floats(min_value=1e-3, max_value=1e3))
 def test_csv_gives_every_double_back(value, mu):
     written = cells(frame([row(value=value, mu=mu)]))
