@@ -56,9 +56,7 @@ def test_a_quantity_whose_edge_is_not_resolved_or_that_is_missed_gets_its_own_me
     assert names({"jump_in": True, "jump_out": True}) == []
     # The mesh of the jump out of contact serves the other one, which has no contact edge.
     assert names({"jump_in": False, "jump_out": False}) == [JUMP_OUT, JUMP_IN]
-
-
-def test_one_mesh_serves_every_event_of_a_solid_that_scales(monkeypatch):
+    # One mesh serves every event of a solid that scales.
     scaling = replace(GRADED, solid=PowerLaw(1.0, 1.0, 0.4, 0.3))
     assert _own(scaling, {"jump_in": False, "jump_out": False}, monkeypatch=monkeypatch) == []
 

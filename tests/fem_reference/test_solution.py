@@ -15,7 +15,6 @@ from fem_reference import (
     LennardJones,
     Mie,
     NotConverged,
-    OffsetPowerLaw,
     PowerLaw,
     PowerPunch,
     Problem,
@@ -158,9 +157,6 @@ def test_impossible_input_is_refused():
     for make, message in (
         (lambda: PowerLaw(1.0, 1.0, 0.4, 0.5), "cannot keep the volume"),
         (lambda: PowerLaw(1.0, 1.0, 1.0, 0.3), "unbounded"),
-        (lambda: PowerLaw(-1.0, 1.0, 0.4, 0.3), "reference modulus"),
-        (lambda: OffsetPowerLaw(1.0, 1.0, 0.4, -1.0, 0.3), "surface offset"),
-        (lambda: LennardJones(0.0, 1.0), "work of adhesion"),
         (lambda: _pull_off(0.0, 1.0, quantity="adhesion"), "choose one of"),
         (lambda: _pull_off(0.0, 1.0, accuracy="best"), "choose one of"),
         (lambda: _pull_off(0.0, 1.0, accuracy=1e-9), r"accuracy 1e-09 is outside \[1e-08, 1\)"),
@@ -171,14 +167,11 @@ def test_impossible_input_is_refused():
         (lambda: event_state(problem_with(0.0, 1.0), "landing"), "choose one of pull_off, jump_in"),
         (lambda: solve_together(problem_with(0.4, 1.0), ()), "at least one"),
         (lambda: trace(PROBLEM.solid), "not a Problem"),
-        (
-            lambda: Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), UNHASHABLE, LennardJones(1.0, 1.0)),
-            "not hashable",
-        ),
-        (lambda: sphere_on(1.0), "not a solid"),
-        (lambda: Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), 2.0, LennardJones(1.0, 1.0)), "not a punch shape"),
-        (lambda: Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), PowerPunch(2.0, 1.0), np.exp), "not a surface law"),
-        (lambda: Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), PowerPunch(1.0, 1.0), Mie(1.0, 1.0, 4.0, 2.0)), "load integral"),
+        (lambda: replace(PROBLEM, punch=UNHASHABLE), "not hashable"),
+        (lambda: replace(PROBLEM, solid=1.0), "not a solid"),
+        (lambda: replace(PROBLEM, punch=2.0), "not a punch shape"),
+        (lambda: replace(PROBLEM, law=np.exp), "not a surface law"),
+        (lambda: replace(PROBLEM, punch=PowerPunch(1.0, 1.0), law=Mie(1.0, 1.0, 4.0, 2.0)), "load integral"),
     ):
         with pytest.raises(ValueError, match=message):
             make()
@@ -191,14 +184,9 @@ def test_a_punch_with_an_asperity_is_refused() -> None:
         2.0,
         lambda r: 16.0 * r * np.exp(-(r**2)) + r / 25.0,
     )
-    problem = fem_reference.Problem(
-        fem_reference.PowerLaw(10.0, 1.0, 0.0, 0.0), punch, fem_reference.LennardJones(1, 1)
-    )
-    for compute in (
-        lambda: fem_reference.solve(problem, "pull_off_force", "quick"),
-        lambda: fem_reference.trace(problem),
-    ):
-        with pytest.raises(fem_reference.NotConverged, match=r"falling at r = 1\.?0*,"):
+    problem = Problem(PowerLaw(10.0, 1.0, 0.0, 0.0), punch, LennardJones(1.0, 1.0))
+    for compute in (lambda: solve(problem, "pull_off_force", "quick"), lambda: trace(problem)):
+        with pytest.raises(NotConverged, match=r"falling at r = 1\.?0*,"):
             compute()
 
 

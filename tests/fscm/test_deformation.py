@@ -9,7 +9,7 @@ from fscm import _response_store as store
 from fscm._deformation import axis_row, response_matrix
 from fscm._equilibrium import Discretisation
 from fscm._kernel import Kernel
-from fscm._panels import PanelMesh, gauss_rule
+from fscm._panels import PanelMesh
 
 # Relative to the largest displacement; measured worst 7.0e-13 (k = 0.8).
 CLOSED_FORM = 5e-12
@@ -61,18 +61,6 @@ def test_a_mesh_on_which_nothing_is_solved_passes_on_the_blocks_of_its_exponent(
         for mesh in meshes[1:]:
             disc = Discretisation(Problem(2, k, 1.0), mesh, disc)
         np.testing.assert_array_equal(disc.matrix, Discretisation(Problem(2, k, 1.0), PanelMesh(finer, 8)).matrix)
-
-
-def test_transfer_within_panels_below_the_rounding_of_the_radius() -> None:
-    """Half of a panel 4e-15 wide at r = 1: local coordinates must not be taken from rounded radii."""
-    h = 2.0**-48
-    mesh, halves = (
-        PanelMesh(np.array([0.0, 1.0, 1.0 + h]), 4),
-        PanelMesh(np.array([0.0, 1.0, 1 + h / 2, 1 + h]), 4),
-    )
-    u = gauss_rule(4).nodes
-    values = np.concatenate([np.zeros(4), u])
-    np.testing.assert_allclose(mesh.transfer(values, halves)[4:], np.concatenate([u / 2, 0.5 + u / 2]), rtol=1e-13)
 
 
 def test_distances_from_the_origin_are_exact() -> None:

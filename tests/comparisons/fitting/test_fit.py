@@ -12,7 +12,6 @@ import pandas as pd
 import pytest
 from scipy.stats import binom
 
-import fem_reference
 import fscm
 from comparisons import fit
 from comparisons.cli.main import main
@@ -101,20 +100,6 @@ def test_a_ball_is_fitted_with_few_paths_of_its_own(factor, paths, monkeypatch):
     monkeypatch.setattr(search, "_EXPANSIONS", 1)
     with pytest.raises(ComputationFailed, match="begin nearer"):
         fitted(ball, record, wrong(ball, 3.0))
-
-
-@pytest.mark.heavy
-def test_a_record_of_the_finite_elements_gives_its_values():
-    problem = contact(5e8, 0.05)
-    path = fem_reference.trace(problem.build(fem_reference), largest_turn=1.0)
-    machine = Machine.of(Equilibria(path.displacement, path.load), math.inf)
-    far, touching = machine.far, machine.contact
-    loading = np.column_stack([far, touching[:, touching[0] > far[0, -1]]])
-    unloading = np.column_stack([far[:, far[0] < touching[0, 0]], touching])
-    cycle = loading, unloading, -path.load.min(), touching[0, 0] - 4e-9
-    result = fitted(problem, Instrument(noise=0.005).record(problem, np.random.default_rng(8), cycle=cycle))
-    assert max(map(abs, deviations(problem, result))) < 3.0
-    assert all(row.u < 2e-3 * row.value for row in result.parameters.values())
 
 
 def test_a_cantilever_jumps_where_its_stiffness_says():
