@@ -31,12 +31,12 @@ from comparisons.data.file_names import (
     RECORD,
     REFERENCES,
     RESULTS,
+    committed,
 )
 from comparisons.paper import baseline as paper_baseline
 from comparisons.runs.atomic_files import write_file
-from comparisons.runs.case_columns import with_problem
-from comparisons.runs.committed import committed
 from comparisons.runs.csv_format import csv_text, read_table
+from comparisons.runs.frames import with_problem
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.rows import CASE
 
@@ -111,7 +111,7 @@ def read_baseline(target: Path | None = None) -> tuple[pd.DataFrame, pd.DataFram
     Parameters
     ----------
     target : Path, optional
-        Their folder, if not the one that `comparisons.runs.committed` finds.
+        Their folder, if not the one that `comparisons.data.file_names` finds.
 
     Raises
     ------

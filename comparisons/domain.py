@@ -47,10 +47,6 @@ class Range:
         values = ((case.get(name), *ends) for name, ends in self.limits.items())
         return all(value is None or low <= value <= high for value, low, high in values)
 
-    def ends(self, name: str) -> tuple[float, float]:
-        """Return the smallest and the largest value of a parameter."""
-        return self.limits.get(name, _NONE)
-
     def __str__(self) -> str:
         limits = ", ".join(_limits(name, *ends) for name, ends in self.limits.items())
         return ", ".join(self.quantities) + (f" for {limits}" if limits else "")
@@ -183,14 +179,14 @@ def _table(table: Mapping[Any, Any]) -> Range:
 
 def _ends(name: str, stated: object) -> tuple[float, float]:
     if isinstance(stated, tuple | list) and len(stated) == 2 and all(map(_is_end, stated)):
-        low, high = (default if end is None else float(end) for end, default in zip(stated, _NONE, strict=True))
+        low, high = (default if end is None else float(end) for end, default in zip(stated, NO_LIMITS, strict=True))
         if low <= high:
             return low, high
     raise ValueError(f"applies_to: {name} = {stated!a:.60} is not [low, high], two numbers with low <= high")
 
 
 #: The meaning of None as the smallest and as the largest value.
-_NONE = (-math.inf, math.inf)
+NO_LIMITS = (-math.inf, math.inf)
 
 
 def _is_end(end: object) -> bool:

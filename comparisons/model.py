@@ -8,7 +8,10 @@ raises `ComputationFailed`.  No model returns an unconverged number.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
+from types import ModuleType
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
@@ -43,6 +46,26 @@ class ComputationFailed(Exception):
     Traceback (most recent call last):
     comparisons.model.ComputationFailed: the model produced nan, which is not a finite number
     """
+
+
+@contextmanager
+def translated(package: ModuleType) -> Iterator[None]:
+    """Turn the exceptions of a solver, `fscm` or `fem_reference`, into `NotApplicable` and `ComputationFailed`.
+
+    Examples
+    --------
+    >>> import fscm
+    >>> with translated(fscm):
+    ...     raise fscm.NotConverged("50 iterations were not enough")
+    Traceback (most recent call last):
+    comparisons.model.ComputationFailed: 50 iterations were not enough
+    """
+    try:
+        yield
+    except package.NoSuchEvent as reason:
+        raise NotApplicable(str(reason)) from reason
+    except package.NotConverged as failure:
+        raise ComputationFailed(str(failure)) from failure
 
 
 @dataclass(frozen=True, slots=True)

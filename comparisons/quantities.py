@@ -25,28 +25,8 @@ class Kind(StrEnum):
     FIELD = "field"
 
 
-@dataclass(frozen=True, slots=True)
-class Scale:
-    """A scale of `fscm.Problem.units`.
-
-    Attributes
-    ----------
-    unit, si_unit : str
-        Of a dimensionless number, and in SI.
-    sign : str
-        The positive direction of a scalar, and the place of zero.
-    lowest : float
-        The smallest value of a scalar; it is not admitted itself if `above` is true.
-    """
-
-    unit: str
-    si_unit: str
-    sign: str = ""
-    lowest: float = -math.inf
-    above: bool = False
-
-
-_SCALES = {name: Scale(**row) for name, row in _TABLES["scale"].items()}
+#: Scales of `fscm.Problem.units`: units of a dimensionless number and in SI; of a scalar also sign and smallest value.
+_SCALES = _TABLES["scale"]
 
 #: Scales of the columns that a curve may have.
 _COLUMNS = {"central_gap": "gap", "edge_radius": "radius", "contact_radius": "radius", "cohesive_radius": "radius"}
@@ -64,7 +44,16 @@ class Quantity:
 
 @dataclass(frozen=True, slots=True)
 class ScalarQuantity(Quantity):
-    """A number; its scale decides unit and sign.
+    """A number; its scale decides the other fields.
+
+    Attributes
+    ----------
+    unit, si_unit : str
+        Of a dimensionless number, and in SI.
+    sign : str
+        The positive direction, and the place of zero.
+    lowest : float
+        The smallest value; it is not admitted itself if `above` is true.
 
     Examples
     --------
@@ -76,27 +65,16 @@ class ScalarQuantity(Quantity):
     """
 
     scale: str
+    unit: str
+    si_unit: str
+    sign: str = ""
+    lowest: float = -math.inf
+    above: bool = False
     kind: ClassVar[Kind] = Kind.SCALAR
-
-    @property
-    def unit(self) -> str:
-        """The scale of the dimensionless value."""
-        return _SCALES[self.scale].unit
-
-    @property
-    def si_unit(self) -> str:
-        """The unit in SI."""
-        return _SCALES[self.scale].si_unit
-
-    @property
-    def sign(self) -> str:
-        """The positive direction, and the place of zero."""
-        return _SCALES[self.scale].sign
 
     def admits(self, value: float) -> bool:
         """Whether a value keeps the sign rule."""
-        scale = _SCALES[self.scale]
-        return value > scale.lowest if scale.above else value >= scale.lowest
+        return value > self.lowest if self.above else value >= self.lowest
 
     @property
     def relative(self) -> bool:
@@ -129,6 +107,8 @@ class Axis:
         Its name in a sentence.
     formula : str
         The variable with its unit in Unicode.
+    unit, si_unit : str
+        As in texts, and in SI.
     sign : str
         Meaning of a negative value, where it needs one.
     is_in_si : bool
@@ -139,18 +119,15 @@ class Axis:
     scale: str
     title: str
     formula: str
+    unit: str
+    si_unit: str
     sign: str = ""
     is_in_si: bool = False
 
     @property
-    def unit(self) -> str:
-        """The unit as in texts."""
-        return _SCALES[self.scale].si_unit if self.is_in_si else _SCALES[self.scale].unit
-
-    @property
     def in_si(self) -> Axis:
         """The same axis in SI."""
-        return replace(self, formula=f"{self.symbol} ({_SCALES[self.scale].si_unit})", is_in_si=True)
+        return replace(self, formula=f"{self.symbol} ({self.si_unit})", unit=self.si_unit, is_in_si=True)
 
     @property
     def label(self) -> str:
@@ -215,7 +192,7 @@ class CurveQuantity(Quantity):
     def columns_in_si(self) -> dict[str, str]:
         """The columns of points in SI, with their units: ``displacement [m]``."""
         scales = {self.x.name: self.x.scale, self.y.name: self.y.scale, **_COLUMNS}
-        return {name: f"{name} [{_SCALES[scale].si_unit}]" for name, scale in scales.items()}
+        return {name: f"{name} [{_SCALES[scale]['si_unit']}]" for name, scale in scales.items()}
 
     def in_units(self, points: Points, units: Mapping[str, float]) -> Points:
         """Return dimensionless points in the units of a problem."""
@@ -255,10 +232,14 @@ class CurveQuantity(Quantity):
         return Points(list(map(float, x)), list(map(float, y)), float(u_distance), columns)
 
 
-_AXES = {name: Axis(name, **row) for name, row in _TABLES["axis"].items()}
+def _axis(name: str, scale: str, **row: Any) -> Axis:
+    return Axis(name, scale=scale, unit=_SCALES[scale]["unit"], si_unit=_SCALES[scale]["si_unit"], **row)
+
+
+_AXES = {name: _axis(name, **row) for name, row in _TABLES["axis"].items()}
 
 #: Every scalar, by name.
-QUANTITIES = {name: ScalarQuantity(name, **row) for name, row in _TABLES["scalar"].items()}
+QUANTITIES = {name: ScalarQuantity(name, **row, **_SCALES[row["scale"]]) for name, row in _TABLES["scalar"].items()}
 
 
 def _curve(name: str, x: str, y: str, kind: str, **texts: str) -> CurveQuantity:

@@ -1,80 +1,45 @@
 """Registry of models: from a name or a SPEC to a model.
 
-The models of this repository are found in the folder `comparisons.models`.  A module there declares its models
-in a literal, which is read without importing the module:
-
-    MODELS = {"jkr": "JKR"}  # name -> class
-
-So a command that needs JKR does not load the finite elements, and a new model is one new file.
+A module is imported when one of its models is created: a command that needs JKR does not load the finite elements.
 """
 
 from __future__ import annotations
 
-import ast
-import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib import import_module
-from importlib.resources import files
 
 from comparisons.domain import Domain, declared_domain
-from comparisons.external.model_source import load_model, source_of
+from comparisons.external.model_source import AnyExternalModel, load_model, source_of
 from comparisons.model import Model
 
-_FOLDER = "comparisons.models"
-_LITERAL = re.compile(r"^MODELS = (\{.*?\})$", flags=re.MULTILINE | re.DOTALL)
-
-#: Models whose class takes Poisson's ratio.
-_WITH_POISSON_RATIO = ("fem",)
-
-#: Models that come first in lists and tables; the others follow by the name of their module.
-_VERIFYING = ("fscm-stieltjes", "fscm-stieltjes-400")
-_REFERENCES = ("fscm", *_VERIFYING, "fem")
-_OF_THE_PAPER = ("jkr", "md-original", "md-improved", "dmt", "bradley", "semi-rigid")
-_OF_OTHERS = ("double-hertz-n-k", "md-jin", "dmt-strength", "carpick-ogletree-salmeron", "pietrement-troyon", "schwarz")
-_ORDER = (*_REFERENCES, *_OF_THE_PAPER, *_OF_OTHERS, "jump-asymptotes", "jkr-sphere", "atlas", "fem-large-strain")
-
-
-def declared_models(source: str) -> dict[str, str]:
-    """Return the models that a module declares: name -> class.
-
-    Parameters
-    ----------
-    source : str
-        Text of the module.
-
-    Raises
-    ------
-    ValueError
-        If the value of `MODELS` is not a literal.
-
-    Examples
-    --------
-    >>> declared_models('MODELS = {"jkr": "JKR"}')
-    {'jkr': 'JKR'}
-    """
-    declaration = _LITERAL.search(source)
-    return ast.literal_eval(declaration[1]) if declaration else {}
-
-
-def _models_in_folder() -> dict[str, str]:
-    """Name -> "module:class" of every model in the folder, in the order of lists."""
-    models: dict[str, str] = {}
-    for entry in sorted(files(_FOLDER).iterdir(), key=lambda entry: entry.name):
-        if entry.name.endswith(".py"):
-            module = f"{_FOLDER}.{entry.name.removesuffix('.py')}"
-            for name, cls in declared_models(entry.read_text(encoding="utf-8")).items():
-                if name in models:
-                    raise ValueError(f"{module} declares a model {name}, which another module declares as well")
-                models[name] = f"{module}:{cls}"
-    return {name: models[name] for name in [*(name for name in _ORDER if name in models), *models]}
-
-
-#: Name -> "module:class"; the class is called without arguments, or with Poisson's ratio alone if it takes it.
-MODELS: dict[str, str] = _models_in_folder()
+#: Name -> "module:class", in the order of lists and tables.  The class is called without
+#: arguments, or with Poisson's ratio alone if it takes it.
+MODELS = {
+    "fscm": "comparisons.models.fscm_model:FullSelfConsistent",
+    "fscm-stieltjes": "comparisons.models.fscm_model:StieltjesModel",
+    "fscm-stieltjes-400": "comparisons.models.fscm_model:CoarseStieltjesModel",
+    "fem": "comparisons.models.fem_model:FiniteElements",
+    "jkr": "comparisons.models.jkr:JKR",
+    "md-original": "comparisons.models.cohesive_models:MaugisDugdaleOriginal",
+    "md-improved": "comparisons.models.cohesive_models:MaugisDugdaleImproved",
+    "dmt": "comparisons.models.dmt:DMT",
+    "bradley": "comparisons.models.bradley:Bradley",
+    "semi-rigid": "comparisons.models.semi_rigid:SemiRigid",
+    "double-hertz-n-k": "comparisons.models.cohesive_models:DoubleHertz",
+    "md-jin": "comparisons.models.cohesive_models:MaugisDugdaleJin",
+    "dmt-strength": "comparisons.models.dmt:DMTStrength",
+    "carpick-ogletree-salmeron": "comparisons.models.transition_formulas:CarpickOgletreeSalmeron",
+    "pietrement-troyon": "comparisons.models.transition_formulas:PietrementTroyon",
+    "schwarz": "comparisons.models.transition_formulas:Schwarz",
+    "jump-asymptotes": "comparisons.models.jump_asymptotes:JumpAsymptotes",
+    "jkr-sphere": "comparisons.models.jkr_sphere:JKRSphere",
+    "atlas": "comparisons.models.fscm_model:Atlas",
+    "fem-large-strain": "comparisons.models.fem_model:LargeStrain",
+}
 
 #: The models that a comparison of all has: without other discretisations of `fscm`, which take minutes.
-COMPARABLE = tuple(name for name in MODELS if name not in _VERIFYING)
+COMPARABLE = tuple(name for name in MODELS if not name.startswith("fscm-stieltjes"))
 
 
 def depends_on_poisson_ratio(name: str) -> bool:
@@ -87,7 +52,7 @@ def depends_on_poisson_ratio(name: str) -> bool:
     >>> depends_on_poisson_ratio("fem"), depends_on_poisson_ratio("fscm")
     (True, False)
     """
-    return name in _WITH_POISSON_RATIO
+    return name == "fem"
 
 
 def create(name: str, poisson_ratio: float | None = None) -> Model:
@@ -111,7 +76,11 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
     'jkr'
     """
     if name not in MODELS:
-        return _external_model(name)
+        try:
+            source_of(name)
+        except ValueError as error:
+            raise ValueError(f"unknown model: {error}; the models are {', '.join(MODELS)}") from None
+        return external_model(name)
     module, _, cls = MODELS[name].partition(":")
     factory = getattr(import_module(module), cls)
     if depends_on_poisson_ratio(name) and poisson_ratio is not None:
@@ -168,11 +137,8 @@ def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, ExternalIdentit
     return names, external
 
 
-def _external_model(spec: str) -> Model:
-    try:
-        source_of(spec)
-    except ValueError as error:
-        raise ValueError(f"unknown model: {error}; the models are {', '.join(MODELS)}") from None
+def external_model(spec: str) -> AnyExternalModel:
+    """Return the external model that a SPEC names; `ValueError` if there is none, or it has the name of one of ours."""
     model = load_model(spec)
     if model.name in MODELS:
         raise ValueError(

@@ -22,7 +22,7 @@ LONG = {
     "comparisons.pipeline.figures",
     "comparisons.paper.figures.gradient_effect",
     "comparisons.paper.values.printed_values",
-    "comparisons.problem.elastic_energy",
+    "comparisons.problem.equivalent_solid",
     "comparisons.description.equivalent_power_law",
     "comparisons.models.fem_model",
     "fem_reference.large_strain",

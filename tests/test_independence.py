@@ -31,7 +31,7 @@ ALLOWED = {
     # Pose the problem of a file to each solver: any solid, punch and law.
     "comparisons.problem.problem": ("fscm",),
     # The pressure at the pull-off force and the surface compliance of a solid, which are no quantities of a model.
-    "comparisons.problem.elastic_energy": ("fscm",),
+    "comparisons.problem.equivalent_solid": ("fscm",),
     # Checks the sections of a file before the whole.
     "comparisons.problem.reading": ("fscm",),
     # The equilibria under a machine, which are no quantity of a model.

@@ -5,9 +5,8 @@ from __future__ import annotations
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK
 from comparisons.console.progress import log
-from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import Verdict
-from comparisons.judging.report_card import card_lines, given_models
+from comparisons.judging.report_card import card_lines, given_models, without_card_gates
 from comparisons.judging.summary import summarise
 from comparisons.output.verdicts import declared_sentence, gate_lines, gates_sentence, unexpected
 from comparisons.pipeline.judgement import Judgement

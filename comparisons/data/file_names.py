@@ -1,4 +1,4 @@
-"""Names of the files in the folder of a run."""
+"""Names of the files in the folder of a run, and paths of the committed ones."""
 
 from __future__ import annotations
 
@@ -61,3 +61,32 @@ def is_of_verdicts(name: str) -> bool:
     [True, True, False]
     """
     return name in VERDICT_FILES or name.startswith(f"{VERDICTS}.")
+
+
+#: The clone whose packages run.
+_CLONE = Path(__file__).resolve().parents[2]
+
+
+def committed(name: str | Path) -> Path:
+    """Return the path of a file or folder of the baseline, in the working folder or in the clone whose packages run.
+
+    Parameters
+    ----------
+    name : str or Path
+        Relative to the folder of the baseline; a folder has to have a file.
+
+    Raises
+    ------
+    ValueError
+        If it is in neither of them.
+
+    Examples
+    --------
+    >>> committed("quick.csv").name, committed("paper").name
+    ('quick.csv', 'paper')
+    """
+    for folder in (BASELINE_FOLDER, _CLONE / BASELINE_FOLDER):
+        path = folder / name
+        if path.is_file() or (path.is_dir() and any(path.iterdir())):
+            return path
+    raise ValueError(f"{BASELINE_FOLDER / name} of the baseline is missing: call this in the root folder of a clone")

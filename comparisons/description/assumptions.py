@@ -17,8 +17,6 @@ from comparisons.problem import Problem, Section
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["SMALL", "assumptions", "total_errors"]
-
 Json = dict[str, Any]
 
 #: Largest slope and strain that count as small: their squares, which linear theory leaves out, are 1 %.

@@ -10,11 +10,14 @@ from comparisons.description.forces import change_of, force_content, reference_f
 from comparisons.description.overview import LIMITS, model_errors, simplest_within
 from comparisons.model import ComputationFailed
 from comparisons.problem import Problem
-from comparisons.problem.elastic_energy import EnergySpectrum, energy_spectrum
-from comparisons.problem.equivalent_solid import LARGEST_DEVIATION, least_wrong, power_law_of
+from comparisons.problem.equivalent_solid import (
+    LARGEST_DEVIATION,
+    EnergySpectrum,
+    energy_spectrum,
+    least_wrong,
+    power_law_of,
+)
 from comparisons.runs.rows import Row
-
-__all__ = ["equivalent_power_law"]
 
 #: Shares of the energy between which the lengths of the fit are stated.
 _MIDDLE = 0.95, 0.05
@@ -54,8 +57,8 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
         spectrum = energy_spectrum(problem)
     except ComputationFailed:
         return None
-    k, free_k, deviation, compliance = least_wrong(spectrum)
-    similar = power_law_of(problem, k, compliance, spectrum)
+    _, free_k, deviation, _ = least_wrong(spectrum)
+    similar = power_law_of(problem, spectrum)
     of_law = reference_force(similar)
     error, bound = change_of(of_law, force) or (None, None)
     summed = []

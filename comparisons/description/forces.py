@@ -1,4 +1,4 @@
-"""The pull-off force that others are compared with, and the relative change from it."""
+"""The pull-off force that others are compared with, relative changes of it, and those by the choices of a profile."""
 
 from __future__ import annotations
 
@@ -7,9 +7,7 @@ from typing import Any
 from comparisons.numerics.bounds import relative_difference, relative_uncertainty
 from comparisons.problem import Problem
 from comparisons.runs.rows import Row
-from comparisons.runs.tasks import evaluate
-
-__all__ = ["change_of", "force_content", "reference_force"]
+from comparisons.runs.tasks import Task, evaluate, evaluate_task
 
 #: What is stated of a force.
 _STATED = ("model", "value", "u_num", "unit", "status", "reason")
@@ -32,3 +30,39 @@ def change_of(row: Row, force: Row) -> tuple[float, float] | None:
         return None
     bound = relative_uncertainty(row.value, row.u_num, force.value, force.u_num)
     return relative_difference(row.value, force.value), bound
+
+
+#: Factors on the smoothing, and the exponents of the continuation; one that the file has is left out.
+_FACTORS, _GROWTHS = (0.5, 2.0), (1.5, 3.0)
+
+#: Exponent of a file that states none.
+_GROWTH = 2.0
+
+
+def profile_sensitivity(problem: Problem, force: Row) -> list[dict[str, Any]]:
+    """Return the relative change of the force with half and double the smoothing, and with other exponents of growth.
+
+    Parameters
+    ----------
+    problem : Problem
+    force : Row
+        Its pull-off force.
+
+    Returns
+    -------
+    list of dict
+        As JSON has it; empty if the punch is not a table, or if there is no force.
+    """
+    if problem.punch.kind != "table" or force.value is None:
+        return []
+    smoothing, growth = problem.punch.get("smoothing"), problem.punch.get("growth", _GROWTH)
+    choices = [] if smoothing is None else [("smoothing", factor * smoothing) for factor in _FACTORS]
+    choices += [("growth", other) for other in _GROWTHS if other != growth]
+    changes = []
+    for key, value in choices:
+        # A failure with its reason where the other shape is not admissible.
+        row = evaluate_task(Task("fscm", "pull_off_force", problem.with_value(f"punch.{key}", value)))
+        change, bound = change_of(row, force) or (None, None)
+        stated = {"key": key, "value": value, "change": change, "u_num": bound}
+        changes.append(stated | {"status": row.status, "reason": row.reason})
+    return changes

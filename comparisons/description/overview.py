@@ -13,8 +13,6 @@ from comparisons.registry import MODELS
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["LIMITS", "SIMPLEST_FIRST", "model_errors", "overview", "simplest_within"]
-
 Json = dict[str, Any]
 
 #: Errors for which a model is recommended.

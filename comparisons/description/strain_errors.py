@@ -20,14 +20,10 @@ from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
+from comparisons.model import Array
 from comparisons.problem import Problem, Section
-
-__all__ = ["FILE", "Change", "ball_on", "beyond", "strain_change"]
-
-Array = NDArray[np.float64]
 
 #: Name of the table in `comparisons.data`.
 FILE = "strain_errors.csv"

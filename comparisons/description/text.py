@@ -12,8 +12,6 @@ from comparisons.problem import Problem
 from comparisons.problem.equivalent_solid import LARGEST_DEVIATION
 from comparisons.problem.units import si_text
 
-__all__ = ["description_text"]
-
 Json = dict[str, Any]
 
 

@@ -8,14 +8,11 @@ from typing import Any
 
 import fscm
 from comparisons.problem import Problem
-from comparisons.problem.kinds import KINDS
 from comparisons.problem.uncertain import Uncertainty
 from comparisons.quantities import QUANTITIES
 
-__all__ = ["uncertainty"]
-
 Json = dict[str, Any]
-_Uncertain = Mapping[tuple[str, str], Uncertainty]
+_Uncertain = Mapping[str, Uncertainty]
 
 
 def uncertainty(problem: Problem, quantity: str = "pull_off_force") -> Json:
@@ -61,8 +58,8 @@ def uncertainty(problem: Problem, quantity: str = "pull_off_force") -> Json:
         )
     try:
         value, u_num, slopes = _slopes(problem, quantity, uncertain)
-        intervals = {key: spread for key, spread in uncertain.items() if spread.is_interval}
-        deviations = [abs(slopes[key]) * spread.size for key, spread in uncertain.items() if key not in intervals]
+        intervals = {name: spread for name, spread in uncertain.items() if spread.is_interval}
+        deviations = [abs(slopes[name]) * spread.size for name, spread in uncertain.items() if name not in intervals]
         return {
             "quantity": quantity,
             "model": "fscm",
@@ -70,7 +67,7 @@ def uncertainty(problem: Problem, quantity: str = "pull_off_force") -> Json:
             "u_num": u_num,
             "unit": QUANTITIES[quantity].si_unit,
             "status": "ok",
-            "parameters": [_parameter(problem, key, spread, slopes[key], value) for key, spread in uncertain.items()],
+            "parameters": [_parameter(problem, name, slopes[name], value) for name in uncertain],
             "standard_deviation": math.hypot(*deviations) if deviations else None,
             "range": _range(problem, quantity, value, intervals, slopes) if intervals else None,
         }
@@ -79,8 +76,8 @@ def uncertainty(problem: Problem, quantity: str = "pull_off_force") -> Json:
         return {"quantity": quantity, "status": status, "reason": str(error)}
 
 
-def _parameter(problem: Problem, key: tuple[str, str], spread: Uncertainty, slope: float, value: float) -> Json:
-    name = ".".join(key)
+def _parameter(problem: Problem, name: str, slope: float, value: float) -> Json:
+    spread = problem.uncertain[name]
     return {
         "parameter": name,
         "value": problem[name],
@@ -91,42 +88,35 @@ def _parameter(problem: Problem, key: tuple[str, str], spread: Uncertainty, slop
     }
 
 
-def _slopes(
-    problem: Problem, quantity: str, uncertain: _Uncertain
-) -> tuple[float, float, dict[tuple[str, str], float]]:
+def _slopes(problem: Problem, quantity: str, uncertain: _Uncertain) -> tuple[float, float, dict[str, float]]:
     """Value and bound of the quantity, and its derivatives by uncertain values."""
     solved = fscm.sensitivity(problem.build(fscm), quantity)
     slopes = {}
-    for (section, key), spread in uncertain.items():
-        section_values = getattr(problem, section)
-        form = KINDS[section][section_values.kind].keys[key]
-        size = max(abs(section_values[key]), spread.size)
-        slopes[section, key] = solved.derivative(
-            _varied(problem, section, key), section_values[key], size, form.low, form.high
-        )
+    for name, spread in uncertain.items():
+        form, stated = problem.form(name), problem[name]
+        size = max(abs(stated), spread.size)
+        slopes[name] = solved.derivative(_varied(problem, name), stated, size, form.low, form.high)
     return solved.solution.value, solved.solution.u_num, slopes
 
 
-def _varied(problem: Problem, section: str, key: str) -> Callable[[float], fscm.Problem]:
-    return lambda value: problem.with_value(section, key, value).build(fscm)
+def _varied(problem: Problem, name: str) -> Callable[[float], fscm.Problem]:
+    return lambda value: problem.with_value(name, value).build(fscm)
 
 
-def _range(
-    problem: Problem, quantity: str, value: float, intervals: _Uncertain, slopes: Mapping[tuple[str, str], float]
-) -> Json:
+def _range(problem: Problem, quantity: str, value: float, intervals: _Uncertain, slopes: Mapping[str, float]) -> Json:
     """The range over the intervals to first order, and the values and slopes where it ends."""
-    half = sum(abs(slopes[key]) * spread.size for key, spread in intervals.items())
+    half = sum(abs(slopes[name]) * spread.size for name, spread in intervals.items())
     stated: Json = {"first_order": [value - half, value + half], "solved": None, "is_monotone": None}
     ends, monotone = [], True
     try:
         for side in (-1.0, 1.0):
             at_end = problem
-            for key, spread in intervals.items():
-                low, high = spread.limits(problem[".".join(key)])
-                at_end = at_end.with_value(*key, high if side * slopes[key] > 0.0 else low)
+            for name, spread in intervals.items():
+                low, high = spread.limits(problem[name])
+                at_end = at_end.with_value(name, high if side * slopes[name] > 0.0 else low)
             end, u_num, end_slopes = _slopes(at_end, quantity, intervals)
             ends.append(end + side * u_num)
-            monotone &= all(end_slopes[key] * slopes[key] >= 0.0 for key in intervals)
+            monotone &= all(end_slopes[name] * slopes[name] >= 0.0 for name in intervals)
     except (fscm.NoSuchEvent, fscm.NotConverged, ValueError):
         return stated
     return stated | {"solved": sorted(ends), "is_monotone": monotone}

@@ -6,15 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from comparisons.fitting.equilibria import Equilibria, by_fscm, by_jkr, is_limit, paths_alike
 from comparisons.fitting.parameters import Key, changed
+from comparisons.model import Array
 from comparisons.problem import Problem
-
-__all__ = ["Curves", "NearbyCurves"]
-
-Array = NDArray[np.float64]
 
 #: Step of a number for the derivative of a path.
 _STEP = 1e-2

@@ -19,20 +19,15 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 import fscm
-from comparisons.model import ComputationFailed
+from comparisons.model import Array, ComputationFailed
 from comparisons.models.bradley import rigid_load
 from comparisons.models.jkr import JKR
 from comparisons.numerics.bounds import relative_difference
 from comparisons.problem import Problem
 from comparisons.runs.tasks import evaluate
-
-__all__ = ["Equilibria", "by_fscm", "by_jkr", "distance_of_jkr", "is_limit", "paths_alike"]
-
-Array = NDArray[np.float64]
 
 #: Ratio of neighbouring Tabor numbers of the grid.  The load between them is within 1e-3 of the pull-off force of a
 #: path of its own (measured worst 8e-4, n = 2, k = 0, mu = 4.7, at the fold of the approach).

@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from comparisons.description.assumptions import assumptions
 from comparisons.fitting.curves import Curves
@@ -22,13 +21,10 @@ from comparisons.fitting.equilibria import distance_of_jkr, is_limit
 from comparisons.fitting.machine import Observations
 from comparisons.fitting.parameters import Key, changed, free_keys, uncertain_keys
 from comparisons.fitting.record import Record, read_records
-from comparisons.fitting.search import Search, dotted, plain
+from comparisons.fitting.search import Search, dotted, numbers_of, plain
+from comparisons.model import Array
 from comparisons.problem import Problem
 from comparisons.runs.tasks import evaluate
-
-__all__ = ["Fit", "FittedValue", "fit", "fit_record"]
-
-Array = NDArray[np.float64]
 
 #: A value is called undetermined where its standard deviation is a larger share of it.
 _UNDETERMINED = 0.5
@@ -192,7 +188,7 @@ def fit_record(record: Record, problem: Problem, free: Sequence[Key], model: str
 
 def _described(search: Search, result: Any, curves: Curves, count: int) -> Fit:
     """Return values, uncertainties and the budget."""
-    values = search.values(result)
+    values = numbers_of(result.params)
     problem = changed(search.problem, search.keys, values)
     machine = search.machine(values, curves)
     position, zero = search.zeros(values)
@@ -248,7 +244,7 @@ def _shifts(
     shifts: dict[str, dict[str, float] | None] = dict.fromkeys(errors)
     for cause, error in errors.items():
         if error is not None:
-            shifts[cause] = search.scaled(curves, result, 1.0 / (1.0 + error)) if error else search.values(result)
+            shifts[cause] = search.scaled(curves, result, 1.0 / (1.0 + error)) if error else numbers_of(result.params)
     return shifts
 
 

@@ -27,9 +27,7 @@ from comparisons.problem.units import prefixed_unit, si_text
 from comparisons.runs.atomic_files import write_file
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.store import Form, Store
-from comparisons.runs.workers import processes
-
-__all__ = ["draw", "fit_files", "fit_table", "write_fits"]
+from comparisons.runs.workers import LOST, each
 
 #: A smaller change in percent is that of rounding.
 _NOTHING = 1e-3
@@ -80,35 +78,35 @@ def fit_files(
     list of dict
         For each file ``file``, ``fits`` as of `Fit.as_json`, and ``failure``, empty where there are fits.
     """
-    tasks = [_Task(path, problem, free, options) for path in paths]
-    jobs = min(jobs, len(tasks))
+    tasks = {(path.name, task.digest): task for path in paths for task in [_Task(path, problem, free, options)]}
     if folder is None:
-        return [item or _lost(task) for task, item in processes(partial(_fitted, folder=None), tasks, jobs)]
-    folder.mkdir(parents=True, exist_ok=True)
-    with Store(folder, _FORM) as store:
-        stored = {(item["file"], item["digest"]) for item in store.items}
-        missing = [task for task in tasks if (task.path.name, task.digest) not in stored]
-        computed = processes(partial(_fitted, folder=folder), missing, jobs)
-        store.complete("fits", len(missing), (item or _lost(task) for task, item in computed))
-        wanted = {(task.path.name, task.digest) for task in tasks}
-        return sorted((i for i in store.items if (i["file"], i["digest"]) in wanted), key=lambda item: item["file"])
+        items = list(each(partial(_fitted, folder=None), [*tasks.values()], jobs, lost=_item))
+    else:
+        folder.mkdir(parents=True, exist_ok=True)
+        with Store(folder, _FORM) as store:
+            stored = {(item["file"], item["digest"]) for item in store.items}
+            missing = [task for key, task in tasks.items() if key not in stored]
+            store.complete("fits", len(missing), each(partial(_fitted, folder=folder), missing, jobs, lost=_item))
+            items = [item for item in store.items if (item["file"], item["digest"]) in tasks]
+    return sorted(items, key=lambda item: str(item["file"]))
 
 
-def _lost(task: _Task) -> dict[str, Any]:
-    return {"file": task.path.name, "digest": task.digest, "fits": [], "failure": "its process ended twice"}
+def _item(task: _Task, failure: str = LOST, fits: Sequence[Fit] = ()) -> dict[str, Any]:
+    """Return what is stored of a file."""
+    fitted = [result.as_json() for result in fits]
+    return {"file": task.path.name, "digest": task.digest, "fits": fitted, "failure": failure}
 
 
 def _fitted(task: _Task, folder: Path | None) -> dict[str, Any]:
-    item: dict[str, Any] = {"file": task.path.name, "digest": task.digest, "fits": [], "failure": ""}
     try:
         fits = fit(task.path, task.problem, task.free, **task.options)
     except (ComputationFailed, NotApplicable) as failure:
-        return item | {"failure": str(failure)}
+        return _item(task, str(failure))
     for number, result in enumerate(fits):
         if folder is not None:
             stem = task.path.stem + (f"-{number + 1}" if len(fits) > 1 else "")
             save(draw(result), folder / f"{stem}.png")
-    return item | {"fits": [result.as_json() for result in fits]}
+    return _item(task, "", fits)
 
 
 def fit_table(items: Sequence[Mapping[str, Any]]) -> Table:

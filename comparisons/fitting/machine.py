@@ -10,11 +10,7 @@ from numpy.typing import NDArray
 
 from comparisons.fitting.equilibria import Equilibria
 from comparisons.fitting.record import Record
-from comparisons.model import ComputationFailed
-
-__all__ = ["Machine", "Observations"]
-
-Array = NDArray[np.float64]
+from comparisons.model import Array, ComputationFailed
 
 #: A section is continued beyond its fold by a straight line, so that a fit feels a fold in the wrong place: over this
 #: share of the way from the fold to pull-off and beyond, along its secant.

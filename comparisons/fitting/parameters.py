@@ -8,10 +8,8 @@ from dataclasses import dataclass
 
 from comparisons.data.validation import known_name, shown
 from comparisons.problem import Problem
-from comparisons.problem.kinds import KINDS, SECTIONS
+from comparisons.problem.kinds import SECTIONS
 from comparisons.problem.uncertain import Uncertainty
-
-__all__ = ["Key", "changed", "free_keys", "uncertain_keys"]
 
 #: Largest logarithm of a share of the value of the file: seventeen powers of ten.
 _WIDEST = 40.0
@@ -43,16 +41,6 @@ class Key:
     logarithmic: bool
     limits: tuple[float, float]
     prior: Uncertainty | None
-
-    @property
-    def section(self) -> str:
-        """Section of the file."""
-        return self.name.partition(".")[0]
-
-    @property
-    def key(self) -> str:
-        """Key of the section."""
-        return self.name.partition(".")[2]
 
     def value(self, number: float) -> float:
         """Return the value of a fitted number, which is 0 at the start."""
@@ -94,23 +82,19 @@ def free_keys(problem: Problem, names: Sequence[str]) -> list[Key]:
 def uncertain_keys(problem: Problem, free: Sequence[Key]) -> list[Key]:
     """Return the other keys to which the file gives a standard deviation or an interval."""
     names = {key.name for key in free}
-    uncertain = (".".join(key) for key in problem.uncertain)
-    return [_key(problem, name) for name in uncertain if name not in names]
+    return [_key(problem, name) for name in problem.uncertain if name not in names]
 
 
 def _key(problem: Problem, name: str) -> Key:
     section, _, key = name.partition(".")
     where = f"--free {shown(name)}"
     known_name("section", section, SECTIONS, where)
-    of_problem = getattr(problem, section)
-    forms = KINDS[section][of_problem.kind].keys
-    known_name("key", key, [name for name in forms if name in of_problem.values], where)
+    known_name("key", key, getattr(problem, section).values, where)
     start = problem[name]
     if not isinstance(start, float | int):
         raise ValueError(f"{where}: it is not a number of the file; only numbers can be fitted")
-    form = forms[key]
+    form, prior = problem.form(name), problem.uncertain.get(name)
     limits = form.low, form.high
-    prior = of_problem.uncertain.get(key)
     if prior is not None and prior.is_interval:
         limits = prior.limits(start)
     logarithmic = start > 0.0 and math.isinf(form.high)
@@ -120,5 +104,5 @@ def _key(problem: Problem, name: str) -> Key:
 def changed(problem: Problem, keys: Sequence[Key], numbers: Mapping[str, float]) -> Problem:
     """Return the problem with the values of fitted numbers, by the names of the keys."""
     for key in keys:
-        problem = problem.with_value(key.section, key.key, key.value(numbers[key.name]))
+        problem = problem.with_value(key.name, key.value(numbers[key.name]))
     return problem

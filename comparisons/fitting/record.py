@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import math
-import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -14,16 +13,13 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from comparisons.data.input_files import LARGEST_TABLE, check_regular, read_text
-from comparisons.data.validation import known_name, shown
+from comparisons.data.validation import shown
+from comparisons.model import Array
+from comparisons.problem.columns import column_heading
 from comparisons.problem.units import NotAValue, unit_factor
-
-__all__ = ["Record", "read_records"]
-
-Array = NDArray[np.float64]
 
 #: Columns of a CSV file and their units in SI: displacement and load, or height of the base and deflection.
 _COLUMNS = {"displacement": "m", "load": "N", "height": "m", "deflection": "m", "branch": ""}
-_HEADING = re.compile(r"\s*([a-z]+)\s*(?:\[\s*([^\]]*?)\s*\])?\s*")
 _BRANCHES = ("approach", "retreat")
 
 #: Fewest points of a curve, several for each number that is fitted.
@@ -132,13 +128,7 @@ def _of_csv(path: Path, text: str, stiffness: float | None, sensitivity: float |
         ) from None
     columns: dict[str, Any] = {}
     for heading in table.columns:
-        match = _HEADING.fullmatch(str(heading))
-        if not match:
-            raise ValueError(
-                f"{path}: {shown(str(heading))} is not the name of a column; an example is displacement [nm]"
-            )
-        name, unit = match[1], match[2]
-        known_name("column", name, _COLUMNS, str(path))
+        name, unit = column_heading(str(heading), _COLUMNS, str(path))
         columns[name] = table[heading] if name == "branch" else _numbers(path, name, table[heading], unit, sensitivity)
     if "deflection" in columns:
         if stiffness is None:

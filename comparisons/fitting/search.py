@@ -10,18 +10,13 @@ from typing import Any
 
 import lmfit
 import numpy as np
-from numpy.typing import NDArray
 
 from comparisons.fitting.curves import Curves, NearbyCurves
 from comparisons.fitting.machine import Machine, Observations
 from comparisons.fitting.parameters import Key, changed
-from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.model import Array, ComputationFailed, NotApplicable
 from comparisons.problem import Problem
 from comparisons.runs.tasks import evaluate
-
-__all__ = ["Search", "derivatives", "dotted", "plain"]
-
-Array = NDArray[np.float64]
 
 #: Start values of the JKR limit, as shares of those of the file: a file may be wrong by some powers of ten.
 _SHARES = (0.1, 10.0, 0.01, 100.0)
@@ -90,11 +85,11 @@ class Search:
             except (NotApplicable, ComputationFailed, ValueError):
                 continue
             if result.redchi < _DESCRIBED:
-                return [self.values(result)]
+                return [numbers_of(result.params)]
             near_limit.append(result)
         starts = [self._of_pull_off(mu) for mu in _STIFF]
         if near_limit:
-            values = self.values(_best(near_limit))
+            values = numbers_of(_best(near_limit).params)
             if self._problem_of(values).posed.mu > _SOFT:
                 return [values, *starts]
         return starts
@@ -112,7 +107,7 @@ class Search:
             # The unit of the load is proportional to the work of adhesion.
             stated = float(evaluate("fscm", "pull_off_force", posed)) * self.problem.units["load"]
             numbers[_ADHESION] = math.log(force / stated) if force > 0.0 else 0.0
-        moduli = [key.name for key in self.keys if key.section == "solid" and key.logarithmic]
+        moduli = [key.name for key in self.keys if key.name.startswith("solid.") and key.logarithmic]
         if moduli:
             logs = []
             for number in (0.0, 1.0):
@@ -169,7 +164,7 @@ class Search:
             else:
                 curves, center, least = expanded, values, squares
             result = self.minimised(curves, center, _STEPS[1], reach)
-            values = self.values(result)
+            values = numbers_of(result.params)
             if all(
                 abs(values[name] - at_center) < _SMALL * (result.params[plain(name)].stderr or _STEPS[1])
                 for name, at_center in curves.center.items()
@@ -182,16 +177,12 @@ class Search:
 
     def _from(self, curves: Curves, start: dict[str, float]) -> Any:
         """The better result from one start and from where a coarse search from it ends."""
-        coarse = self.values(self.minimised(curves, start, _STEPS[0]))
+        coarse = numbers_of(self.minimised(curves, start, _STEPS[0]).params)
         return _best(self.minimised(curves, each, _STEPS[1]) for each in (start, coarse))
 
     def scaled(self, curves: Curves, result: Any, factor: float) -> dict[str, float]:
         """Return the numbers that a result becomes if all loads of the model are larger by a factor."""
-        return self.values(self.minimised(replace(curves, factor=factor), self.values(result), _STEPS[1]))
-
-    def values(self, result: Any) -> dict[str, float]:
-        """Return the numbers of a result, by the names of keys and zeros."""
-        return {dotted(name): float(parameter.value) for name, parameter in result.params.items()}
+        return numbers_of(self.minimised(replace(curves, factor=factor), numbers_of(result.params), _STEPS[1]).params)
 
     def machine(self, values: dict[str, float], curves: Curves) -> Machine:
         """Return the stable sections of the problem of fitted numbers."""
@@ -230,7 +221,7 @@ class Search:
         if "displacement" in start:
             displacement = start["displacement"]
         else:
-            values = {dotted(name): float(parameter.value) for name, parameter in parameters.items()}
+            values = numbers_of(parameters)
             machine = self.machine(values, curves)
             displacement = self._aligned(machine, values) / self.range
         parameters.add("displacement", value=displacement)
@@ -240,9 +231,8 @@ class Search:
         worst = np.full(int(self.observed.used.sum()) + len(self.keys) + 2, _REFUSED)
 
         def residuals(parameters: lmfit.Parameters) -> Array:
-            values = {dotted(name): float(parameter.value) for name, parameter in parameters.items()}
             try:
-                errors = self._residuals(values, curves)
+                errors = self._residuals(numbers_of(parameters), curves)
             except (ComputationFailed, NotApplicable, ValueError):
                 return worst
             return np.concatenate([errors, np.zeros(len(worst) - len(errors))])
@@ -291,6 +281,11 @@ class Search:
                 # The jump is evenly anywhere between both points.
                 others.append((around.mean() - fold) / (np.ptp(around) / math.sqrt(12.0)))
         return np.concatenate([errors, others])
+
+
+def numbers_of(parameters: lmfit.Parameters) -> dict[str, float]:
+    """Return the numbers of parameters, by the names of keys and zeros."""
+    return {dotted(name): float(parameter.value) for name, parameter in parameters.items()}
 
 
 def _best(results: Iterable[Any]) -> Any:

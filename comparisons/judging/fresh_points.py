@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import islice
+from itertools import groupby, islice
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.domain import Domain
+from comparisons.domain import NO_LIMITS, Domain
 from comparisons.judging.gates import Gate
 from comparisons.judging.selection import promised
 from comparisons.problem import Problem
 from comparisons.problem.problem import split_name
 from comparisons.problem.variation import parse_variation, problems_of
-from comparisons.runs.case_columns import unit_in
+from comparisons.runs.frames import unit_in
 
 #: The smallest and the largest value of parameters.
 _Box = Mapping[str, tuple[float, float]]
@@ -74,7 +74,8 @@ def sample(
     Sample or None
         None if the gate itself leaves no room, whatever the domain is.
     """
-    families = [_Family.of(gate, cases, avoided) for cases in _grouped(standing)]
+    groups = groupby(sorted(standing, key=_family_of), _family_of)
+    families = [_Family.of(gate, list(cases), avoided) for _, cases in groups]
     if all(family.reach and not family.points(family.frame(domain), 1, seed) for family in families):
         return None
     spaces = [(family, box, tested) for family in families for box, tested in family.boxes(domain)]
@@ -99,13 +100,6 @@ def _family_of(case: Problem) -> tuple[str, ...]:
     """Return what the cases of a family have in common: their file, and their varied keys that are not numbers."""
     words = (f"{name}={value}" for name, value in case.parameters.items() if isinstance(value, str))
     return split_name(case.name)[0], *_numbers(case), *words
-
-
-def _grouped(cases: Iterable[Problem]) -> list[list[Problem]]:
-    groups: dict[tuple[str, ...], list[Problem]] = {}
-    for case in cases:
-        groups.setdefault(_family_of(case), []).append(case)
-    return [groups[family] for family in sorted(groups)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +135,7 @@ class _Family:
             return
         for table in domain.of_quantity(self.gate.quantity):
             tested = [case for case in self.standing if table.within(case.parameters)]
-            yield self._limited({name: table.ends(name) for name in self.reach}), tested
+            yield self._limited({name: table.limits.get(name, NO_LIMITS) for name in self.reach}), tested
 
     def points(self, box: _Box, count: int, seed: list[int]) -> list[dict[str, float]]:
         """Return points of a box, even if some are left out; none if it has hardly any that are apart."""

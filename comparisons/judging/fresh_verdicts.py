@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from comparisons.judging.card_gates import verdict_on_model
 from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import RANDOM
 from comparisons.judging.judge import verdict_table
+from comparisons.judging.report_card import verdict_on_model
 
 #: The errors in fresh cases may be so many times the errors in the standing cases.  Those of a formula differ little
 #: between two samples of one range: measured at most 0.93 times, md-original in 150 fresh cases.

@@ -15,8 +15,7 @@ from typing import Any
 from comparisons.data.input_files import read_text
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, label, validated
-from comparisons.judging.case_selection import has_parameters, in_si_units
-from comparisons.judging.gate_checks import defects, plain_text
+from comparisons.judging.gate_checks import defects, has_parameters, in_si_units, plain_text
 from comparisons.problem import Problem
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import MODELS

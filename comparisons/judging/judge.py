@@ -15,13 +15,21 @@ import pandas as pd
 from comparisons.domain import Domain
 from comparisons.judging.decision import Verdict, crossing, decide, expecting_failure
 from comparisons.judging.gates import Gate
-from comparisons.judging.metrics import CaseError, case_error, reference_range
+from comparisons.judging.metrics import (
+    CURVE,
+    NUMBER,
+    CaseError,
+    GateResults,
+    UnusableResult,
+    case_error,
+    reference_range,
+    rows_by_key,
+)
 from comparisons.judging.selection import cases_of, promised, relevant
-from comparisons.judging.stored_results import CURVE, NUMBER, GateResults, UnusableResult, rows_by_key
 from comparisons.numerics.number_text import exact
 from comparisons.problem import Problem
-from comparisons.runs.case_columns import without_empty_problem
 from comparisons.runs.cases import Grid
+from comparisons.runs.frames import without_empty_problem
 from comparisons.runs.tasks import problem_for
 
 #: What to change in a gate with a case to which a model does not apply.

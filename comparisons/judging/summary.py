@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from comparisons.judging.decision import Verdict, roll_up
-from comparisons.runs.case_columns import with_problem
+from comparisons.runs.frames import with_problem
 
 #: Numbers of cases in which a candidate was evaluated, has a value (or there is none), is not applicable, has failed or
 #: has no row, and was not evaluated since they are outside its domain.

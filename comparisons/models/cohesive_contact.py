@@ -38,14 +38,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import betainc
 
-from comparisons.model import ComputationFailed
+from comparisons.model import Array, ComputationFailed
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.quadrature import COARSE, FINE, UnitRule
-
-Array = NDArray[np.float64]
 
 _NEWTON_STEPS = 60
 # Newton on a convex increasing function from its right-hand side stops where rounding stops it; the sum of

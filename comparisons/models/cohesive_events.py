@@ -10,14 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
-from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.model import Array, ComputationFailed, NotApplicable
 from comparisons.models.closed_form import EPS
 from comparisons.models.cohesive_contact import CohesiveContact, ContactState
 from comparisons.models.quadrature import COARSE
-
-Array = NDArray[np.float64]
 
 # Rounding of displacement, load and Griffith's relation relative to the magnitude of their terms: measured
 # worst 6e-15 against 40-digit arithmetic over 0.8 <= n <= 10, 0 <= k <= 0.95, 1e-3 <= Lambda <= 20.  The

@@ -31,13 +31,6 @@ from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
-MODELS = {
-    "md-original": "MaugisDugdaleOriginal",
-    "md-improved": "MaugisDugdaleImproved",
-    "md-jin": "MaugisDugdaleJin",
-    "double-hertz-n-k": "DoubleHertz",
-}
-
 # Radii of a stored profile in each of its three parts.
 _PROFILE_POINTS = 60
 # The curve starts at a = 0 and then at this fraction of its largest contact radius.

@@ -14,14 +14,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from comparisons.model import FARTHEST_GAP, NotApplicable, RadialField
+from comparisons.model import FARTHEST_GAP, Array, NotApplicable, RadialField
 from comparisons.models.cohesive_contact import CohesiveContact, ContactState
 from comparisons.models.graded_punch import Scales
 from comparisons.models.quadrature import FINE
-
-Array = NDArray[np.float64]
 
 #: Bound on the error of pressure and gap as a fraction of their ranges: measured worst 1.2e-13 against 25 digits.
 PROFILE_ROUNDING = 1e-12

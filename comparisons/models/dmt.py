@@ -23,8 +23,6 @@ from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
-MODELS = {"dmt": "DMT", "dmt-strength": "DMTStrength"}
-
 
 def dmt_pull_off(n: float, cohesive_stress: float) -> Result:
     """Pull-off force n^(2/n) sigma_0^(1 - 2/n) (Eq. 75), sigma_0 in dgamma / z0.

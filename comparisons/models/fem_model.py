@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 import fem_reference
-from comparisons.model import Curve, NotApplicable, RadialField, Result
-from comparisons.models.solver import SolverModel, curve_of, result_of, surface_of, translated
+from comparisons.model import Curve, NotApplicable, RadialField, Result, translated
+from comparisons.models.solver import SolverModel, curve_of, result_of, surface_of
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
@@ -25,7 +25,6 @@ from fscm.problem import Problem as PosedProblem
 if TYPE_CHECKING:
     from fem_reference import export
 
-MODELS = {"fem": "FiniteElements", "fem-large-strain": "LargeStrain"}
 
 #: Meshes of a curve: the coarser one, which gives its uncertainty, and that of its points.
 _LEVELS = ("quick", "default")
@@ -122,12 +121,6 @@ class FiniteElements(SolverModel):
         """Return the surface where P is smallest, and as its uncertainty the distance of two meshes."""
         return _surface_at_pull_off(self._poisson_ratio, problem)
 
-    def _surface_at_pull_off(self, problem: Problem) -> RadialField:
-        units, body = self.physical(problem)
-        with translated(fem_reference):
-            coarse, fine = (fem_reference.profile(body, accuracy=level) for level in _LEVELS)
-        return surface_of(coarse, fine, units)
-
     def physical(self, problem: Problem) -> tuple[Mapping[str, float], fem_reference.Problem]:
         """The units of the results, and the problem of the solver."""
         if not problem.name:
@@ -158,7 +151,10 @@ class FiniteElements(SolverModel):
 @lru_cache(maxsize=1)
 def _surface_at_pull_off(poisson_ratio: float, problem: Problem) -> RadialField:
     """Keep the last surface: its pressure and its gap are requested one after the other."""
-    return FiniteElements(poisson_ratio)._surface_at_pull_off(problem)
+    units, body = FiniteElements(poisson_ratio).physical(problem)
+    with translated(fem_reference):
+        coarse, fine = (fem_reference.profile(body, accuracy=level) for level in _LEVELS)
+    return surface_of(coarse, fine, units)
 
 
 def built(problem: Problem) -> fem_reference.Problem:
@@ -216,4 +212,4 @@ def _body(problem: Problem) -> fem_reference.Problem:
     if problem.solid.kind != "homogeneous":
         return built(problem)
     solid = fem_reference.NeoHookean(problem.solid["E"], problem.solid["nu"])
-    return replace(built(problem.with_value("solid", "nu", 0.0)), solid=solid)
+    return replace(built(problem.with_value("solid.nu", 0.0)), solid=solid)

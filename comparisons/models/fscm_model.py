@@ -7,21 +7,14 @@ from typing import Any, ClassVar
 import numpy as np
 
 import fscm
-from comparisons.model import ComputationFailed, Curve, NotApplicable, RadialField, Result
+from comparisons.model import ComputationFailed, Curve, NotApplicable, RadialField, Result, translated
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
-from comparisons.models.solver import SolverModel, result_of, surface_of, translated
+from comparisons.models.solver import SolverModel, result_of, surface_of
 from comparisons.problem import Problem
 from fscm.interpolation.coordinates import BOX
 from fscm.interpolation.storage import data_digest
 from fscm.states import radial_field
 from fscm.stieltjes import STIELTJES_QUANTITIES, StieltjesScheme, stieltjes_solution
-
-MODELS = {
-    "fscm": "FullSelfConsistent",
-    "fscm-stieltjes": "StieltjesModel",
-    "fscm-stieltjes-400": "CoarseStieltjesModel",
-    "atlas": "Atlas",
-}
 
 #: Step of a curve: other curves are compared with it between its points (measured: a cubic spline is then
 #: within 1e-5 of the picture).
@@ -95,17 +88,6 @@ class StieltjesModel(SolverModel):
     """Eqs. 34-39 as printed in the paper: N uniform segments up to f = 50, Riemann-Stieltjes sums, central-gap control.
 
     Its curve begins at a central gap of 10 and ends at the first compressive load, at the latest at a gap of -0.4.
-
-    Parameters
-    ----------
-    segments : int
-        N; the paper uses 2500.
-
-    Examples
-    --------
-    >>> result = StieltjesModel(segments=200).evaluate(Problem.dimensionless(n=2, k=0.4, mu=0.5), "pull_off_force")
-    >>> abs(result.value - 1.86628026) < result.u_num
-    True
     """
 
     name: ClassVar[str] = "fscm-stieltjes"
@@ -113,15 +95,13 @@ class StieltjesModel(SolverModel):
     domain: ClassVar[str] = "k < 1, central gaps from 10 to -0.4, cohesive edge wider than the 2500 segments"
     package = fscm
     quantities = STIELTJES_QUANTITIES
-
-    def __init__(self, segments: int = 2500) -> None:
-        self._segments = segments
+    segments: ClassVar[int] = 2500
 
     def _result(self, problem: Problem, quantity: str) -> Result:
-        return result_of(stieltjes_solution(self._posed(problem), quantity, self._segments))
+        return result_of(stieltjes_solution(self._posed(problem), quantity, self.segments))
 
     def _curve(self, problem: Problem) -> Curve:
-        central_gap, displacement, load = StieltjesScheme(self._posed(problem), self._segments).curve()
+        central_gap, displacement, load = StieltjesScheme(self._posed(problem), self.segments).curve()
         return Curve(displacement=displacement, load=load, columns={"central_gap": central_gap})
 
     def _posed(self, problem: Problem) -> fscm.Problem:
@@ -138,15 +118,15 @@ class CoarseStieltjesModel(StieltjesModel):
 
     Examples
     --------
-    >>> CoarseStieltjesModel().name
-    'fscm-stieltjes-400'
+    >>> problem = Problem.dimensionless(n=2, k=0.4, mu=0.5)
+    >>> result = CoarseStieltjesModel().evaluate(problem, "pull_off_force")
+    >>> abs(result.value - 1.86628026) < result.u_num
+    True
     """
 
     name: ClassVar[str] = "fscm-stieltjes-400"
     domain: ClassVar[str] = StieltjesModel.domain.replace("2500", "400")
-
-    def __init__(self) -> None:
-        super().__init__(segments=400)
+    segments: ClassVar[int] = 400
 
 
 class Atlas(SolverModel):

@@ -7,13 +7,10 @@ u = f(r) - delta: a far one, or inside the front of a contact a near one (`fscm.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from comparisons.model import FARTHEST_GAP, Curve, RadialField
+from comparisons.model import FARTHEST_GAP, Array, Curve, RadialField
 from fscm.gibson import GibsonSolid, LocalEquilibrium, root
 from fscm.problem import Problem
-
-Array = NDArray[np.float64]
 
 #: Points of each part of a curve and of each side of the front of a profile.
 _POINTS = 120

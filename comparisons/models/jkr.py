@@ -17,8 +17,6 @@ from comparisons.models.closed_form import EPS, POINTS, ClosedForm, monomial
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
-MODELS = {"jkr": "JKR"}
-
 
 class JKR(ClosedForm):
     """JKR-n-k: infinitely short-ranged adhesion, Griffith's balance at the contact edge.

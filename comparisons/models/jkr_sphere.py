@@ -24,9 +24,6 @@ from comparisons.model import Curve, NotApplicable, Result
 from comparisons.models.closed_form import EPS, POINTS, ClosedForm, Limits
 from comparisons.problem import Problem
 
-MODELS = {"jkr-sphere": "JKRSphere"}
-
-
 #: Largest contact radius in radii of the ball, as in both references.
 LARGEST_CONTACT = 0.95
 

@@ -29,8 +29,6 @@ from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, attraction_coefficient
 from comparisons.problem import Problem
 
-MODELS = {"jump-asymptotes": "JumpAsymptotes"}
-
 
 class JumpAsymptotes(ClosedForm):
     """The cycle between the semi-rigid branch and the JKR branch.

@@ -10,9 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from comparisons.model import Array
 
 # exp(-40) = 4e-18 truncates a bounded end, exp(-76/2) = 3e-17 an end as singular as 1 / sqrt(1 - z).
 _LEFT, _RIGHT = -40.0, 76.0

@@ -21,8 +21,6 @@ from comparisons.models.bradley import rigid_load
 from comparisons.models.closed_form import EPS, POINTS, ClosedForm, Limits, monomial
 from comparisons.problem import Problem
 
-MODELS = {"semi-rigid": "SemiRigid"}
-
 
 def _reach(n: float, k: float, j: int) -> float:
     """g_j = (1-k) B(j - b, b), b = (1-k)/n, with its limit n at k = 1."""

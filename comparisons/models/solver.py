@@ -1,39 +1,18 @@
-"""Base of the adapters: exceptions and solutions of a solver become those of the model contract."""
+"""Base of the adapters: the solutions of a solver become results of the model contract."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from types import ModuleType
 from typing import Any, ClassVar
 
-from comparisons.model import ComputationFailed, Curve, NotApplicable, RadialField, Result
+from comparisons.model import Curve, NotApplicable, RadialField, Result, translated
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.problem import Problem
 
 _ONES = {"radius": 1.0, "traction": 1.0, "gap": 1.0}
-
-
-@contextmanager
-def translated(package: ModuleType) -> Iterator[None]:
-    """Turn the exceptions of a solver, `fscm` or `fem_reference`, into `NotApplicable` and `ComputationFailed`.
-
-    Examples
-    --------
-    >>> import fscm
-    >>> with translated(fscm):
-    ...     raise fscm.NotConverged("50 iterations were not enough")
-    Traceback (most recent call last):
-    comparisons.model.ComputationFailed: 50 iterations were not enough
-    """
-    try:
-        yield
-    except package.NoSuchEvent as reason:
-        raise NotApplicable(str(reason)) from reason
-    except package.NotConverged as failure:
-        raise ComputationFailed(str(failure)) from failure
 
 
 class SolverModel:

@@ -46,12 +46,6 @@ from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
-MODELS = {
-    "carpick-ogletree-salmeron": "CarpickOgletreeSalmeron",
-    "pietrement-troyon": "PietrementTroyon",
-    "schwarz": "Schwarz",
-}
-
 #: Maugis's lambda over the Tabor number, with the theoretical strength as cohesive stress.
 LAMBDA_OVER_MU = THEORETICAL_STRENGTH * (9.0 / (2.0 * math.pi)) ** (1.0 / 3.0)
 

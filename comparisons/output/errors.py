@@ -18,8 +18,8 @@ from comparisons.judging.summary import COVERAGE, coverage
 from comparisons.numerics.bounds import combined, relative_difference, relative_uncertainty
 from comparisons.problem import PARAMETERS
 from comparisons.quantities import QUANTITIES
-from comparisons.runs.case_columns import keys_in, with_problem, without_empty_problem
 from comparisons.runs.cases import Grid
+from comparisons.runs.frames import keys_in, with_problem, without_empty_problem
 from comparisons.runs.rows import CASE
 from comparisons.runs.tasks import Task, problem_for
 

@@ -8,8 +8,8 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import pandas as pd
 
-from comparisons.judging.card_gates import overall
 from comparisons.judging.decision import Verdict
+from comparisons.judging.report_card import overall
 from comparisons.judging.summary import coverage
 from comparisons.numerics.number_text import limits_text
 from comparisons.problem import PARAMETERS

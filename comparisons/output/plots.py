@@ -16,7 +16,7 @@ from comparisons.output.table import Column, Record, columns, key_columns, key_t
 from comparisons.problem.problem import split_name
 from comparisons.problem.units import prefixed_unit
 from comparisons.quantities import ALL_QUANTITIES, CURVES, Axis, CurveQuantity, Kind, title_of
-from comparisons.runs.case_columns import unit_in, varied_of, with_problem
+from comparisons.runs.frames import unit_in, varied_of, with_problem
 from comparisons.runs.rows import CASE
 
 #: Ratio of the largest and the smallest abscissa from which an axis is logarithmic.

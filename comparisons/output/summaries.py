@@ -27,7 +27,7 @@ from comparisons.output.terminal import rich_table
 from comparisons.problem.units import si_text
 from comparisons.quantities import QUANTITIES
 from comparisons.runs import rows as stored_rows
-from comparisons.runs.case_columns import varied_of, with_problem
+from comparisons.runs.frames import varied_of, with_problem
 
 #: Columns of the tables where no terminal states its own; rows that a terminal shows; spaces between columns.
 WIDTH, _ROWS, _GAP = 80, 40, 2

@@ -19,7 +19,7 @@ from comparisons.numerics.number_text import error_text, exact, limits_text, per
 from comparisons.problem import PARAMETERS
 from comparisons.problem.units import si_text
 from comparisons.quantities import title_of
-from comparisons.runs.case_columns import unit_in
+from comparisons.runs.frames import unit_in
 
 #: A stored row.
 Record = Mapping[str, Any]

@@ -11,9 +11,9 @@ from pathlib import Path
 import pandas as pd
 
 from comparisons.data.file_names import GATES, JUNIT, SUMMARY, VERDICTS
-from comparisons.judging.card_gates import CARD, without_card_gates
 from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import Gate
+from comparisons.judging.report_card import CARD, without_card_gates
 from comparisons.judging.summary import coverage_text, summarise
 from comparisons.numerics.number_text import error_text, exact, limits_text
 from comparisons.output.junit import junit

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pandas as pd
 
-from comparisons.data.file_names import BASELINE_FOLDER
+from comparisons.data.file_names import BASELINE_FOLDER, committed
 from comparisons.paper.registry import paper_figures
 from comparisons.runs.atomic_files import write_file
-from comparisons.runs.committed import committed
 
 #: Folder of the committed figures, in a clone of the repository.
 PAPER_BASELINE = BASELINE_FOLDER / "paper"
@@ -97,7 +96,7 @@ def check(folder: Path, target: Path | None = None) -> pd.DataFrame:
     folder : Path
         Of ``fscm-bench paper``.
     target : Path, optional
-        Of the committed tables (`comparisons.runs.committed`).
+        Of the committed tables (`comparisons.data.file_names`).
 
     Returns
     -------

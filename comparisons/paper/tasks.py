@@ -18,10 +18,9 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 import fscm
-from comparisons.model import FARTHEST_GAP, ComputationFailed, HasCurve, HasProfile, NotApplicable
+from comparisons.model import FARTHEST_GAP, ComputationFailed, HasCurve, HasProfile, NotApplicable, translated
 from comparisons.models.cohesive_models import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from comparisons.models.gibson_limit import gibson_profile
-from comparisons.models.solver import translated
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.paper_figure import Plan, rows_of
 from comparisons.problem import Problem

@@ -1,14 +1,22 @@
-"""Functions that make the board, a static site of submissions that are run and judged, and the leaderboard of runs."""
+"""The board, a static site of submissions that are run and judged, and the leaderboard of runs.
+
+A submission is a folder with a ``submission.toml`` beside the files of a model.
+"""
 
 from __future__ import annotations
 
 import shutil
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from datetime import date
 from pathlib import Path
+from typing import Any
 
 from comparisons.console.progress import log, note
+from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import REPORT, STORE
+from comparisons.data.input_files import read_text
+from comparisons.data.toml_text import parse
+from comparisons.data.validation import validated
 from comparisons.external.model_source import close_models
 from comparisons.model import ComputationFailed
 from comparisons.output.report.board import BoardEntry, Submission, board_page
@@ -18,35 +26,74 @@ from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
 from comparisons.pipeline.inputs import stored_inputs
 from comparisons.pipeline.run import run
-from comparisons.pipeline.submissions import read_submission, submission_folders
 from comparisons.pipeline.tables import REFERENCE
-from comparisons.registry import create
+from comparisons.registry import MODELS, create
 from comparisons.runs.atomic_files import prepare_folder, write_file
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.store import rows_in
 from comparisons.runs.tasks import plan
 
+#: Describes a submission.
+MANIFEST = "submission.toml"
+
+
+def submission_folders(root: Path) -> Iterator[Path]:
+    """Yield the folders of submissions: `root` if it is one, else each folder in it, or the versions in that.
+
+    Raises
+    ------
+    ValueError
+        If there is none.
+    """
+    if (root / MANIFEST).is_file():
+        yield root
+        return
+    folders = _folders_in(root) if root.is_dir() else []
+    if not folders:
+        raise ValueError(f"{root} has no folder with a {MANIFEST}: a board is made of submissions")
+    for folder in folders:
+        versions = [] if (folder / MANIFEST).is_file() else _folders_in(folder)
+        yield from versions or [folder]
+
+
+def _folders_in(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.iterdir() if path.is_dir() and not path.is_symlink() and path.name[0] != ".")
+
+
+def read_submission(folder: Path) -> Submission:
+    """Read the description of a submission; the model is not loaded.
+
+    Raises
+    ------
+    ValueError
+        If it cannot be read or is not admissible; one sentence says why.
+    """
+    path = path_inside(folder, MANIFEST)
+    described: dict[str, Any] = parse(read_text(path, "the description of the submission"), MANIFEST)
+    if isinstance(described.get("date"), date):
+        described["date"] = described["date"].isoformat()
+    validated(described, "submission", MANIFEST)
+    authors, model = tuple(described.pop("authors")), described.pop("model")
+    return Submission(**described, authors=authors, spec=_spec(folder, model))
+
+
+def _spec(folder: Path, model: str) -> str:
+    """Return the SPEC of a registered model, or of a file in the folder; nothing else that is installed is run."""
+    if model in MODELS:
+        return model
+    name, colon, attribute = model.rpartition(":") if ".py:" in model else (model, "", "")
+    path = path_inside(folder, name)
+    if not path.is_file():
+        raise ValueError(f"{MANIFEST}: model = {model!a:.80} is not a model of fscm-bench, and no file beside it")
+    # With a separator it is not a name of an installed model.
+    return f"{path if path.is_absolute() else f'./{path}'}{colon}{attribute}"
+
+
 #: The first page of the site, and the file that names the code of its results.
 INDEX, _CODE = "index.html", "code.txt"
 
 
-@dataclass(frozen=True, slots=True)
-class Board:
-    """A site.
-
-    Attributes
-    ----------
-    page : Path
-        Its first page.
-    entries : list of BoardEntry
-        The submissions in the order of their folders.
-    """
-
-    page: Path
-    entries: list[BoardEntry]
-
-
-def make_board(submissions: Path, site: Path, jobs: int = 1) -> Board:
+def make_board(submissions: Path, site: Path, jobs: int = 1) -> list[BoardEntry]:
     """Judge submissions in the standing cases and write their pages, the run folders behind them, and the first page.
 
     A submission that cannot be judged is an entry with the reason.  What the site holds already is not computed again,
@@ -60,6 +107,11 @@ def make_board(submissions: Path, site: Path, jobs: int = 1) -> Board:
         Folder for the site.
     jobs : int
         Number of processes.
+
+    Returns
+    -------
+    list of BoardEntry
+        The submissions in the order of their folders.
 
     Raises
     ------
@@ -76,9 +128,8 @@ def make_board(submissions: Path, site: Path, jobs: int = 1) -> Board:
         entries.append(_entry(folder, submissions, site, entries, jobs))
         # Each model is a process, which is not needed any more.
         close_models()
-    page = site / INDEX
-    write_file(page, render(board_page(entries)))
-    return Board(page, entries)
+    write_file(site / INDEX, render(board_page(entries)))
+    return entries
 
 
 def _prepare(site: Path) -> None:

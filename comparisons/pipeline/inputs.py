@@ -183,7 +183,7 @@ def load_cases(cases: str | Path, models: Sequence[str] | None, folder: Path | N
             f"the cases {cases!r} are neither a tier ({', '.join(TIERS)}) nor the text of [[grid]] tables; "
             "a file is given as a pathlib.Path"
         )
-    loaded = load_grids(text, tier=TIERS[0], source=source, folder=folder)
+    loaded = load_grids(text, source, folder, tiers=None)
     return Cases(loaded, None, text, source, _files(loaded, folder) if folder else {})
 
 

@@ -12,11 +12,11 @@ import pandas as pd
 
 from comparisons.console.progress import log, note
 from comparisons.data.file_names import CURVES, GATES_TEXT, INPUTS, RECORD, RESULTS
-from comparisons.judging.card_gates import every_verdict, judge_cards, judge_digits, overall
 from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.fresh_verdicts import compare_with_standing, judge_undrawn
 from comparisons.judging.judge import judge
+from comparisons.judging.report_card import every_verdict, judge_cards, judge_digits, overall
 from comparisons.judging.selection import relevant
 from comparisons.judging.summary import COVERAGE, summarise
 from comparisons.output.verdicts import write_verdicts

@@ -1,4 +1,4 @@
-"""Function for a whole run: its computation, tables, verdicts and record."""
+"""Function for a whole run: its computation, tables, verdicts and record; and its verdicts by name."""
 
 from __future__ import annotations
 
@@ -7,14 +7,22 @@ from dataclasses import replace
 from pathlib import Path
 from random import SystemRandom
 
+import pandas as pd
+from filelock import FileLock
+from threadpoolctl import threadpool_limits
+
 from comparisons.console.progress import note
 from comparisons.judging.fresh_cases import FreshCases, draw
+from comparisons.numerics.number_text import exact
+from comparisons.output.junit import numbers_text
+from comparisons.output.verdicts import command
 from comparisons.pipeline.finished_run import FinishedRun, kept_texts, write_run
 from comparisons.pipeline.inputs import Cases, RunInputs, domains_of, load_cases, read_gates
+from comparisons.problem import PARAMETERS
 from comparisons.registry import identify
-from comparisons.runs.computation import checked_jobs, complete, folder_for
+from comparisons.runs.atomic_files import prepare_folder
+from comparisons.runs.computation import checked_jobs, complete, folder_for, parse_shard, tasks_of_shard
 from comparisons.runs.record import now
-from comparisons.runs.shards import parse_shard, tasks_of_shard
 
 #: Most fresh cases for each model and gate.
 _MOST_FRESH = 10_000
@@ -133,3 +141,43 @@ def _fresh(count: int, seed: int | None, inputs: RunInputs) -> FreshCases | None
         raise ValueError("--random: no gate of this run can be judged in fresh cases of a given model: leave it out")
     note(f"{sum(len(part.grid.cases) for part in fresh.parts)} fresh cases, --seed {fresh.seed}")
     return fresh
+
+
+_LOCK = ".pytest.lock"
+
+
+def named_verdicts(
+    cases: str | Path, gates: Path, models: Sequence[str], folder: Path, jobs: int = 1
+) -> list[tuple[str, str, str]]:
+    """Run and judge; return name and verdict of each row, and its reason, its numbers and the command that repeats it.
+
+    Several processes may call it with one folder: the first computes, the others take its results.
+
+    Raises
+    ------
+    ValueError, comparisons.model.ComputationFailed
+        As `comparisons.pipeline.run.run`.
+    """
+    prepare_folder(folder)
+    with FileLock(folder / _LOCK), threadpool_limits(1):
+        judgement = run(cases, gates, list(models), folder, jobs=jobs).judgement
+    assert judgement is not None
+    if judgement.verdicts.empty:
+        raise ValueError(f"{gates}: no gate was evaluated: no candidate of a gate is given")
+    return [
+        (_name(row), str(row["verdict"]), _text(row, judgement.inputs.specs))
+        for _, row in judgement.verdicts.iterrows()
+    ]
+
+
+def _name(row: pd.Series) -> str:
+    numbers = (f"{name}={exact(row[name])}" for name in PARAMETERS if pd.notna(row[name]))
+    problem = row.get("problem")
+    case = problem if isinstance(problem, str) and problem else " ".join(numbers)
+    return f"{row['gate']}[{' '.join(filter(None, [row['candidate'], case]))}]"
+
+
+def _text(row: pd.Series, specs: dict[str, str]) -> str:
+    has_error = pd.notna(row["error"])
+    lines = [row["reason"], numbers_text(row) if has_error else "", f"computed again by: {command(row, specs)}"]
+    return "\n".join(filter(None, lines))

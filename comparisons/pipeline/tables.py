@@ -14,9 +14,8 @@ from comparisons.output.figures.of_run import figures_of
 from comparisons.output.style import save
 from comparisons.pipeline.inputs import Cases
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
-from comparisons.runs.case_columns import in_case_order, keys_in, varied_of
 from comparisons.runs.csv_format import write_table
-from comparisons.runs.frames import curve_frame, frame
+from comparisons.runs.frames import curve_frame, frame, in_case_order, keys_in, varied_of
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import plan
 

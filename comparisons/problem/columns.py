@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from comparisons.data.input_files import LARGEST_TABLE, read_text
@@ -62,11 +62,7 @@ def _factors(location: str, heading: str, columns: Mapping[str, Form]) -> dict[s
     """The factor of the unit of each column, by its name."""
     factors: dict[str, float] = {}
     for cell in _cells(location, heading):
-        match = _HEADING.fullmatch(cell)
-        if not match:
-            raise ValueError(f"{location}: {shown(cell)} is not a name of a column; the names are {', '.join(columns)}")
-        name, unit = match.groups()
-        known_name("column", name, columns, location)
+        name, unit = column_heading(cell, columns, location)
         if name in factors:
             raise ValueError(f"{location}: the column {name} stands twice; name each column once")
         try:
@@ -77,6 +73,21 @@ def _factors(location: str, heading: str, columns: Mapping[str, Form]) -> dict[s
         if name not in factors and not form.is_optional:
             raise ValueError(f"{location}: the column {name} is missing; the names are {', '.join(columns)}")
     return factors
+
+
+def column_heading(cell: str, columns: Iterable[str], location: str) -> tuple[str, str | None]:
+    """Return the name of a column and its unit, None if it states none; `ValueError` if the name is unknown.
+
+    Examples
+    --------
+    >>> column_heading(" load [nN]", ["load"], "curve.csv")
+    ('load', 'nN')
+    """
+    match = _HEADING.fullmatch(cell)
+    if not match:
+        raise ValueError(f"{location}: {shown(cell)} is not a name of a column; the names are {', '.join(columns)}")
+    known_name("column", match[1], columns, location)
+    return match[1], match[2]
 
 
 def _value(cell: str, factor: float, form: Form, values_before: Sequence[float]) -> float:

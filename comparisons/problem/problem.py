@@ -16,7 +16,7 @@ from typing import Any
 import fscm
 from comparisons.model import NotApplicable
 from comparisons.numerics.number_text import case_text
-from comparisons.problem.kinds import KINDS, SECTIONS
+from comparisons.problem.kinds import KINDS, SECTIONS, Form
 from comparisons.problem.uncertain import Uncertainty
 
 #: Parameters of a dimensionless problem; nu is optional.
@@ -199,10 +199,15 @@ class Problem:
         return [section["file"] for section in self._sections.values() if "file" in section.values]
 
     @property
-    def uncertain(self) -> dict[tuple[str, str], Uncertainty]:
-        """What is uncertain, by section and key."""
+    def uncertain(self) -> dict[str, Uncertainty]:
+        """What is uncertain, by names such as "solid.E0"."""
         sections = self._sections.items()
-        return {(name, key): spread for name, section in sections for key, spread in section.uncertain.items()}
+        return {f"{name}.{key}": spread for name, section in sections for key, spread in section.uncertain.items()}
+
+    def form(self, name: str) -> Form:
+        """Return what the table of kinds states of a key, as "solid.E0", or of the list of an entry."""
+        section, key, *_ = name.split(".")
+        return KINDS[section][self._sections[section].kind].keys[key]
 
     def is_of_the_paper(self, *names: str) -> bool:
         """Whether the problem of three numbers n, k and mu, which every model takes, has the kinds of these sections.
@@ -290,8 +295,9 @@ class Problem:
         """Return a dimensionless problem without Poisson's ratio; any other is the same without a change."""
         return Problem.dimensionless(self.n, self.k, self.mu) if "nu" in self.parameters else self
 
-    def with_value(self, section: str, key: str, value: float) -> Problem:
-        """Return the problem with another value of a key, in SI."""
+    def with_value(self, name: str, value: float) -> Problem:
+        """Return the problem with another value of a key, as "solid.E0", in SI."""
+        section, _, key = name.partition(".")
         changed_section = self._sections[section]
         changed: dict[str, Any] = {section: replace(changed_section, values={**changed_section.values, key: value})}
         return replace(self, **changed)

@@ -11,9 +11,8 @@ from typing import ClassVar
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from comparisons.model import Array
 
 #: Rows that a smoothed profile needs: a cubic spline has four coefficients.
 _FEWEST = 8

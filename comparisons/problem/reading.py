@@ -15,10 +15,9 @@ from comparisons.data.input_files import read_text
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, shown
 from comparisons.problem.columns import read_columns
-from comparisons.problem.form import kind_of, values_in_si
+from comparisons.problem.form import Source, kind_of, values_in_si
 from comparisons.problem.kinds import SECTIONS
 from comparisons.problem.problem import Problem, Section
-from comparisons.problem.source import Source
 from fscm.punch import unit_of_radii
 
 #: A whole number that Python does not read.

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.data.validation import known_name, shown
-from comparisons.problem.kinds import KINDS, SECTIONS
+from comparisons.problem.kinds import SECTIONS
 from comparisons.problem.problem import BETWEEN, Problem
 from comparisons.problem.reading import document_of, problem_of
 from comparisons.problem.units import NUMBER
@@ -174,17 +174,18 @@ def problems_of(path: Path, variations: Sequence[Variation], name: str = "") -> 
     if (count := prod(len(variation.values) for variation in variations)) > _MOST:
         raise ValueError(f"the values have {count} combinations, more than {_MOST}; give fewer values")
     document, source = document_of(path)
+    names = [variation.name for variation in variations]
     problem_of(document, source)
     for values in product(*(variation.values for variation in variations)):
         changed = deepcopy(document)
         for variation, value in zip(variations, values, strict=True):
             _change(changed[variation.section], variation, value)
-        texts = tuple(f"{variation.name}={value}" for variation, value in zip(variations, values, strict=True))
+        texts = [f"{varied}={value}" for varied, value in zip(names, values, strict=True)]
         try:
             problem = problem_of(changed, source)
         except ValueError as error:
             raise ValueError(f"{', '.join(texts)}: {error}" if texts else str(error)) from None
-        parameters = {_column(problem, variation): problem[variation.name] for variation in variations}
+        parameters = {problem.form(varied).named(varied): problem[varied] for varied in names}
         yield replace(problem, name=BETWEEN.join([name or path.name, *texts]), parameters=parameters)
 
 
@@ -200,8 +201,3 @@ def _change(section: dict[str, Any], variation: Variation, value: float | str) -
         form = f"a list with the entries {name}.1 to {name}.{count}" if count else f"no list; leave out .{number}"
         raise ValueError(f"{shown(variation.name)}: {name} is {form} in this file")
     entries[int(number) - 1] = value
-
-
-def _column(problem: Problem, variation: Variation) -> str:
-    form = KINDS[variation.section][getattr(problem, variation.section).kind].keys[variation.key.partition(".")[0]]
-    return form.named(variation.name)

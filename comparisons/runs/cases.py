@@ -85,11 +85,7 @@ class Grid:
     problem: str = ""
 
 
-def _grid(table: dict[str, Any], where: str, tier: str | None, folder: Path | None) -> Grid:
-    if tier is None and "tier" not in table:
-        raise ValueError(f"{where}: tier missing; it is one of {', '.join(TIERS)}")
-    if tier is not None and "tier" in table:
-        raise ValueError(f"{where}: unknown key 'tier': the grids of a sweep have none")
+def _grid(table: dict[str, Any], where: str, folder: Path | None) -> Grid:
     reference = table.get("reference", "")
     for model in {reference, *table["models"]} - {""}:
         known_name("model", model, MODELS, where)
@@ -98,7 +94,7 @@ def _grid(table: dict[str, Any], where: str, tier: str | None, folder: Path | No
     return Grid(
         id=table["id"],
         title=table["title"],
-        tier=tier or table["tier"],
+        tier=table.get("tier", TIERS[0]),
         reference=reference,
         models=tuple(table["models"]),
         quantities=tuple(table["quantities"]),
@@ -110,9 +106,9 @@ def _grid(table: dict[str, Any], where: str, tier: str | None, folder: Path | No
 
 def _cases(table: dict[str, Any], where: str, folder: Path | None) -> set[Problem]:
     """Return the cases of a grid, each once; refuse one that is not admissible."""
-    if "problem" in table:
-        return _cases_of_file(table, where, folder)
     try:
+        if "problem" in table:
+            return _cases_of_file(table, folder)
         return {Problem.dimensionless(*numbers) for numbers in _numbers(table)}
     except ValueError as refusal:
         raise ValueError(f"{where}: {refusal}") from None
@@ -134,30 +130,26 @@ def _numbers(table: dict[str, Any]) -> Iterable[tuple[float, float, float, float
     return product(*columns)
 
 
-def _cases_of_file(table: dict[str, Any], where: str, folder: Path | None) -> set[Problem]:
+def _cases_of_file(table: dict[str, Any], folder: Path | None) -> set[Problem]:
     """Return the cases of a problem file, which is in a folder, for every combination of values of its keys."""
     numbers = [name for name in (*PARAMETERS, "cases") if name in table]
     if numbers:
-        raise ValueError(f"{where}: it has problem and {', '.join(numbers)} together; state the cases once: {_FORMS}")
+        raise ValueError(f"it has problem and {', '.join(numbers)} together; state the cases once: {_FORMS}")
     name = table["problem"]
     if folder is None:
         raise ValueError(
-            f"{where}: problem = {name!r} is the name of a file beside that of the cases; give the cases as a file, "
+            f"problem = {name!r} is the name of a file beside that of the cases; give the cases as a file, "
             "not as a text"
         )
-    try:
-        variations = [Variation.of_values(key, values) for key, values in table.get("vary", {}).items()]
-        return set(problems_of(path_inside(folder, name), variations, name))
-    except ValueError as refusal:
-        raise ValueError(f"{where}: {refusal}") from None
+    variations = [Variation.of_values(key, values) for key, values in table.get("vary", {}).items()]
+    return set(problems_of(path_inside(folder, name), variations, name))
 
 
 def load_grids(
     text: str,
-    tier: str | None = None,
     source: str = "the case file",
     folder: Path | None = None,
-    tiers: Sequence[str] = TIERS,
+    tiers: Sequence[str] | None = TIERS,
 ) -> list[Grid]:
     """Read grids from TOML text.
 
@@ -165,14 +157,12 @@ def load_grids(
     ----------
     text : str
         ``[[grid]]`` tables and nothing else.
-    tier : str, optional
-        The tier of all of them, which then state none.
     source : str
         What the text is of, for the sentence that refuses it.
     folder : Path, optional
         That the problem files are in; without it no grid may name one.
-    tiers : sequence of str
-        The tiers that are read; grids of others are left out.
+    tiers : sequence of str, optional
+        The tiers that are read; None for the grids of a user, which have no tier.
 
     Raises
     ------
@@ -198,11 +188,13 @@ def load_grids(
     """
     tables = parse(text, source)
     validated(tables, "cases", source)
-    read = [
-        _grid(table, f"{source}: {label('grid', table, number)}", tier, folder)
-        for number, table in enumerate(tables["grid"], start=1)
-        if table.get("tier", tiers[0]) in tiers
-    ]
+    read = []
+    for number, table in enumerate(tables["grid"], start=1):
+        where = f"{source}: {label('grid', table, number)}"
+        if tiers is None and "tier" in table:
+            raise ValueError(f"{where}: unknown key 'tier': the grids of a sweep have none")
+        if tiers is None or table.get("tier", TIERS[0]) in tiers:
+            read.append(_grid(table, where, folder))
     ids = [grid.id for grid in read]
     if len(set(ids)) < len(ids):
         raise ValueError(f"{source}: the id of a grid must be unique; found {', '.join(sorted(ids))}")
@@ -214,7 +206,7 @@ def cases_text() -> str:
 
     Examples
     --------
-    >>> load_grids(cases_text(), folder=_DATA, tiers=["quick"]) == grids("quick")
+    >>> tuple(load_grids(cases_text(), folder=_DATA, tiers=["quick"])) == grids("quick")
     True
     """
     return _DATA.joinpath("cases.toml").read_text(encoding="utf-8")
@@ -231,7 +223,8 @@ def grids_for(standing: Iterable[Grid], models: Sequence[str] | None) -> list[Gr
     return [grid for grid in standing if models is None or VERIFICATION not in grid.tags]
 
 
-def grids(tier: str) -> list[Grid]:
+@lru_cache(maxsize=len(TIERS))
+def grids(tier: str) -> tuple[Grid, ...]:
     """Return the standing grids of a tier and of the tiers before it.
 
     Examples
@@ -239,9 +232,4 @@ def grids(tier: str) -> list[Grid]:
     >>> [grid.id for grid in grids("quick")][0]
     'transition'
     """
-    return list(_standing(cases_text(), tier))
-
-
-@lru_cache(maxsize=len(TIERS))
-def _standing(text: str, tier: str) -> tuple[Grid, ...]:
-    return tuple(load_grids(text, folder=_DATA, tiers=TIERS[: TIERS.index(tier) + 1]))
+    return tuple(load_grids(cases_text(), folder=_DATA, tiers=TIERS[: TIERS.index(tier) + 1]))

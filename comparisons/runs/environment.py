@@ -30,14 +30,9 @@ NOT_INSTALLED = tuple(Path("comparisons", name) for name in ("pytest_entry", "st
 DIGITS = 12
 
 
-def package_version() -> str:
-    """Return the version of the installed distribution."""
-    return version(DISTRIBUTION)
-
-
 def version_text() -> str:
     """Return the version, and the commit where it is known."""
-    return version_of({"version": package_version(), **_commit()})
+    return version_of({"version": version(DISTRIBUTION), **_commit()})
 
 
 def version_of(package: Mapping[str, Any]) -> str:
@@ -112,7 +107,7 @@ def computing_environment() -> dict[str, str]:
 def environment() -> dict[str, Any]:
     """Return what a reader needs to know of code and machine, ready for JSON."""
     digest = code_digest()
-    code = {"version": package_version(), "code_sha256": digest, "fingerprint": fingerprint(digest)}
+    code = {"version": version(DISTRIBUTION), "code_sha256": digest, "fingerprint": fingerprint(digest)}
     return {
         "package": {"name": DISTRIBUTION, **code, **_commit()},
         "dependencies": _dependencies(),

@@ -101,7 +101,7 @@ def test_a_run_that_is_no_whole_one_of_the_standing_cases_renews_nothing(
 def test_a_run_is_compared_with_what_is_committed(tmp_path, monkeypatch, capsys):
     run = made_up(tmp_path / "run", "quick")
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("comparisons.runs.committed._CLONE", tmp_path / "no-clone")
+    monkeypatch.setattr("comparisons.data.file_names._CLONE", tmp_path / "no-clone")
     assert main(["--check", str(run)]) == 2
     message = capsys.readouterr().err
     assert (message.count("\n"), "a clone" in message) == (1, True)

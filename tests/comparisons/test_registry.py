@@ -2,11 +2,10 @@
 
 import pytest
 
-from comparisons import registry
 from comparisons.model import HasCurve, Model
 from comparisons.problem import Problem
 from comparisons.quantities import CURVES, QUANTITIES
-from comparisons.registry import MODELS, create, declared_models
+from comparisons.registry import MODELS, create
 from comparisons.runs.tasks import evaluate
 
 #: Models that take more than a second a value; their own tests evaluate them.
@@ -41,42 +40,6 @@ def test_the_models_stand_in_the_order_of_the_tables_and_an_unknown_name_lists_t
 def test_poissons_ratio_reaches_the_model_that_needs_it():
     assert create("fem", 0.1)._poisson_ratio == 0.1
     assert create("jkr", 0.1).name == "jkr"
-
-
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
-    """A folder of models in place of `comparisons.models`."""
-    monkeypatch.setattr(registry, "files", lambda package: tmp_path)
-    (tmp_path / "jkr.py").write_text('"""Old."""\n\nMODELS = {"jkr": "JKR"}\n')
-    (tmp_path / "quadrature.py").write_text("raise ImportError('it has no model and is not imported')\n")
-    return tmp_path
-
-
-def test_a_new_model_is_found_by_its_file_alone(folder):
-    (folder / "a_new_one.py").write_text(
-        '"""New."""\n\nMODELS = {\n    "third": "C",\n    "second": "B",\n}\n\nX = {}\n'
-    )
-    assert list(registry._models_in_folder().items()) == [
-        ("jkr", "comparisons.models.jkr:JKR"),
-        ("third", "comparisons.models.a_new_one:C"),
-        ("second", "comparisons.models.a_new_one:B"),
-    ]
-
-
-def test_two_modules_cannot_declare_one_name(folder):
-    (folder / "the_copy.py").write_text('MODELS = {"jkr": "Other"}')
-    with pytest.raises(ValueError, match=r"models\.the_copy declares a model jkr, which another"):
-        registry._models_in_folder()
-
-
-@pytest.mark.parametrize("source", ["x = 1", "def f():\n    MODELS = {'a': 'A'}", "OTHER_MODELS = {'a': 'A'}"])
-def test_a_module_without_the_literal_declares_nothing(source):
-    assert declared_models(source) == {}
-
-
-def test_a_declaration_must_be_a_literal():
-    with pytest.raises(ValueError, match="malformed"):
-        declared_models("MODELS = {name: name for name in ()}")
 
 
 def test_a_value_is_that_of_the_model_and_points_have_what_else_it_knows():

@@ -125,7 +125,7 @@ def test_every_grid_and_gate_of_a_document_loads():
     assert with_grids
     assert with_gates
     for text in with_grids:
-        assert all(grid.cases for grid in load_grids(text, tier="quick", folder=DOCS / "examples" / "problems"))
+        assert all(grid.cases for grid in load_grids(text, tiers=None, folder=DOCS / "examples" / "problems"))
     assert all(load_gates(text) for text in with_gates)
 
 

@@ -11,7 +11,7 @@ from comparisons.console.progress import log
 from comparisons.output.report.board import standings
 from comparisons.output.table import Table, columns, words
 from comparisons.output.terminal import rich_table
-from comparisons.pipeline.board import make_board
+from comparisons.pipeline.board import INDEX, make_board
 
 EXAMPLES = ("fscm-bench board docs/board/submissions --out site",)
 
@@ -25,10 +25,10 @@ OPTIONS = (
 
 def call(args: argparse.Namespace) -> int:
     """Judge, write and print; return the exit status, 4 if a submission could not be judged."""
-    board = make_board(args.submissions, args.out, args.jobs)
-    rows = standings(board.entries)
+    entries = make_board(args.submissions, args.out, args.jobs)
+    rows = standings(entries)
     if len(rows) and not args.quiet:
         layout = [*columns("model"), words("version"), *columns("verdict", "quantity", "largest |κ| (%)", "coverage")]
         output().print(rich_table(Table("board", "", layout, rows).texts, "board"))
-    log(f"the board is {board.page}")
-    return OK if all(entry.judged for entry in board.entries) else FAILED
+    log(f"the board is {args.out / INDEX}")
+    return OK if all(entry.judged for entry in entries) else FAILED

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import argparse
 
-from comparisons.cli.options import option
+from comparisons.cli.options import MODEL_SPEC, option
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, FAILS, OK
 from comparisons.console.progress import waiting
 from comparisons.external.contract_checks import SKIPPED, examine
-from comparisons.external.model_source import load_model
-from comparisons.registry import MODELS
+from comparisons.registry import MODELS, external_model
 
 EXAMPLES = ("fscm-bench check-model my_model.py:MyModel",)
 
-_SPEC = "name of an installed model, FILE.py:CLASS, ./PROGRAM, or a folder with a model.toml"
-
-OPTIONS = (option("spec", metavar="SPEC", help=_SPEC),)
+OPTIONS = (option("spec", metavar="SPEC", help=MODEL_SPEC),)
 
 #: Columns of the status, the longest of which is "not checked".
 _STATUS = len(SKIPPED)
@@ -26,9 +23,7 @@ def call(args: argparse.Namespace) -> int:
     """Examine and print; return 4 if a computation failed, 1 if something is wrong, else 0."""
     if args.spec in MODELS:
         raise ValueError(f"{args.spec} is a model of fscm-bench; its tests are in tests/comparisons/models")
-    model = load_model(args.spec)
-    if model.name in MODELS:
-        raise ValueError(f"the name {model.name} belongs to a model of fscm-bench: choose another name")
+    model = external_model(args.spec)
     with waiting(f"checking {model.name}"):
         findings = examine(model)
     print_lines(f"{finding.status:{_STATUS}}  {finding.check}: {finding.text}" for finding in findings)

@@ -51,15 +51,14 @@ def call(args: argparse.Namespace) -> int:
     if file_of_points and args.plot and file_of_points.resolve() == args.plot.resolve():
         raise ValueError(f"--csv and --plot are both {args.plot}: one would replace the other; give two files")
     points_of_models, status = _evaluated(models, args.quantity, problem)
-    table, quantity = _table(points_of_models, args.quantity), CURVES[args.quantity]
-    if problem.name:
-        table, quantity = table.rename(columns=quantity.columns_in_si), quantity.in_si
+    points, quantity = _table(points_of_models, args.quantity), CURVES[args.quantity]
+    axes = {quantity.x.name: "x", quantity.y.name: "y"}
+    table = points.rename(columns=quantity.columns_in_si) if problem.name else points
     if file_of_points:
         write_file(file_of_points, csv_text(table))
     if args.plot:
-        axes = {CURVES[args.quantity].x.name: "x", CURVES[args.quantity].y.name: "y"}
-        rows = _table(points_of_models, args.quantity).rename(columns=axes).assign(case=problem.label)
-        save(draw_plots([plots.curve(quantity, rows)]), args.plot)
+        rows = points.rename(columns=axes).assign(case=problem.label)
+        save(draw_plots([plots.curve(quantity.in_si if problem.name else quantity, rows)]), args.plot)
     if to_stdout:
         print(csv_text(table), end="")
     for path in filter(None, (file_of_points, args.plot)):

@@ -11,9 +11,8 @@ from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
 from comparisons.description.assumptions import assumptions
 from comparisons.description.equivalent_power_law import equivalent_power_law
-from comparisons.description.forces import reference_force
+from comparisons.description.forces import profile_sensitivity, reference_force
 from comparisons.description.overview import overview
-from comparisons.description.profile_sensitivity import profile_sensitivity
 from comparisons.description.text import description_text
 from comparisons.description.uncertainty import uncertainty
 from comparisons.problem import Problem

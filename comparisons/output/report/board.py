@@ -8,7 +8,7 @@ from typing import Any
 
 import pandas as pd
 
-from comparisons.judging.card_gates import overall
+from comparisons.judging.report_card import overall
 from comparisons.output import plots
 from comparisons.output.errors import error_summary
 from comparisons.output.report.leaderboard import Entry, standing

@@ -8,8 +8,8 @@ from string import ascii_uppercase
 
 import pandas as pd
 
-from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import roll_up
+from comparisons.judging.report_card import without_card_gates
 from comparisons.output.report.page import Page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import Stored

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from comparisons.judging.card_gates import overall
+from comparisons.judging.report_card import overall
 from comparisons.numerics.number_text import case_text, percent_text
 from comparisons.output import plots
 from comparisons.output.plots import Plot

@@ -18,9 +18,8 @@ from comparisons.judging.judge import Judged
 from comparisons.judging.summary import COVERAGE
 from comparisons.output import errors
 from comparisons.output.verdicts import GATE_COLUMNS
-from comparisons.runs.case_columns import keys_in, with_problem
 from comparisons.runs.csv_format import read_table
-from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
+from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS, keys_in, with_problem
 from comparisons.runs.record import check_files, read_record, warn_of_other_code
 from comparisons.runs.rows import CASE, DIMENSIONLESS, Key
 

@@ -19,7 +19,7 @@ from comparisons.output.report.stored_run import Stored
 from comparisons.output.table import CASE as CASE_COLUMNS
 from comparisons.output.table import Column, Record, Table, columns, key_columns, numbers, physical_text, words
 from comparisons.output.verdicts import command, verdict_counts
-from comparisons.runs.case_columns import with_problem
+from comparisons.runs.frames import with_problem
 from comparisons.runs.rows import CASE
 
 #: So many rows are shown where fewer than that do not pass, so that a clean run still shows what is nearest

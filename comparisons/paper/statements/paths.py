@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.special import beta
 
+from comparisons.model import Array
 from comparisons.numerics.curve_distance import curve_distance as distance_of
 from comparisons.paper.paper_figure import Plan, result_of
 from comparisons.paper.statements.evidence import Number
@@ -17,7 +17,6 @@ from comparisons.paper.tasks import curve, near_critical
 
 __all__ = ["count_jumps", "turning_points"]
 
-Array = NDArray[np.float64]
 Path = dict[str, Any]
 
 #: Central gap from which the two bodies count as far apart: the paper begins there (Sec. 2.4).

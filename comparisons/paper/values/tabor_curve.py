@@ -6,9 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from comparisons.model import Array
 
 #: The paper shows mu from 0.01 to a few; beyond 10 the differences vanish.
 RANGE = (0.01, 10.0)

@@ -110,7 +110,7 @@ class GatesFile(pytest.File):
     def collect(self) -> Iterator[pytest.Item]:
         """Run and judge, and yield an item for each verdict."""
         from comparisons.model import ComputationFailed
-        from comparisons.pipeline.named_verdicts import named_verdicts
+        from comparisons.pipeline.run import named_verdicts
 
         try:
             verdicts = named_verdicts(*self._gates.inputs, self._gates.folder, self._gates.jobs)

@@ -129,7 +129,7 @@ def test_a_thin_stiff_film_on_a_soft_solid_is_fitted():
     law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
     problem = Problem(Section("coating", film), Section("sphere", {"R": 5e-6}), law)
     free = ("law.work_of_adhesion", "solid.E_substrate")
-    start = problem.with_value("law", "work_of_adhesion", 0.04).with_value("solid", "E_substrate", 2e6)
+    start = problem.with_value("law.work_of_adhesion", 0.04).with_value("solid.E_substrate", 2e6)
     record = Instrument(noise=0.01).record(problem, np.random.default_rng(1))
     result = fit_record(record, start, free_keys(start, free))
     values = result.parameters

@@ -3,7 +3,7 @@
 import pandas as pd
 import pytest
 
-from comparisons.judging.card_gates import DIFFERS, judge_cards, judge_digits, overall
+from comparisons.judging.report_card import DIFFERS, judge_cards, judge_digits, overall
 
 
 @pytest.mark.parametrize(

@@ -21,9 +21,8 @@ from comparisons.judging.gates import GIVEN, gates_text, load_gates
 from comparisons.judging.judge import judge
 from comparisons.judging.selection import cases_of, key_of, relevant
 from comparisons.quantities import CURVES
-from comparisons.runs.case_columns import keys_in
 from comparisons.runs.cases import VERIFICATION, grids
-from comparisons.runs.frames import curve_frame, frame
+from comparisons.runs.frames import curve_frame, frame, keys_in
 from comparisons.runs.tasks import evaluate_task, plan
 from tests.comparisons.rows import row
 

@@ -81,7 +81,7 @@ def test_the_command_fits_80_columns_and_states_reference_and_coverage(tmp_path,
     assert any(re.match(r" *2 +0\.4 +20 +none +no reference", line) for line in lines)
     assert any(re.match(r" *semi-rigid +0 of 6 \(6 n/a\)", line) for line in lines)
     assert any(re.match(r" *jkr +6 of 6 +-\d", line) for line in lines)
-    (grid,) = load_grids((tmp_path / "grid.toml").read_text(), tier="quick")
+    (grid,) = load_grids((tmp_path / "grid.toml").read_text(), tiers=None)
     assert (grid.reference, len(grid.cases)) == ("atlas", 6)
 
 
@@ -109,7 +109,7 @@ def test_a_reference_that_needs_no_poisson_ratio_is_the_one_of_a_case_with_it():
         for quantity in QUANTITIES
         for mu in (0.1, 1.0)
     ]
-    table = comparison_table(frame(rows), load_grids(text + "nu = [0.25]", "quick"), None)
+    table = comparison_table(frame(rows), load_grids(text + "nu = [0.25]", tiers=None), None)
     assert table["nu"].tolist() == [0.25] * 4
     assert table["kappa"].tolist() == pytest.approx([0.1] * 4)
     texts, _ = case_tables(table)

@@ -10,9 +10,9 @@ from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.pipeline.run import run
 from comparisons.registry import create
 from comparisons.runs.cases import load_grids
+from comparisons.runs.computation import tasks_of_shard
 from comparisons.runs.environment import computing_environment
 from comparisons.runs.record import read_record
-from comparisons.runs.shards import tasks_of_shard
 from comparisons.runs.tasks import plan
 from tests.comparisons.conftest import GATES
 from tests.comparisons.grid_text import grid_text
@@ -42,7 +42,7 @@ def tables(folder):
 def test_every_task_is_in_one_shard_and_the_expensive_models_are_shared(toys, total):
     models = ("bradley", "fscm", "fem", "jkr")
     tasks = [
-        *plan(load_grids(GRID.replace("exact", "jkr"), tier="quick"), list(models)),
+        *plan(load_grids(GRID.replace("exact", "jkr"), tiers=None), list(models)),
         *plan(cases_of_problem(PAD, ["punch.R=1:5:5 um"], models, QUANTITIES).grids),
     ]
     shards = [tasks_of_shard(f"{number}/{total}", tasks) for number in range(1, total + 1)]

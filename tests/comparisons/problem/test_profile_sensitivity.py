@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from comparisons.description import profile_sensitivity as module
+from comparisons.description import forces as module
 from comparisons.problem.reading import load_problem
 from comparisons.runs.tasks import evaluate
 from tests.comparisons.rows import row

@@ -109,7 +109,7 @@ def test_intervals_give_a_range(tmp_path):
     sign = next(row["slope"] for row in stated["parameters"] if row["parameter"] == "solid.E0") > 0.0
     ends = []
     for R, E0 in ((9.5e-8, 0.9e9 if sign else 1.1e9), (1.05e-7, 1.1e9 if sign else 0.9e9)):
-        changed = problem.with_value("solid", "E0", E0).with_value("punch", "R", R)
+        changed = problem.with_value("solid.E0", E0).with_value("punch.R", R)
         ends.append(evaluate("fscm", "pull_off_force", changed).value)
     assert np.allclose(stated["range"]["solved"], ends, rtol=1e-9)
     assert np.allclose(stated["range"]["first_order"], ends, rtol=SECOND_ORDER)

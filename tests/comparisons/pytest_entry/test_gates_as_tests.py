@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.pipeline.named_verdicts import named_verdicts
+from comparisons.pipeline.run import named_verdicts
 
 from ..conftest import GATES, with_entries
 from ..grid_text import PAD, grid_text

@@ -48,7 +48,7 @@ def test_wrong_grids_are_refused_with_the_key_and_the_value(text, named):
 
 def test_the_grids_of_a_sweep_have_no_tier():
     with pytest.raises(ValueError, match="grid a: unknown key 'tier': the grids of a sweep have none"):
-        load_grids(GRID, tier="quick")
+        load_grids(GRID, tiers=None)
 
 
 def test_the_full_tier_holds_the_quick_one():
