@@ -5,9 +5,15 @@ fails, 2 wrong input, 3 a gate is inconclusive, 4 a computation or an output fai
 error, or there was nothing to judge (and, as shells have it, 130 after Ctrl-C, 141 when the reader of a pipe went
 away, and 143 after SIGTERM).
 
-A command is a module in `comparisons.cli.commands` with its `OPTIONS`, the `EXAMPLES` of its help, and a function
-`call` that returns the exit status.  A library such as click would not shorten it: none has options with several values
-(``--model jkr dmt``), and the help must not import what a command needs.
+A command is a module in `comparisons.cli.commands` with the examples of its help in its text, its `OPTIONS`, and a
+function `call` that returns the exit status.  A library such as click would not shorten it: none has options with
+several values (``--model jkr dmt``), and the help must not import what a command needs.
+
+For example::
+
+    fscm-bench run
+    fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1
+    fscm-bench COMMAND --help
 """
 
 from __future__ import annotations
@@ -47,11 +53,6 @@ _COMMANDS = {
     "bench": "measure error, time and memory of the solvers on this machine, as ratios",
 }
 
-_EXAMPLES = (
-    "fscm-bench run",
-    "fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1",
-    "fscm-bench COMMAND --help",
-)
 _EXIT_STATUS = """
 Exit status: 0 done and every gate passes, 1 a gate fails, 2 wrong input,
 3 a gate is inconclusive, 4 a computation or an output failed, a gate is in
@@ -84,7 +85,9 @@ class _Version(argparse.Action):
         parser.exit()
 
 
-def _examples(commands: Sequence[str]) -> str:
+def _examples(text: str) -> str:
+    """The commands in a text, each on an indented line."""
+    commands = [line.strip() for line in text.splitlines() if line.startswith("    fscm-bench ")]
     return "\n  ".join(["example:" if len(commands) == 1 else "examples:", *commands])
 
 
@@ -93,7 +96,7 @@ def _parser(called: Collection[str], program: str = "fscm-bench") -> argparse.Ar
     parser = _Parser(
         prog=program,
         description="How wrong is a model of adhesive contact, and how certain is that error?",
-        epilog=f"{_examples(_EXAMPLES)}\n{_EXIT_STATUS}",
+        epilog=f"{_examples(__doc__)}\n{_EXIT_STATUS}",
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and, if known, the commit")
     parsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
@@ -103,7 +106,7 @@ def _parser(called: Collection[str], program: str = "fscm-bench") -> argparse.Ar
             # `list` would hide the type of Python.
             module_name = "listing" if name == "list" else name.replace("-", "_")
             module = import_module(f"comparisons.cli.commands.{module_name}")
-            command.epilog = _examples(module.EXAMPLES)
+            command.epilog = _examples(module.__doc__ or "")
             command.set_defaults(call=module.call)
             for names, settings in module.OPTIONS:
                 command.add_argument(*names, **settings)

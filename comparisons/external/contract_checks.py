@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 from comparisons.external.data_model import DataModel
 from comparisons.external.model_source import AnyExternalModel
@@ -88,8 +89,7 @@ def examine(model: AnyExternalModel) -> list[Finding]:
 
 def _keys(model: AnyExternalModel) -> Iterator[_Key]:
     if isinstance(model, DataModel):
-        for quantity, *cells in list(model.rows)[:_MOST_ROWS]:
-            yield quantity, model.problems[cells[0]] if model.problems else Problem.dimensionless(*cells)
+        yield from islice(model.rows, _MOST_ROWS)
         return
     for number, case in enumerate([*_CASES, *_CALIBRATION]):
         for quantity in QUANTITIES if number < _ALL_QUANTITIES else (_FORCE,):

@@ -11,8 +11,8 @@ from __future__ import annotations
 import csv
 import hashlib
 import math
-from collections.abc import Mapping, Sequence
-from itertools import product, starmap
+from collections.abc import Collection, Mapping, Sequence
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -70,8 +70,10 @@ class DataModel:
         try:
             manifest = _manifest(folder)
             content = _content(folder, manifest)
-            covered, self.problems = _covered_cases(folder, manifest, len(content.splitlines()))
-            self.rows = _rows(folder / manifest["predictions"], covered, _PROBLEM if self.problems else _NUMBERS)
+            covered = _covered_cases(folder, manifest, len(content.splitlines()))
+            case = _PROBLEM if "problem" in manifest["covers"][0] else _NUMBERS
+            rows = _rows(folder / manifest["predictions"], covered, case)
+            self.rows = {(key[0], covered[key]): prediction for key, prediction in rows.items()}
         except ValueError as error:
             raise ValueError(f"{one_line(str(folder), 200)}: {one_line(str(error))}") from None
         except OSError as error:
@@ -85,11 +87,11 @@ class DataModel:
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the prediction, or raise `NotApplicable` for a case that the submission does not cover."""
-        case = (problem.name,) if self.problems else (problem.n, problem.k, problem.mu)
-        if (quantity, *case) not in self.rows or (self.problems and self.problems[problem.name] != problem):
+        key = quantity, problem.without_nu()
+        if key not in self.rows:
             raise NotApplicable("the submission does not cover this case")
-        value, u_num = self.rows[quantity, *case]
-        unit = problem.units[QUANTITIES[quantity].scale] if self.problems else 1.0
+        value, u_num = self.rows[key]
+        unit = problem.units[QUANTITIES[quantity].scale] if problem.name else 1.0
         return Result(value / unit, u_num / unit)
 
     def close(self) -> None:
@@ -139,8 +141,8 @@ def _content(folder: Path, manifest: dict[str, Any]) -> bytes:
     return content
 
 
-def _covered_cases(folder: Path, manifest: dict[str, Any], lines: int) -> tuple[set[Key], dict[str, Problem]]:
-    """Return the cases that the [[covers]] tables promise, for a CSV with so many lines, and the problems of files."""
+def _covered_cases(folder: Path, manifest: dict[str, Any], lines: int) -> dict[Key, Problem]:
+    """Return the cases that the [[covers]] tables promise, for a CSV with so many lines."""
     tables = manifest["covers"]
     # Nothing is built before it is known how many cases there are: a short file can promise very many.
     lists = [[list(dict.fromkeys(values)) for values in _lists(table)] for table in tables]
@@ -150,28 +152,25 @@ def _covered_cases(folder: Path, manifest: dict[str, Any], lines: int) -> tuple[
             f"{MANIFEST}: the [[covers]] tables promise {sum(sizes)} cases, but the predictions have {lines} "
             f"lines, and at most {_MOST_CASES} cases are read: each case needs a row"
         )
-    keys: set[Key] = set()
-    problems: dict[str, Problem] = {}
+    covered: dict[Key, Problem] = {}
     for table, (quantities, *columns) in zip(tables, lists, strict=True):
         if "problem" in table:
             variations = [Variation.of_values(key, values) for key, values in table.get("vary", {}).items()]
-            of_file = problems_of(path_inside(folder, table["problem"]), variations, table["problem"])
-            names = {problem.name: problem for problem in of_file}
-            problems |= names
-            keys.update(product(quantities, names))
+            problems = problems_of(path_inside(folder, table["problem"]), variations, table["problem"])
+            cases = {(problem.name,): problem for problem in problems}
         else:
-            cases = starmap(Problem.dimensionless, product(*columns))
-            keys.update((name, case.n, case.k, case.mu) for case in cases for name in quantities)
-    if not keys:
+            cases = {numbers: Problem.dimensionless(*numbers) for numbers in product(*columns)}
+        covered |= {(quantity, *cells): case for quantity in quantities for cells, case in cases.items()}
+    if not covered:
         raise ValueError(f"{MANIFEST}: [[covers]] has no case")
-    return keys, problems
+    return covered
 
 
 def _lists(table: Mapping[str, Any]) -> list[list[Any]]:
     return [table["quantities"], *(table[name] for name in _NUMBERS if name in table), *table.get("vary", {}).values()]
 
 
-def _rows(path: Path, covered: set[Key], case: Sequence[str]) -> dict[Key, tuple[float, float]]:
+def _rows(path: Path, covered: Collection[Key], case: Sequence[str]) -> dict[Key, tuple[float, float]]:
     """Return the predictions of a CSV, one for each covered case, whose columns are given."""
     rows: dict[Key, tuple[float, float]] = {}
     columns = ["quantity", *case, *_VALUES]
@@ -189,7 +188,7 @@ def _rows(path: Path, covered: set[Key], case: Sequence[str]) -> dict[Key, tuple
             rows[key] = prediction
     except (ValueError, csv.Error) as error:
         raise ValueError(f"{path.name}, line {reader.line_num}: {error}") from None
-    if missing := sorted(covered - rows.keys()):
+    if missing := sorted(set(covered) - rows.keys()):
         raise ValueError(
             f"{path.name}: {len(missing)} of {len(covered)} rows that [[covers]] promises are missing, the first is "
             f"{_label(missing[0])}"

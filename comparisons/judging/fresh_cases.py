@@ -152,16 +152,17 @@ def draw(
         if drawn is None:
             passed_over += 1
             continue
-        if drawn.untested:
-            reason = _no_room(gate.candidate, len(drawn.untested), len(standing))
+        cases, untested = drawn
+        if untested:
+            reason = _no_room(gate.candidate, len(untested), len(standing))
             names = {"gate": gate.id, "candidate": gate.candidate, "quantity": gate.quantity}
             undrawn.append(names | {"reason": reason})
-        elif not drawn.cases:
+        elif not cases:
             log(f"{gate.id} has no fresh cases: the domain of {gate.candidate} has none that it can be judged in")
         by_reference: dict[str, list[Problem]] = {}
-        for case in drawn.cases:
+        for case in cases:
             by_reference.setdefault(_reference(gate, case), []).append(case)
-        parts += [_part(gate, gate.candidate, name, tuple(cases)) for name, cases in sorted(by_reference.items())]
+        parts += [_part(gate, gate.candidate, name, tuple(of_name)) for name, of_name in sorted(by_reference.items())]
     if passed_over:
         log(f"{passed_over} gates have no fresh cases: of curves, with a rival or a reference_at, or of single cases")
     return FreshCases(count, seed, tuple(parts), tuple(undrawn))

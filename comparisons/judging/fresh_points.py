@@ -40,14 +40,6 @@ _ROOM, _DRAWN = 1.0 / 3.0, 300
 _DIGITS = 6
 
 
-@dataclass(frozen=True, slots=True)
-class Sample:
-    """Fresh cases, and the standing cases in parts of the domain that have no room for fresh ones."""
-
-    cases: tuple[Problem, ...]
-    untested: frozenset[Problem]
-
-
 def sample(
     gate: Gate,
     domain: Domain | None,
@@ -55,7 +47,7 @@ def sample(
     avoided: Sequence[Problem],
     count: int,
     seed: list[int],
-) -> Sample | None:
+) -> tuple[list[Problem], set[Problem]] | None:
     """Draw cases for a gate from the domain of a model, or from between the standing cases where it states none.
 
     Parameters
@@ -71,8 +63,9 @@ def sample(
 
     Returns
     -------
-    Sample or None
-        None if the gate itself leaves no room, whatever the domain is.
+    cases, untested
+        Fresh cases, and the standing cases in parts of the domain that have no room for fresh ones; None if the gate
+        itself leaves no room, whatever the domain is.
     """
     groups = groupby(sorted(standing, key=_family_of), _family_of)
     families = [_Family.of(gate, list(cases), avoided) for _, cases in groups]
@@ -86,7 +79,7 @@ def sample(
         points = family.points(box, share, [*seed, number])
         cases += islice(family.problems_at(points), share)
         untested -= {*tested} if points else set()
-    return Sample(tuple(sorted(dict.fromkeys(cases))), frozenset(untested))
+    return sorted(dict.fromkeys(cases)), untested
 
 
 def _numbers(case: Problem) -> dict[str, float]:

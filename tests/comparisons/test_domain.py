@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.domain import Domain, declared_domain
+from comparisons.domain import NO_LIMITS, Domain, declared_domain
 from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
 from comparisons.judging.summary import summarise
@@ -63,7 +63,7 @@ DECLARED = [name for name in MODELS if declared_domain(create(name)) is not None
 def test_a_model_has_a_value_everywhere_in_the_domain_that_it_declares(name):
     model = create(name)
     for table in declared_domain(model).tables:
-        ends = {parameter: table.ends(parameter) for parameter in BOX}
+        ends = {parameter: table.limits.get(parameter, NO_LIMITS) for parameter in BOX}
         box = {key: [max(BOX[key][0], low), min(BOX[key][1], high)] for key, (low, high) in ends.items()}
         rng = np.random.default_rng(5)
         for _ in range(8):

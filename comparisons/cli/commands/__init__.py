@@ -1,1 +1,1 @@
-"""Commands of the command line, one module each: its `OPTIONS`, its `EXAMPLES`, and `call`, which runs it."""
+"""Commands of the command line, one module each: the examples of its help, its `OPTIONS`, and `call`."""

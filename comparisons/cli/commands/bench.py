@@ -1,4 +1,9 @@
-"""``fscm-bench bench``: error, CPU time and memory of the solvers, measured on this machine, as ratios."""
+"""``fscm-bench bench``: error, CPU time and memory of the solvers, measured on this machine, as ratios.
+
+For example::
+
+    fscm-bench bench --only work-precision
+"""
 
 from __future__ import annotations
 
@@ -10,8 +15,6 @@ from comparisons.cli.options import QUIET, file, option, several
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note
-
-EXAMPLES = ("fscm-bench bench --only work-precision",)
 
 _PARTS = "; ".join(f"{part.name}, {part.title}" for part in PARTS.values())
 

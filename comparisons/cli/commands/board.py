@@ -1,4 +1,9 @@
-"""``fscm-bench board``: a static site of submitted models with their errors, verdicts and history."""
+"""``fscm-bench board``: a static site of submitted models with their errors, verdicts and history.
+
+For example::
+
+    fscm-bench board docs/board/submissions --out site
+"""
 
 from __future__ import annotations
 
@@ -12,8 +17,6 @@ from comparisons.output.report.board import standings
 from comparisons.output.table import Table, columns, words
 from comparisons.output.terminal import rich_table
 from comparisons.pipeline.board import INDEX, make_board
-
-EXAMPLES = ("fscm-bench board docs/board/submissions --out site",)
 
 OPTIONS = (
     file("submissions", metavar="SUBMISSIONS", help="a folder of submissions, or one submission; see docs/board.md"),

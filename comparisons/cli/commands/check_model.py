@@ -1,4 +1,9 @@
-"""``fscm-bench check-model``: checks that an external model keeps the contract."""
+"""``fscm-bench check-model``: checks that an external model keeps the contract.
+
+For example::
+
+    fscm-bench check-model my_model.py:MyModel
+"""
 
 from __future__ import annotations
 
@@ -10,8 +15,6 @@ from comparisons.console.exit_status import FAILED, FAILS, OK
 from comparisons.console.progress import waiting
 from comparisons.external.contract_checks import SKIPPED, examine
 from comparisons.registry import MODELS, external_model
-
-EXAMPLES = ("fscm-bench check-model my_model.py:MyModel",)
 
 OPTIONS = (option("spec", metavar="SPEC", help=MODEL_SPEC),)
 

@@ -1,4 +1,10 @@
-"""``fscm-bench cite``: how to cite fscm-bench and what a run used, as text or BibTeX."""
+"""``fscm-bench cite``: how to cite fscm-bench and what a run used, as text or BibTeX.
+
+For example::
+
+    fscm-bench cite
+    fscm-bench cite --format bibtex results/runs/TIME
+"""
 
 from __future__ import annotations
 
@@ -13,8 +19,6 @@ from comparisons.output.citation import as_bibtex, as_text, methods, works
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.environment import version_text
 from comparisons.runs.record import check_files, read_record
-
-EXAMPLES = ("fscm-bench cite", "fscm-bench cite --format bibtex results/runs/TIME")
 
 _FOLDER = "folder of a finished run, sweep or comparison, to cite the versions and models that it used"
 

@@ -1,4 +1,11 @@
-"""``fscm-bench compare``: models beside a reference in cases of one's own, as one table and one figure."""
+"""``fscm-bench compare``: models beside a reference in cases of one's own, as one table and one figure.
+
+For example::
+
+    fscm-bench compare jkr md-improved --n 1 2 --k 0 0.4 --mu 0.1 1 3
+    fscm-bench compare --model all --n 2 --k 0 --mu 0.1:10:20 --latex > table.tex
+    fscm-bench compare jkr dmt --problem pad.toml --vary "solid.thickness=5, 10, 20 nm"
+"""
 
 from __future__ import annotations
 
@@ -10,12 +17,6 @@ from comparisons.console.exit_status import FAILED
 from comparisons.console.progress import log
 from comparisons.output.summaries import terminal_tables
 from comparisons.pipeline.compare import ALL, compare
-
-EXAMPLES = (
-    "fscm-bench compare jkr md-improved --n 1 2 --k 0 0.4 --mu 0.1 1 3",
-    "fscm-bench compare --model all --n 2 --k 0 --mu 0.1:10:20 --latex > table.tex",
-    'fscm-bench compare jkr dmt --problem pad.toml --vary "solid.thickness=5, 10, 20 nm"',
-)
 
 _MODELS = f"{MODEL_SPEC}; {ALL}: every model of fscm-bench that has a value in these cases"
 

@@ -1,4 +1,10 @@
-"""``fscm-bench curve``: a force-displacement curve, or a surface at pull-off, by one model or several."""
+"""``fscm-bench curve``: a force-displacement curve, or a surface at pull-off, by one model or several.
+
+For example::
+
+    fscm-bench curve --model fscm jkr --n 2 --k 0.4 --mu 3 --plot curve.png --csv curve.csv
+    fscm-bench curve --model fscm fem --problem pad.toml --plot pad.png
+"""
 
 from __future__ import annotations
 
@@ -21,11 +27,6 @@ from comparisons.quantities import CURVES, Points
 from comparisons.registry import create, identify
 from comparisons.runs.atomic_files import writable_file, write_file
 from comparisons.runs.csv_format import csv_text
-
-EXAMPLES = (
-    "fscm-bench curve --model fscm jkr --n 2 --k 0.4 --mu 3 --plot curve.png --csv curve.csv",
-    "fscm-bench curve --model fscm fem --problem pad.toml --plot pad.png",
-)
 
 _QUANTITY = f"what to draw: {', '.join(CURVES)} (default: force_curve)"
 

@@ -1,4 +1,10 @@
-"""``fscm-bench describe``: what a problem file states, and which models may be used for it."""
+"""``fscm-bench describe``: what a problem file states, and which models may be used for it.
+
+For example::
+
+    fscm-bench describe pad.toml
+    fscm-bench describe pad.toml --uncertain
+"""
 
 from __future__ import annotations
 
@@ -16,8 +22,6 @@ from comparisons.description.overview import overview
 from comparisons.description.text import description_text
 from comparisons.description.uncertainty import uncertainty
 from comparisons.problem import Problem
-
-EXAMPLES = ("fscm-bench describe pad.toml", "fscm-bench describe pad.toml --uncertain")
 
 _UNCERTAIN = "also print the uncertainty of the pull-off force from the uncertain values of the file"
 

@@ -1,4 +1,10 @@
-"""``fscm-bench fem``: fields, a picture, verification and the linear solver of the finite elements."""
+"""``fscm-bench fem``: fields, a picture, verification and the linear solver of the finite elements.
+
+For example::
+
+    fscm-bench fem --n 2 --k 0.4 --mu 1 --vtu body.vtu --plot body.png
+    fscm-bench fem --verify
+"""
 
 from __future__ import annotations
 
@@ -19,11 +25,6 @@ from comparisons.output.terminal import rich_table
 from comparisons.runs.atomic_files import writable_file, writing
 from fem_reference import export
 from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, solver_table
-
-EXAMPLES = (
-    "fscm-bench fem --n 2 --k 0.4 --mu 1 --vtu body.vtu --plot body.png",
-    "fscm-bench fem --verify",
-)
 
 _EVENT = f"the event whose state is shown: {', '.join(fem_reference.EVENTS)} (default: %(default)s)"
 

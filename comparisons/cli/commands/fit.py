@@ -1,4 +1,10 @@
-"""``fscm-bench fit``: work of adhesion, modulus and other values of a problem file, from measured curves."""
+"""``fscm-bench fit``: work of adhesion, modulus and other values of a problem file, from measured curves.
+
+For example::
+
+    fscm-bench fit curve.csv --problem probe.toml --free law.work_of_adhesion solid.E
+    fscm-bench fit *.jpk-force --problem probe.toml --free solid.E --stiffness '0.2 N/m' --out fits
+"""
 
 from __future__ import annotations
 
@@ -14,11 +20,6 @@ from comparisons.fitting.folder import fit_files, fit_table, write_fits
 from comparisons.output.terminal import rich_table
 from comparisons.problem import Problem
 from comparisons.problem.units import NotAValue, in_si
-
-EXAMPLES = (
-    "fscm-bench fit curve.csv --problem probe.toml --free law.work_of_adhesion solid.E",
-    "fscm-bench fit *.jpk-force --problem probe.toml --free solid.E --stiffness '0.2 N/m' --out fits",
-)
 
 OPTIONS = (
     file("curves", metavar="CURVE", nargs="+", help="CSV with displacement [nm] and load [nN], or an AFM file"),

@@ -1,4 +1,9 @@
-"""``fscm-bench judge``: a new judgement of the stored results of a run, by its own gates or others."""
+"""``fscm-bench judge``: a new judgement of the stored results of a run, by its own gates or others.
+
+For example::
+
+    fscm-bench judge results/mine --verbose
+"""
 
 from __future__ import annotations
 
@@ -9,8 +14,6 @@ from comparisons.cli.options import QUIET, VERBOSE, file
 from comparisons.cli.verdict_screen import STATUS, print_verdicts
 from comparisons.console.progress import note
 from comparisons.pipeline.judgement import judge_folder
-
-EXAMPLES = ("fscm-bench judge results/mine --verbose",)
 
 OPTIONS = (
     file("folder", metavar="DIR", help="folder of a finished run"),

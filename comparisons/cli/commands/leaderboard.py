@@ -1,4 +1,9 @@
-"""``fscm-bench leaderboard``: any number of runs as one sortable HTML table that needs no other file."""
+"""``fscm-bench leaderboard``: any number of runs as one sortable HTML table that needs no other file.
+
+For example::
+
+    fscm-bench leaderboard results/mine results/other --out leaderboard.html
+"""
 
 from __future__ import annotations
 
@@ -9,8 +14,6 @@ from comparisons.cli.screen import write_page
 from comparisons.console.exit_status import OK
 from comparisons.pipeline.board import leaderboard
 from comparisons.runs.atomic_files import writable_file
-
-EXAMPLES = ("fscm-bench leaderboard results/mine results/other --out leaderboard.html",)
 
 OPTIONS = (
     file("folders", metavar="DIR", nargs="+", help="folders of finished runs or sweeps"),

@@ -1,4 +1,10 @@
-"""``fscm-bench list``: the models, quantities, cases, gates or kinds, as text, CSV or JSON."""
+"""``fscm-bench list``: the models, quantities, cases, gates or kinds, as text, CSV or JSON.
+
+For example::
+
+    fscm-bench list models
+    fscm-bench list gates --format json
+"""
 
 from __future__ import annotations
 
@@ -21,8 +27,6 @@ from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS, create
 from comparisons.runs.cases import TIERS, grids
 from comparisons.runs.csv_format import csv_text
-
-EXAMPLES = ("fscm-bench list models", "fscm-bench list gates --format json")
 
 OPTIONS = (
     option("what", choices=("models", "quantities", "cases", "gates", "kinds"), help="what to list"),

@@ -1,4 +1,9 @@
-"""``fscm-bench merge``: the shards of a sweep in one folder, with the tables of the whole sweep."""
+"""``fscm-bench merge``: the shards of a sweep in one folder, with the tables of the whole sweep.
+
+For example::
+
+    fscm-bench merge results/shard1 results/shard2 --out results/sweep
+"""
 
 from __future__ import annotations
 
@@ -7,8 +12,6 @@ import argparse
 from comparisons.cli.commands.sweep import show
 from comparisons.cli.options import QUIET, file
 from comparisons.pipeline.merge import merge
-
-EXAMPLES = ("fscm-bench merge results/shard1 results/shard2 --out results/sweep",)
 
 OPTIONS = (
     file("folders", metavar="DIR", nargs="+", help="folders written by fscm-bench sweep --shard"),

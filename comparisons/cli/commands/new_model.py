@@ -1,4 +1,9 @@
-"""``fscm-bench new-model``: a new package with a working model, a test and a CI workflow."""
+"""``fscm-bench new-model``: a new package with a working model, a test and a CI workflow.
+
+For example::
+
+    fscm-bench new-model my-model
+"""
 
 from __future__ import annotations
 
@@ -10,8 +15,6 @@ from comparisons.console.exit_status import OK
 from comparisons.console.progress import log
 from comparisons.external.template import write_template
 from comparisons.registry import MODELS
-
-EXAMPLES = ("fscm-bench new-model my-model",)
 
 OPTIONS = (file("folder", metavar="DIR", help="new folder, e.g. my-model; its name becomes that of the model"),)
 

@@ -1,4 +1,9 @@
-"""``fscm-bench paper``: every figure of the paper, computed again, with its data."""
+"""``fscm-bench paper``: every figure of the paper, computed again, with its data.
+
+For example::
+
+    fscm-bench paper --figure 16 --out results/paper
+"""
 
 from __future__ import annotations
 
@@ -11,8 +16,6 @@ from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log
 from comparisons.paper.registry import NAMES
 from comparisons.pipeline.figures import make_figures
-
-EXAMPLES = ("fscm-bench paper --figure 16 --out results/paper",)
 
 OPTIONS = (
     several("--figure", "--only", metavar="N", help=f"only these of {', '.join(NAMES)} (default: all)"),

@@ -1,4 +1,9 @@
-"""``fscm-bench report``: the folder of a run as one HTML page that needs no other file."""
+"""``fscm-bench report``: the folder of a run as one HTML page that needs no other file.
+
+For example::
+
+    fscm-bench report results/mine --out report.html
+"""
 
 from __future__ import annotations
 
@@ -14,8 +19,6 @@ from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
 from comparisons.runs.atomic_files import writable_file
 from comparisons.runs.record import read_record
-
-EXAMPLES = ("fscm-bench report results/mine --out report.html",)
 
 OPTIONS = (
     file("folder", metavar="DIR", help="folder of a finished run"),

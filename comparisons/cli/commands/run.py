@@ -1,4 +1,11 @@
-"""``fscm-bench run``: the standing cases, or those of a file, computed and judged."""
+"""``fscm-bench run``: the standing cases, or those of a file, computed and judged.
+
+For example::
+
+    fscm-bench run
+    fscm-bench run --model my_model.py:MyModel --out results/mine
+    fscm-bench run --cases pads.toml --gates pad_gates.toml --out results/pads
+"""
 
 from __future__ import annotations
 
@@ -13,12 +20,6 @@ from comparisons.output import summaries
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
 from comparisons.runs.cases import TIERS
-
-EXAMPLES = (
-    "fscm-bench run",
-    "fscm-bench run --model my_model.py:MyModel --out results/mine",
-    "fscm-bench run --cases pads.toml --gates pad_gates.toml --out results/pads",
-)
 
 _FRESH = "also judge each model of --model in N fresh cases of its domain"
 

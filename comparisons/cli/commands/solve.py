@@ -1,4 +1,11 @@
-"""``fscm-bench solve``: one quantity of one problem by one model."""
+"""``fscm-bench solve``: one quantity of one problem by one model.
+
+For example::
+
+    fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1
+    fscm-bench solve --model jkr --quantity jump_out_gap --n 2 --k 0 --mu 2 --format json
+    fscm-bench solve --model fscm --quantity pull_off_force --problem pad.toml
+"""
 
 from __future__ import annotations
 
@@ -16,12 +23,6 @@ from comparisons.problem.units import si_text
 from comparisons.quantities import QUANTITIES
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
-
-EXAMPLES = (
-    "fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1",
-    "fscm-bench solve --model jkr --quantity jump_out_gap --n 2 --k 0 --mu 2 --format json",
-    "fscm-bench solve --model fscm --quantity pull_off_force --problem pad.toml",
-)
 
 OPTIONS = (
     option("--model", metavar="SPEC", required=True, help=MODEL_SPEC),

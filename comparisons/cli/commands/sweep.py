@@ -1,4 +1,10 @@
-"""``fscm-bench sweep``: grids of your own, computed with the errors of every model, without gates."""
+"""``fscm-bench sweep``: grids of your own, computed with the errors of every model, without gates.
+
+For example::
+
+    fscm-bench sweep my_cases.toml --model jkr md-improved --out results/sweep
+    fscm-bench sweep --problem pad.toml --vary "solid.thickness=5, 10, 20 nm" --vary "punch.R=50:250:5 nm" --out pads
+"""
 
 from __future__ import annotations
 
@@ -11,11 +17,6 @@ from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.pipeline.run import run
 from comparisons.registry import identify
-
-EXAMPLES = (
-    "fscm-bench sweep my_cases.toml --model jkr md-improved --out results/sweep",
-    'fscm-bench sweep --problem pad.toml --vary "solid.thickness=5, 10, 20 nm" --vary "punch.R=50:250:5 nm" --out pads',
-)
 
 OPTIONS = (
     file("file", nargs="?", help="[[grid]] tables as in comparisons/data/cases.toml, without a tier"),
