@@ -134,6 +134,7 @@ def test_a_release_needs_authors_a_doi_and_the_version_of_its_tag(tmp_path):
         (tmp_path / name).write_bytes((ROOT / name).read_bytes())
     problems = runpy.run_path(str(tmp_path / ".github" / "release_check.py"))["problems"]
     assert any("v0.0.9" in line and PROJECT["version"] in line for line in problems("v0.0.9", ""))
+    assert any("[project.urls]" in line and "https://a" in line for line in problems("", "https://a"))
 
     def named():
         found = "\n".join(problems(f"v{PROJECT['version']}", ""))

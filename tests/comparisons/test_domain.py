@@ -28,6 +28,7 @@ FORCE = {"quantities": ["pull_off_force"]}
     [
         ("n = 2", "applies_to is str and not a table"),
         ([], "applies_to has 0 tables, outside 1 to 20"),
+        ([FORCE] * 21, "applies_to has 21 tables"),
         ({"n": [2, 2]}, "quantities = None is not a list of at least one quantity"),
         ({"quantities": ["pull_of_force"]}, "unknown quantity 'pull_of_force': did you mean pull_off_force"),
         ({**FORCE, "N": [2, 2]}, "unknown key 'N'; known are quantities, n, k, mu, nu"),

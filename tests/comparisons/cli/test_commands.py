@@ -28,6 +28,10 @@ def test_a_comparison_is_cited_with_its_models_and_its_reference(folder, capsys)
     assert all(name in paragraph for name in ("bradley (version 1)", "jkr (version 1)", "atlas (version "))
     assert main(["cite", "--format", "bibtex", str(folder)]) == 0
     assert "@misc{model-jkr," in capsys.readouterr().out
+    # Without a folder, the version of the program.
+    assert (main(["--version"]), main(["cite"])) == (0, 0)
+    version, text = capsys.readouterr().out.split("\n", 1)
+    assert f"version {version.removeprefix('fscm-bench ')}" in text
 
 
 def test_a_changed_table_is_refused(folder, refused):

@@ -46,6 +46,7 @@ def test_every_combination_by_every_model(tmp_path, capsys):
     ("text", "words"),
     [
         ("solid.thicknes=5 nm", "unknown key 'thicknes'"),
+        ("sold.E0=1 GPa", "unknown section 'sold'"),
         ("solid.E0", "names no key with values"),
         ("solid.E0=1:2:1 GPa", "1 values are outside 2 to 100000"),
         ("solid.k=0.2, 1.5", "solid.k = 1.5"),

@@ -66,6 +66,10 @@ def test_the_traceback_of_a_defect_is_shown_on_request(capsys, monkeypatch):
     assert "Traceback" in capsys.readouterr().err
 
 
+def test_an_exit_of_argparse_after_the_help_is_no_failure():
+    assert (guarded(raising(SystemExit(0))), guarded(raising(SystemExit("text")))) == (0, FAILED)
+
+
 def program(command, redirected, **environment):
     """Run a command in a shell, its streams redirected; return status, stdout and stderr."""
     code = f"import sys; from comparisons.__main__ import main; sys.argv[1:] = {command!r}; sys.exit(main())"

@@ -5,6 +5,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from comparisons.cli.main import main
@@ -47,10 +48,13 @@ def test_the_installed_example_keeps_the_contract_is_listed_and_has_a_curve(inst
     assert main(["list", "models"]) == 0
     assert "installed by double-hertz" in capsys.readouterr().out
     assert main(["curve", "--model", installed_example, "jkr", "--n", "2", "--k", "0.4", "--mu", "1"]) == 0
-    rows = csv.DictReader(capsys.readouterr().out.splitlines())
+    rows = [row for row in csv.DictReader(capsys.readouterr().out.splitlines()) if row["model"] == "double-hertz"]
     # The curve's own minimum, on 201 points, against the pull-off force of the same model.
-    least = min(float(row["load"]) for row in rows if row["model"] == "double-hertz")
-    assert -least == pytest.approx(row_of(model).value, rel=1e-3)
+    load, displacement = (np.array([float(row[name]) for row in rows]) for name in ("load", "displacement"))
+    least = load.argmin()
+    assert -load[least] == pytest.approx(row_of(model).value, rel=1e-3)
+    zero_load = row_of(create("double-hertz-n-k"), quantity="zero_load_displacement").value
+    assert np.interp(0.0, load[least:], displacement[least:]) == pytest.approx(zero_load, rel=1e-3)
 
 
 def test_two_models_of_one_name_are_refused(write_data, write_model, refused):

@@ -74,6 +74,7 @@ MEASURED = '"measured"\nworst_measured = '
         ("lower = -0.1", "lower = 0.2", "admit nothing"),
         (GATE, CURVE.replace("upper = 0.1", "upper = 0"), "to 0 must be"),
         ("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = inf", "one must be finite"),
+        ("lower = -0.1", "lower = nan", "lower = nan"),
         # Uncertainties.
         *(("1e-6", value, "max_reference_uncertainty") for value in ("0", "inf", "nan")),
         *(("1e-6", f"1e-6\nmax_candidate_uncertainty = {u}", "max_candidate_uncertainty") for u in ("0", "nan", "inf")),

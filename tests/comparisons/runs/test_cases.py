@@ -29,6 +29,7 @@ def test_a_list_of_cases_is_taken_as_it_is():
         (GRID.replace("title", "titel"), "grid a: unknown key 'titel'"),
         (GRID.replace('"quick"', '"slow"'), "tier = 'slow'"),
         (GRID.replace('"bradley"', '"bradly"'), "unknown model 'bradly'"),
+        (GRID.replace('"jkr"', '"jrk"'), "unknown model 'jrk'"),
         (GRID.replace('"pull_off_force"', '"pull_off"'), "unknown quantity 'pull_off'"),
         (GRID.replace("[1, 0.5, 1.0]", f"[1{'0' * 400}]"), "mu must be a list of at least one number"),
         (GRID.replace("2, 1]", "1, " * 2000 + "]").replace("1.0]", "1, " * 998 + "]"), "4000000 combinations"),
