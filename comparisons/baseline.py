@@ -20,7 +20,7 @@ from typing import Any
 
 import pandas as pd
 
-from comparisons.bench import baseline as bench_baseline
+from comparisons.bench import run as bench
 from comparisons.console.exit_status import guarded
 from comparisons.data.file_names import (
     AGREEMENT,
@@ -199,7 +199,7 @@ def _task(arguments: Sequence[str]) -> int:
     )
     args = parser.parse_args(arguments)
     of_paper = paper_baseline.has_figures(args.folder)
-    of_bench = bench_baseline.has_bench(args.folder)
+    of_bench = bench.has_bench(args.folder)
     if args.check:
         if of_bench:
             raise ValueError(f"{args.folder} has a benchmark, whose times another run does not repeat: omit --check")
@@ -207,7 +207,7 @@ def _task(arguments: Sequence[str]) -> int:
         print(f"{args.folder} agrees with the baseline" if different.empty else csv_text(different))
         return 0 if different.empty else 1
     if of_bench:
-        renewed = f"{len(bench_baseline.renew(args.folder))} files of {bench_baseline.BENCH_BASELINE}"
+        renewed = f"{len(bench.renew(args.folder))} files of {bench.BENCH_BASELINE}"
     elif of_paper:
         renewed = f"{len(paper_baseline.renew(args.folder))} files of {paper_baseline.PAPER_BASELINE}"
     else:

@@ -1,4 +1,4 @@
-"""A run of the benchmark: what is measured, stored, written and printed.
+"""A run of the benchmark: what is measured, stored, written and printed; renewal of the committed one.
 
 Each finished measurement is in the store of the folder before the next one begins, so that a run that is stopped can
 be resumed; each keeps the record of the machine that made it.
@@ -6,6 +6,7 @@ be resumed; each keeps the record of the machine that made it.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -15,8 +16,9 @@ import pandas as pd
 from comparisons.bench.cold_starts import COLD_STARTS
 from comparisons.bench.part import Part
 from comparisons.bench.work_precision import WORK_PRECISION
-from comparisons.data.file_names import BENCH, BENCH_SUMMARY
+from comparisons.data.file_names import BASELINE_FOLDER, BENCH, BENCH_SUMMARY
 from comparisons.output.style import save
+from comparisons.paper.baseline import replace_files
 from comparisons.paper.cache import make_calls
 from comparisons.runs.atomic_files import prepare_folder, write_file, write_json
 from comparisons.runs.csv_format import csv_text
@@ -24,6 +26,9 @@ from comparisons.runs.environment import environment
 
 #: Parts by name, in the order in which they are measured: the shortest first.
 PARTS = {part.name: part for part in (COLD_STARTS, WORK_PRECISION)}
+
+#: Folder of the committed benchmark, in a clone of the repository.
+BENCH_BASELINE = BASELINE_FOLDER / "bench"
 
 
 def parts_of(names: Iterable[str] | None) -> list[Part]:
@@ -97,3 +102,23 @@ def _written(folder: Path, part: Part, table: pd.DataFrame) -> list[str]:
         save(part.draw(finished), figure_file)  # type: ignore[misc]
     lines = part.summary(finished).to_string(index=False, float_format="%.3g", na_rep="")
     return [f"{part.title}:", *lines.splitlines()]
+
+
+def has_bench(folder: Path) -> bool:
+    """Whether a folder is that of a finished ``fscm-bench bench``."""
+    return (folder / BENCH).is_file()
+
+
+def renew(folder: Path, target: Path = BENCH_BASELINE) -> list[Path]:
+    """Replace the committed tables, figures, summary and record by those of a run of all parts; return their paths.
+
+    Raises
+    ------
+    ValueError
+        If the run lacks a part, or a measurement failed; nothing is changed then.
+    """
+    failures = json.loads((folder / BENCH).read_text(encoding="utf-8"))["failures"]
+    if failures:
+        raise ValueError(f"{folder} has {failures} failed measurements: repeat `fscm-bench bench`")
+    sources = {name: [folder / name] for name in (BENCH, BENCH_SUMMARY)}
+    return replace_files(sources | {part.name: part.files(folder) for part in parts_of(None)}, folder, target)

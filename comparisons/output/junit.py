@@ -10,7 +10,6 @@ import pandas as pd
 
 from comparisons.judging.decision import Verdict
 from comparisons.judging.report_card import overall
-from comparisons.judging.summary import coverage
 from comparisons.numerics.number_text import limits_text
 from comparisons.problem import PARAMETERS
 
@@ -41,10 +40,6 @@ def junit(judged: pd.DataFrame, command: Callable[[pd.Series], str]) -> bytes:
     root = Element("testsuites", {"name": "fscm-bench"} | _counts(judged))
     for gate, group in judged.groupby("gate", sort=False):
         suite = SubElement(root, "testsuite", {"name": _text(gate)} | _counts(group))
-        properties = SubElement(suite, "properties")
-        for candidate, rows in group.groupby("candidate", sort=False):
-            for name, number in coverage(rows["status"]).items():
-                SubElement(properties, "property", name=_text(f"{candidate} {name}"), value=str(number))
         for _, row in group.iterrows():
             _case(suite, row, command)
     if overall(judged) is Verdict.ERROR and not (judged["verdict"] == Verdict.ERROR).any():

@@ -9,7 +9,7 @@ from functools import partial
 import pandas as pd
 from rich.console import RenderableType
 
-from comparisons.numerics.number_text import exact, percent_text, value_text
+from comparisons.numerics.number_text import percent_text, value_text
 from comparisons.output.errors import worst_rows
 from comparisons.output.table import (
     CASE,
@@ -150,19 +150,19 @@ def largest_errors(kappa: pd.DataFrame) -> RenderableType:
     return _printed(layout, worst_rows(kappa, ["quantity", "model"]), "largest abs(kappa) in percent")
 
 
-def sweep_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFrame) -> Iterator[RenderableType]:
-    r"""Yield the tables of a sweep: values of problem files, how the computations ended, and the largest errors.
+def sweep_tables(results: pd.DataFrame, kappa: pd.DataFrame) -> Iterator[RenderableType]:
+    r"""Yield the tables of a sweep: values of problem files, and the largest errors.
 
     Parameters
     ----------
-    results, curves, kappa : DataFrame
+    results, kappa : DataFrame
         As `comparisons.pipeline.tables.RunTables` has them.
 
     Examples
     --------
-    >>> row = {"model": "fscm", "quantity": "pull_off_force", "problem": "pad.toml; punch.R=100 nm", "seconds": 0.1}
+    >>> row = {"model": "fscm", "quantity": "pull_off_force", "problem": "pad.toml; punch.R=100 nm"}
     >>> value = {"punch.R [m]": 1e-7, "value": 2e-8, "u_num": 1.54e-15, "unit": "N", "status": "ok"}
-    >>> values, _ = sweep_tables(pd.DataFrame([row | value]), pd.DataFrame(), pd.DataFrame())
+    >>> (values,) = sweep_tables(pd.DataFrame([row | value]), pd.DataFrame())
     >>> from rich import print
     >>> print(values)  # doctest: +NORMALIZE_WHITESPACE
     values
@@ -175,19 +175,8 @@ def sweep_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFram
     for quantity, rows in of_files.groupby("quantity", sort=False):
         layout = [*(key_columns(keys) or columns("problem")), *columns("model"), Column(str(quantity), physical_text)]
         yield _printed(layout, rows, "values")
-    # A curve has a row for each point.
-    evaluations = [results, curves[curves["point"] == 0]] if len(curves) else [results]
-    yield _computations(pd.concat([table[["model", "status", "seconds"]] for table in evaluations]))
     if len(kappa):
         yield largest_errors(kappa)
-
-
-def _computations(rows: pd.DataFrame) -> RenderableType:
-    """Return how many evaluations of each model ended with each status, and their seconds."""
-    counts = rows.groupby(["model", "status"]).size().unstack(fill_value=0)
-    counts = counts.reindex(columns=["ok", "not-applicable", "failed"], fill_value=0)
-    counts["seconds"] = rows.groupby("model")["seconds"].sum().round(1)
-    return rich_table(counts.reset_index(), "computations")
 
 
 def failure_lines(failures: Sequence[stored_rows.Row]) -> Iterator[str]:
@@ -208,18 +197,3 @@ def computations_sentence(counts: Mapping[str, int]) -> str:
     """
     ended = ", ".join(f"{count} {name}" for name, count in counts.items() if name not in ("all", "resumed"))
     return f"{counts['all']} results: {ended}" if ended else "no results"
-
-
-def paper_sentence(maxima: pd.DataFrame) -> str:
-    """Return how many of the maxima that the paper prints agree; empty if there are none.
-
-    Examples
-    --------
-    >>> rows = {"k": [0.4] * 3, "paper_percent": ["0.73", "3.5", "5"], "verdict": ["differs", "agrees", "differs"]}
-    >>> paper_sentence(pd.DataFrame(rows))
-    'maxima that the paper prints, for k = 0.4: agrees 1, differs 2'
-    """
-    printed = maxima[maxima["paper_percent"] != ""]
-    gradients = ", ".join(exact(k) for k in sorted(set(printed["k"])))
-    verdicts = ", ".join(f"{verdict} {count}" for verdict, count in sorted(printed["verdict"].value_counts().items()))
-    return f"maxima that the paper prints, for k = {gradients}: {verdicts}" if verdicts else ""

@@ -16,8 +16,7 @@ from comparisons.cli.options import JOBS, OUT, QUIET, VERBOSE, file, option, sev
 from comparisons.cli.screen import output, print_end, print_lines
 from comparisons.cli.verdict_screen import STATUS, print_verdicts
 from comparisons.console.progress import note
-from comparisons.output import summaries
-from comparisons.pipeline.finished_run import FinishedRun
+from comparisons.output.summaries import computations_sentence, largest_errors
 from comparisons.pipeline.run import run
 from comparisons.runs.cases import TIERS
 
@@ -54,20 +53,12 @@ def call(args: argparse.Namespace) -> int:
     )
     judgement = finished.judgement
     if not args.quiet:
-        # The numbers of the paper belong to the standing gates.
-        _print_errors(finished, with_paper=args.gates is None)
+        if len(finished.tables.kappa):
+            output().print(largest_errors(finished.tables.kappa))
+        print_lines([computations_sentence(finished.counts)])
     assert judgement is not None  # There are gates: the standing ones, or those of the user.
     print_verdicts(judgement, verbose=args.verbose, quiet=args.quiet)
     status = print_end(finished.failures, finished.folder)
     if not judgement.verdicts.empty:
         note(f"next: fscm-bench report {quote(str(finished.folder))}")
     return status or STATUS[judgement.verdict]
-
-
-def _print_errors(finished: FinishedRun, *, with_paper: bool) -> None:
-    """Print the largest errors, how the computations ended, and what agrees with the paper."""
-    tables = finished.tables
-    if len(tables.kappa):
-        output().print(summaries.largest_errors(tables.kappa))
-    of_paper = summaries.paper_sentence(tables.largest) if with_paper else ""
-    print_lines(filter(None, [summaries.computations_sentence(finished.counts), of_paper]))

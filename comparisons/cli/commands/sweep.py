@@ -11,8 +11,8 @@ from __future__ import annotations
 import argparse
 
 from comparisons.cli.options import JOBS, OUT, QUIET, VARIED_FILE, file, option, several
-from comparisons.cli.screen import output, print_end
-from comparisons.output.summaries import sweep_tables
+from comparisons.cli.screen import output, print_end, print_lines
+from comparisons.output.summaries import computations_sentence, sweep_tables
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.pipeline.run import run
@@ -69,6 +69,7 @@ def show(finished: FinishedRun, *, with_summary: bool) -> int:
     """Print the summary of a sweep and its failures; return the exit status."""
     if with_summary:
         console, tables = output(), finished.tables
-        for table in sweep_tables(tables.results, tables.curves, tables.kappa):
+        for table in sweep_tables(tables.results, tables.kappa):
             console.print(table)
+        print_lines([computations_sentence(finished.counts)])
     return print_end(finished.failures, finished.folder)

@@ -7,7 +7,6 @@ script.  A content security policy then forbids every connection, and every scri
 from __future__ import annotations
 
 import base64
-import json
 import re
 from functools import cache
 from hashlib import sha256
@@ -34,29 +33,8 @@ _ASSETS = "comparisons.output.report"
 #: Colours that a dark page has in place of those that are too dark for it; the others are used on both.
 _ON_DARK = {"#000000": "#f2f4f6", "#0072b2": "#3f9fe0", "#d55e00": "#f07a24", "#666666": "#a8afb7"}
 
-#: Characters that could end a script, begin a comment in it, or that JavaScript once took for a line's end.
-_UNSAFE = str.maketrans({character: f"\\u{ord(character):04x}" for character in "<>&'\u2028\u2029"})
-
 #: A record of a CSV text: a quoted line's end does not end it.
 _RECORD = re.compile(r'(?:[^"\n]|"[^"]*")+')
-
-
-def script_json(content: Any) -> Markup:
-    r"""Return JSON that can stand inside a script element.
-
-    Raises
-    ------
-    ValueError
-        If there is a NaN or an infinity in it, which JSON does not have.
-
-    Examples
-    --------
-    >>> print(script_json({"name": "</script>"}))
-    {"name":"\u003c/script\u003e"}
-    """
-    text = json.dumps(content, allow_nan=False, separators=(",", ":"), ensure_ascii=False).translate(_UNSAFE)
-    # What is only half a character, from a text that was cut, is not UTF-8.
-    return Markup(text.encode("utf-8", "replace").decode("utf-8"))
 
 
 def render(page: Page) -> str:
@@ -86,7 +64,7 @@ def render(page: Page) -> str:
         "style": Markup(_asset(_ASSETS, "assets/report.css")),
         "scripts": scripts,
         "policy": _policy(scripts),
-        "data": script_json(data),
+        "data": data,
     }
     return _environment().get_template("page.html").render(context) + "\n"
 
@@ -98,6 +76,8 @@ def _environment() -> Environment:
     environment = Environment(
         loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
+    # JSON has no NaN and no infinity.
+    environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
     environment.globals |= {"badge": badge, "html_table": html_table}
     environment.filters["dark_colour"] = lambda colour: _ON_DARK.get(colour, colour)
     return environment

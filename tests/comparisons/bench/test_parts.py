@@ -6,8 +6,7 @@ import pandas as pd
 import pytest
 
 from comparisons.bench import work_precision
-from comparisons.bench.baseline import BENCH_BASELINE
-from comparisons.bench.run import PARTS
+from comparisons.bench.run import BENCH_BASELINE, PARTS
 from comparisons.bench.work_precision import CERTIFIED
 from comparisons.paper.cache import Outcome
 

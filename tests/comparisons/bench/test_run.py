@@ -7,8 +7,7 @@ import pandas as pd
 import pytest
 
 from comparisons import baseline
-from comparisons.bench.baseline import BENCH_BASELINE, renew
-from comparisons.bench.run import run_bench
+from comparisons.bench.run import BENCH_BASELINE, renew, run_bench
 from comparisons.cli.main import main
 
 from .conftest import SIZES
