@@ -10,7 +10,7 @@ import pytest
 
 from comparisons.cli.screen import output, print_lines
 from comparisons.console.exit_status import EXTRAS, WRONG_INPUT
-from comparisons.console.progress import counting, log, note
+from comparisons.console.progress import log, note
 from comparisons.output.terminal import rich_table
 from tests.comparisons.grid_text import grid_text
 
@@ -85,9 +85,3 @@ def test_control_characters_do_not_reach_the_terminal(write, capsys):
     assert "fails" in printed
     assert "[red]plain[/]" in printed
     assert [character for character in printed if not character.isprintable() and character != "\n"] == []
-
-
-def test_counting_works_without_a_terminal(capsys):
-    with counting("computing", 1) as advance:
-        advance()
-    assert capsys.readouterr().err == ""
