@@ -37,7 +37,7 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize("k", [0.0, 0.6, 0.9])
+@pytest.mark.parametrize("k", [0.0, 0.9])
 def test_displacement_under_a_gaussian_pressure(k: float) -> None:
     """The transforms of exp(-r^2) are M (1-k)/2 Gamma((1-k)/2) 1F1((1+k)/2; 1; -r^2); M = 2 at mu = 1."""
     breaks = np.concatenate([np.arange(0.0, 8.0, 0.25), 8.0 * 2.0 ** np.arange(5)])

@@ -9,7 +9,6 @@ import pytest
 
 import fscm
 from comparisons.model import NotApplicable
-from comparisons.models import transition_formulas
 from comparisons.models.cohesive_models import MaugisDugdaleOriginal
 from comparisons.models.transition_formulas import (
     LAMBDA_OVER_MU,
@@ -64,15 +63,6 @@ def test_fits_are_near_maugis_dugdale(mu: float) -> None:
     assert value(PietrementTroyon(), mu) == pytest.approx(force, rel=0.013)
     assert value(PietrementTroyon(), mu, EVENTS[1]) == pytest.approx(at_force, abs=0.055 * mu)
     assert value(PietrementTroyon(), mu, EVENTS[2]) == pytest.approx(at_zero, rel=0.03)
-
-
-def test_pietrement_troyon_is_jkr_at_alpha_1() -> None:
-    """F = 1.5, a_0 = 6^(1/3), S = 2/3, beta = 1/2 to the digits of the coefficients."""
-    square, S, beta = transition_formulas._coefficients(1.0)
-    assert transition_formulas._pull_off(1.0) == pytest.approx(1.5, abs=1e-12)
-    assert math.sqrt(square) == pytest.approx(6 ** (1 / 3), abs=2.5e-3)
-    assert pytest.approx(2 / 3, abs=1e-3) == S
-    assert beta == pytest.approx(1 / 2, abs=3.5e-3)
 
 
 @pytest.mark.parametrize("mu", [0.05, 0.5, 3.0])
