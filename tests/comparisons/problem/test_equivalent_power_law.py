@@ -68,17 +68,6 @@ def coated():
     return problem, equivalent(problem)
 
 
-@pytest.mark.heavy
-def test_a_power_law_with_a_tiny_offset_is_itself():
-    """What is left is the offset: it has a share (z_s/length)^(1-k) or less of the compliance."""
-    law = equivalent(on_solid("offset-power-law", {"E0": 2e9, "c0": 1e-8, "k": 0.4, "z_s": 1e-12, "nu": 0.3}))
-    assert law["c0"] == 1e-8
-    assert law["k"] == law["free_k"] == pytest.approx(0.4, abs=3e-3)
-    assert law["E0"] == pytest.approx(2e9, rel=3e-3)
-    assert abs(law["pull_off_force"]["error"]) < 3e-4
-    assert law["compliance_deviation"] < 2e-3
-
-
 def test_a_compliance_has_the_modulus_of_its_power_law():
     problem = on_solid("offset-power-law", {"E0": 2e9, "c0": 1e-8, "k": 0.4, "z_s": 1e-12, "nu": 0.3})
     xi = np.geomspace(1e7, 1e8, 3)
