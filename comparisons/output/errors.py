@@ -219,10 +219,11 @@ def error_summary(table: pd.DataFrame) -> pd.DataFrame:
     >>> row = {"quantity": "pull_off_force", "model": "jkr", "reference": "fscm", "n": 2, "k": 0, "nu": np.nan}
     >>> rows = [row | {"mu": 1, "status": "ok", "kappa": -0.03, "u_kappa": 1e-9},
     ...         row | {"mu": 2, "status": "ok", "kappa": 0.04, "u_kappa": 2e-9},
+    ...         row | {"mu": 4, "status": "ok", "kappa": 0.0, "u_kappa": 1e-9},
     ...         row | {"mu": 3, "status": "failed", "kappa": np.nan, "u_kappa": np.nan}]
     >>> summary = error_summary(pd.DataFrame(rows))
     >>> summary[["asked", "answered", "failed", "largest", "mu", "rms"]].round(6).values.tolist()
-    [[3.0, 2.0, 1.0, 0.04, 2.0, 0.035355]]
+    [[4.0, 3.0, 1.0, 0.04, 2.0, 0.028868]]
     """
     table = with_problem(table)
     groups = table.groupby(_GROUP, sort=False)

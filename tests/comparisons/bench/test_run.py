@@ -32,6 +32,11 @@ def drawn(table):
     return figure
 
 
+def made_here(calls, folder, *, apart):
+    assert apart
+    return make_calls(calls, folder)
+
+
 TINY = Part(
     "tiny",
     "a part for tests",
@@ -50,7 +55,7 @@ def tiny(monkeypatch):
     def change(**changed):
         monkeypatch.setattr(run, "PARTS", {"tiny": dataclasses.replace(TINY, **changed)})
 
-    monkeypatch.setattr(run, "make_calls", lambda calls, folder, apart: make_calls(calls, folder))
+    monkeypatch.setattr(run, "make_calls", made_here)
     SIZES.clear()
     change()
     return change
