@@ -61,6 +61,11 @@ def test_two_models_of_one_name_are_refused(write_data, write_model, refused):
     refused(["run", "--model", write_model(name="measured"), write_data()], "two models have the name measured")
 
 
+def test_a_model_with_a_name_of_ours_is_refused(write_model, refused):
+    for command in (["check-model"], ["run", "--model"]):
+        refused([*command, write_model(name="jkr")], "the name jkr of the external model")
+
+
 def test_a_folder_and_an_installed_model_of_its_name_are_told_apart(install, write_data, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     install("mine", "mine:Model", {})
