@@ -19,6 +19,7 @@ from comparisons.runs.cases import load_grids
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 EXAMPLES = sorted((DOCS / "examples").glob("*.py"))
+PROBLEMS = DOCS / "examples" / "problems"
 DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", *sorted(DOCS.glob("*.md"))]
 
 #: Numbers that each example prints: those that the documents quote.
@@ -125,7 +126,7 @@ def test_every_grid_and_gate_of_a_document_loads():
     assert with_grids
     assert with_gates
     for text in with_grids:
-        assert all(grid.cases for grid in load_grids(text, tiers=None, folder=DOCS / "examples" / "problems"))
+        assert all(grid.cases for grid in load_grids(text, tiers=None, folder=PROBLEMS))
     assert all(load_gates(text) for text in with_gates)
 
 
@@ -147,3 +148,40 @@ def test_links_and_names_of_modules_resolve():
         names = re.findall(r"`((?:fscm|fem_reference|comparisons|tests)/[\w/]+\.\w+)`", text)
         wrong += [(path.name, name) for name in names if not (ROOT / name).exists()]
     assert wrong == []
+
+
+#: Tutorial of the coated pad: what it prints, its commands, and the force (nN) that the text states.
+COATED_PAD = DOCS / "tutorial_coated_pad.md"
+SHOWN = blocks(COATED_PAD, "text")
+COMMANDS = [shlex.split(line)[1:] for block in blocks(COATED_PAD, "sh") for line in block.splitlines()]
+FORCE = 138.242085
+
+
+def stable(line):
+    """A line without what differs between machines: the digits of a bound, and the time."""
+    return re.sub(r"\(\d+(e-?\d+)?\)|\([\d.]+ s\)", "", line)
+
+
+def test_the_file_of_the_coated_pad_is_that_of_the_examples():
+    assert blocks(COATED_PAD, "toml") == [(PROBLEMS / "coated_pad.toml").read_text(encoding="utf-8")]
+    assert [command[0] for command in COMMANDS] == ["describe", "solve", "curve"]
+    assert [f"{FORCE}" in text for text in SHOWN[:2]] == [True, True]
+
+
+@pytest.mark.heavy
+def test_describe_prints_what_the_page_shows_without_the_uncertain_values(capsys):
+    with chdir(PROBLEMS):
+        assert cli.main([word for word in COMMANDS[0] if word != "--uncertain"]) == 0
+    printed, on_page = capsys.readouterr().out.splitlines(), SHOWN[0].splitlines()
+    assert [stable(line)[:60] for line in printed] == [stable(line)[:60] for line in on_page[: len(printed)]]
+    assert printed[1].startswith(f"  pull-off force {FORCE}")
+    assert on_page[len(printed)].startswith("uncertainty of pull_off_force")
+
+
+@pytest.mark.heavy
+def test_the_finite_elements_print_what_the_page_shows(capsys):
+    with chdir(PROBLEMS):
+        assert cli.main(COMMANDS[1]) == 0
+    printed = capsys.readouterr().out.splitlines()
+    assert [stable(line) for line in printed] == [stable(line) for line in SHOWN[1].splitlines()]
+    assert f"{FORCE}(" in printed[1]
