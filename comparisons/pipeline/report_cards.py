@@ -25,8 +25,8 @@ AGAIN, _SECONDS = 8, 60.0
 #: So many are evaluated again however long they take: two can change places.
 _LEAST = 2
 
-#: Why a result is another one in a new process and in another order.
-_CAUSE = "the result depends on a random number, a clock or earlier evaluations"
+_RANDOM = "a random number or a clock: even the first evaluation of a new process gives another number"
+_STATE = "the result depends on earlier evaluations: it is another one when the evaluations come in another order"
 
 
 def make_cards(
@@ -65,12 +65,16 @@ def _card(identity: ExternalIdentity, rows: Sequence[Row], exact: bool, cases: M
             card["kind"] = "program" if model.is_program else "code"
             # The evaluations first, so that the process has made none before.
             if rows:
-                card["repeated"] = _repeated(model, rows, exact, cases)
+                card["repeated"] = _repeated(identity, model, rows, exact, cases)
         return card | {"check_model": [asdict(finding) for finding in examine(model)]}
 
 
 def _repeated(
-    model: AnyExternalModel, rows: Sequence[Row], exact: bool, cases: Mapping[Key, Problem]
+    identity: ExternalIdentity,
+    model: AnyExternalModel,
+    rows: Sequence[Row],
+    exact: bool,
+    cases: Mapping[Key, Problem],
 ) -> dict[str, Any]:
     """Evaluate some results again, the last first; the seed of the choice is nothing that a model can know."""
     seed = SystemRandom().randrange(2**32)
@@ -80,8 +84,9 @@ def _repeated(
         allowed = 0.0 if exact else (row.u_num or 0.0) + (again.u_num or 0.0)
         facts = {"quantity": row.quantity, **row.numbers, "problem": row.problem}
         repeated.append({**facts, "first": row.value, "again": again.value, "allowed": allowed})
-        if again.value is None or abs(again.value - (row.value or 0.0)) > allowed:
-            cause = _CAUSE
+        same = again.value is not None and abs(again.value - (row.value or 0.0)) <= allowed
+        if not same and not cause:
+            cause = _cause(identity, row.quantity, cases[row.key])
     return {"seed": seed, "cause": cause, "cases": repeated}
 
 
@@ -90,3 +95,12 @@ def _sample(rows: Sequence[Row], seed: int) -> list[Row]:
     order = random.Random(seed).sample(range(len(rows)), min(AGAIN, len(rows)))
     in_time = sum(seconds <= _SECONDS for seconds in accumulate(rows[number].seconds for number in order))
     return [rows[number] for number in sorted(order[: max(in_time, _LEAST)])]
+
+
+def _cause(identity: ExternalIdentity, quantity: str, case: Problem) -> str:
+    """Return why a result changes: it is evaluated as the first one of two new processes."""
+    values = []
+    for _ in range(2):
+        with closing(load_again(identity.spec)) as model:
+            values.append(evaluate(model, quantity, case).value)
+    return _STATE if values[0] == values[1] else _RANDOM
