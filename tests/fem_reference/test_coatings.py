@@ -23,11 +23,7 @@ NU = 0.3
 LAW = LennardJones(1.0, 1.0)
 
 
-def _exponential(z):
-    return 1.0 + 10.0 * np.exp(-z / 2.0)
-
-
-EXPONENTIAL = CustomModulus(_exponential, 0.0, 0.0, surface_depth=2.0)
+EXPONENTIAL = CustomModulus(lambda z: 1.0 + 10.0 * np.exp(-z / 2.0), 0.0, 0.0, surface_depth=2.0)
 PLAIN = PowerLawModulus(1.0, 1.0, 0.0)
 
 #: Above the depth 3 a cubic that falls with the slope -3.75: 1/E doubles within 0.13.

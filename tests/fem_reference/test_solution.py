@@ -113,16 +113,11 @@ def test_finer_meshes_are_taken_where_a_path_cannot_be_traced(monkeypatch, trace
             chosen(problem, ("pull_off",), "default")
 
 
-def _in_small_units(length, force):
-    """The body of the ratio 1 at k = 0.4, in other units."""
-    solid = PowerLaw(problem_with(0.4, 1.0, nu=0.25).solid.E0 * force / length**2, length, 0.4, 0.25)
-    return Problem(solid, PowerPunch(2.0, length), LennardJones(force / length, length))
-
-
 def test_unit_scaling():
     """The same body in millimetres and millinewtons."""
     base = _pull_off(0.4, 1.0, accuracy="quick")
-    force = solve(_in_small_units(1e3, 1e3), "pull_off_force", "quick")
+    solid = PowerLaw(1e-3 * problem_with(0.4, 1.0, nu=0.25).solid.E0, 1e3, 0.4, 0.25)
+    force = solve(Problem(solid, PowerPunch(2.0, 1e3), LennardJones(1.0, 1e3)), "pull_off_force", "quick")
     assert force.value == pytest.approx(base.value * 1e3, rel=1e-9)
     assert force.u_num == pytest.approx(base.u_num * 1e3, rel=1e-2)
 
