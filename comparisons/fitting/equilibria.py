@@ -19,7 +19,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline, PchipInterpolator
 
 import fscm
 from comparisons.model import Array, ComputationFailed
@@ -167,14 +167,26 @@ def _fine(problem: fscm.Problem, end: float) -> Array:
     length = _length(path, problem.mu)
     rising = np.concatenate([[True], np.diff(length) > 1e-9])
     path, length = path[:, rising], length[rising]
-    spline = CubicSpline(length, path.T)
-    steps = np.arange(_BETWEEN) / _BETWEEN
-    points = np.concatenate([*(a + (b - a) * steps for a, b in pairwise(length)), length[-1:]])
-    fine: Array = spline(points).T
+    fine = _with_points_between(length, path)
     beyond = int(np.argmin(fine[1])) + int(np.argmax(fine[1][int(np.argmin(fine[1])) :] >= end))
     share = (end - fine[1, beyond - 1]) / (fine[1, beyond] - fine[1, beyond - 1])
     last = fine[:, beyond - 1] + share * (fine[:, beyond] - fine[:, beyond - 1])
     return np.column_stack([fine[:, :beyond], last])
+
+
+def _with_points_between(length: Array, path: Array) -> Array:
+    """Return a path with points of a spline between its states, shape (2, m).
+
+    All folds of the displacement are states: between two states where the spline has another one, the points are those
+    of a curve without.
+    """
+    steps = np.arange(_BETWEEN) / _BETWEEN
+    points = length[:-1, None] + np.diff(length)[:, None] * steps
+    splines, others = (curve(points) for curve in (CubicSpline(length, path.T), PchipInterpolator(length, path.T)))
+    ends = np.concatenate([splines[:, :, 0], path[0, 1:, None]], axis=1)
+    turns = np.any(np.diff(ends, axis=1) * np.diff(path[0])[:, None] <= 0.0, axis=1)
+    splines[turns] = others[turns]
+    return np.concatenate([splines.reshape(-1, 2), path.T[-1:]]).T
 
 
 @lru_cache(maxsize=256)

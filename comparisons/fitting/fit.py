@@ -21,7 +21,7 @@ from comparisons.fitting.equilibria import distance_of_jkr, is_limit
 from comparisons.fitting.machine import Observations
 from comparisons.fitting.parameters import Key, changed, free_keys, uncertain_keys
 from comparisons.fitting.record import Record, read_records
-from comparisons.fitting.search import Search, dotted, numbers_of, plain
+from comparisons.fitting.search import DESCRIBED, Search, dotted, numbers_of, plain
 from comparisons.model import Array
 from comparisons.problem import Problem
 from comparisons.runs.tasks import evaluate
@@ -250,6 +250,8 @@ def _shifts(
 
 def _remarks(parameters: dict[str, FittedValue], result: Any) -> list[str]:
     remarks = [f"the curve does not determine {name}" for name, row in parameters.items() if not row.determined]
+    if result.redchi >= DESCRIBED:
+        remarks.append("the model does not describe the curve with these values: begin nearer to the true ones")
     names = list(parameters)
     for i, name in enumerate(names):
         correlations = result.params[plain(name)].correl or {}

@@ -42,7 +42,7 @@ _MODEL_ERROR = 3e-4
 _FLAT = 0.1
 
 #: A model describes a record where its residuals are at most twice the noise.
-_DESCRIBED = 4.0
+DESCRIBED = 4.0
 
 #: Steps of derivatives, of numbers of keys and of zeros in units of the ranges of load and position: a search with the
 #: first one crosses what folds at the points of a record make rough, one with the second goes on from there, or finds
@@ -84,7 +84,7 @@ class Search:
                 result = _best(self.minimised(Curves("jkr"), shift, step) for step in _STEPS)
             except (NotApplicable, ComputationFailed, ValueError):
                 continue
-            if result.redchi < _DESCRIBED:
+            if result.redchi < DESCRIBED:
                 return [numbers_of(result.params)]
             near_limit.append(result)
         starts = [self._of_pull_off(mu) for mu in _STIFF]
@@ -138,7 +138,7 @@ class Search:
                 results.append(self._nearby(start) if is_costly else (self._from(curves, start), curves))
             except ComputationFailed as error:
                 refusal = error
-            if results and results[-1][0].redchi < _DESCRIBED:
+            if results and results[-1][0].redchi < DESCRIBED:
                 break
         if not results:
             raise refusal
@@ -171,7 +171,7 @@ class Search:
             ):
                 ended = True
                 break
-        if result.redchi >= _DESCRIBED and not (ended and result.errorbars):
+        if result.redchi >= DESCRIBED and not (ended and result.errorbars):
             raise ComputationFailed("the search found no values that describe the curve: begin nearer to them")
         return result, curves
 

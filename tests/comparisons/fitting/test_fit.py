@@ -10,13 +10,14 @@ import lmfit
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.interpolate import CubicSpline
 from scipy.stats import binom
 
 import fscm
 from comparisons import fit
 from comparisons.cli.main import main
 from comparisons.fitting import search
-from comparisons.fitting.equilibria import Equilibria, by_fscm
+from comparisons.fitting.equilibria import Equilibria, _with_points_between, by_fscm
 from comparisons.fitting.fit import fit_record
 from comparisons.fitting.machine import Machine
 from comparisons.fitting.parameters import free_keys
@@ -70,7 +71,7 @@ def test_known_values_are_found_from_a_wrong_start(mu, k):
     assert max(map(abs, deviations(problem, result))) < 3.5
     assert all(row.determined and row.u < 0.1 * row.value for row in result.parameters.values())
     assert result.residual == pytest.approx(result.noise, rel=0.2)
-    assert not any("Tabor number" in remark for remark in result.remarks)
+    assert not any("Tabor number" in remark or "describe" in remark for remark in result.remarks)
 
 
 @pytest.mark.parametrize("E", [*heavy(1e8), 2e9])
@@ -147,6 +148,22 @@ def test_the_grid_of_tabor_numbers_is_as_good_as_a_path(mu):
     assert np.abs(loads[0] - loads[1]).max() < 1e-3 * -own.contact[1].min()
 
 
+def test_points_between_states_have_the_folds_of_the_states_alone():
+    """A spline swings beside a bend: between states where the displacement rises, it falls."""
+    states = np.array([[0.0, 1.0, 2.0, 2.01, 2.02, 2.03, 1.0, 0.0, 3.0], np.arange(9.0)])
+    length = np.arange(9.0)
+    assert (np.diff(CubicSpline(length, states.T)(np.linspace(0.0, 8.0, 81))[:, 0]) < 0.0).sum() > 20
+    points = _with_points_between(length, states)
+    assert points.shape == (2, 65)
+    assert np.array_equal(points[:, ::8], states)
+    rises = np.diff(points[0]) > 0.0
+    assert rises[:40].all()
+    assert not rises[40:56].any()
+    assert rises[56:].all()
+    # A straight line stays one.
+    assert points[1] == pytest.approx(np.arange(65.0) / 8.0)
+
+
 def test_what_the_file_knows_counts_like_a_measurement():
     """An uncertain radius widens the work of adhesion by as much, and a prior that is tight holds its key."""
     problem, record = recorded(3.0, seed=2)
@@ -191,6 +208,7 @@ def test_jkr_for_a_stiff_contact_is_refused_trust():
     stiff = fitted(problem, record, problem, FREE[:1], model="jkr")
     assert stiff.residual > 2.0 * stiff.noise
     assert any("Tabor number" in remark for remark in stiff.remarks)
+    assert any("does not describe" in remark for remark in stiff.remarks)
 
 
 def test_the_example_of_the_documentation_has_the_values_it_was_made_with():
