@@ -7,6 +7,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -152,6 +153,13 @@ def test_a_table_that_was_tampered_with_is_wrong_input(run_folder, tmp_path, cha
     refused(["report", folder], "verdicts.csv was changed after it was written")
     seal(folder)
     refused(["report", folder], message)
+
+
+def test_a_number_that_json_does_not_have_is_on_no_page(laid_out):
+    plot = laid_out.plots["plot-kappa"]
+    page = replace(laid_out, blocks={"errors": [replace(plot, points=plot.points.assign(x=np.nan))]})
+    with pytest.raises(ValueError, match="JSON"):
+        render(page)
 
 
 def test_the_same_folder_gives_the_same_bytes(run_folder, laid_out, tmp_path):
