@@ -185,7 +185,7 @@ def test_the_solver_does_not_load_the_verification():
     assert not any("verification" in module for module in ours("fem_reference", modules()["fem_reference"]))
 
 
-@pytest.mark.parametrize("name", ["fscm/ring_code", "solvers/layered_jkr"])
+@pytest.mark.parametrize("name", ["fscm/ring_code", "fem_reference/hankel_reference", "solvers/layered_jkr"])
 def test_a_code_of_the_tests_that_is_a_reference_imports_nothing_of_the_packages(name):
     source = (ROOT / "tests" / f"{name}.py").read_text(encoding="utf-8")
     assert {module.partition(".")[0] for module in imported(name, source)} & {*PACKAGES, "tests"} == set()

@@ -1,30 +1,47 @@
-"""Finite elements on solids that change with the depth: what meshes follow, a thin transition, the exterior."""
+"""Finite elements on coated and layered solids, against Hankel transforms and against themselves."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy import special
 
-import fscm
-from fem_reference import Interface, LennardJones, PowerPunch, Problem
+from fem_reference import Interface, LennardJones, PowerPunch, Problem, solve_together
 from fem_reference._contact.mesh_lengths import EXTERIOR_ERROR, mesh_spec
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.depth_scales import FIRST_END, DepthScales, depth_scales
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference.accuracy import level_for
-from fem_reference.depth_profiles import TableModulus
+from fem_reference.coating import CoatingModulus
+from fem_reference.depth_profiles import TableModulus, TablePoisson
 from fem_reference.modulus import CustomModulus, OffsetPowerLawModulus, PowerLawModulus
 from fem_reference.poisson import CoatingPoisson, CustomPoisson
-from fscm.graded.compliance import compliance
+from tests.fem_reference.hankel_reference import pull_off, transform
 from tests.fem_reference.profile_solid import ProfileSolid
+from tests.reference_values import REFERENCE_VALUES
+from tests.solvers.layered_jkr import Stack
 
 NU = 0.3
 LAW = LennardJones(1.0, 1.0)
+FORCE, DISPLACEMENT = "pull_off_force", "pull_off_displacement"
+
+#: Error of the Hankel transforms: other panels or another largest wave move force and displacement by less than 1e-10,
+#: panels that end at 22 instead of 16 by 1.2e-7 (the displacement of the stiff coating) and 3e-8 (its force).
+HANKEL_ERROR = 1e-7
 
 
-EXPONENTIAL = CustomModulus(lambda z: 1.0 + 10.0 * np.exp(-z / 2.0), 0.0, 0.0, surface_depth=2.0)
+def _exponential(z):
+    return 1.0 + 10.0 * np.exp(-z / 2.0)
+
+
+EXPONENTIAL = CustomModulus(_exponential, 0.0, 0.0, surface_depth=2.0)
+STIFF, SOFT = CoatingModulus(10.0, 1.0, thickness=1.0), CoatingModulus(1.0, 10.0, thickness=1.0)
+SMOOTH = CoatingModulus(10.0, 1.0, thickness=1.0, transition=0.02)
 PLAIN = PowerLawModulus(1.0, 1.0, 0.0)
+LAYERS_OF_NU = CoatingPoisson(0.2, 0.45, 1.0)
+TABLE, TABLE_OF_NU = TableModulus((0.0, 1.0, 2.0), (1.0, 1.5, 4.0)), TablePoisson((0.0, 2.0), (0.4, 0.1))
+
 
 #: Above the depth 3 a cubic that falls with the slope -3.75: 1/E doubles within 0.13.
 FALLING = TableModulus((0.0, 0.5, 1.0, 3.0), (2.0, 1.0, 3.0, 0.5))
@@ -33,20 +50,64 @@ FALLING = TableModulus((0.0, 0.5, 1.0, 3.0), (2.0, 1.0, 3.0, 0.5))
 ELASTIC_ERROR = 1e-8
 
 
-def _problem(modulus, n=2.0):
-    return Problem(ProfileSolid(modulus, NU), PowerPunch(n, 1.0), LAW)
+def _problem(modulus, n=2.0, nu=NU):
+    return Problem(ProfileSolid(modulus, nu), PowerPunch(n, 1.0), LAW)
+
+
+def _power(n):
+    return lambda r: r**n / n
+
+
+def test_hankel_transforms_of_a_homogeneous_solid():
+    row = next(v for v in REFERENCE_VALUES if (v.n, v.k, v.mu, v.quantity) == (2, 0, 1, FORCE))
+    reference = pull_off(lambda z: 1.0 + 0.0 * z, 0.0, _power(2))
+    assert reference.force == pytest.approx(math.pi * row.value, abs=HANKEL_ERROR)
+
+
+def test_hankel_transform_of_layers():
+    """Against amplitudes of fields that decay and grow; a narrow transition is nearly sharp."""
+    xi = np.geomspace(1e-4, 30.0, 7)
+    layer = Stack(((10.0, 0.2, 1.0),), (1.0, 0.45))
+    unit = 2.0 / layer.surface.plane_strain
+    values = transform(STIFF, LAYERS_OF_NU, xi, sharp=(1.0,))
+    assert values == pytest.approx(unit * layer.relative_compliance(xi), rel=1e-9)
+    narrow = transform(CoatingModulus(10.0, 1.0, 1.0, 0.01), LAYERS_OF_NU, xi, sharp=(1.0,))
+    assert narrow == pytest.approx(values, rel=2e-2)
+
+
+@pytest.mark.parametrize(
+    ("modulus", "nu", "n", "options"),
+    [
+        (STIFF, LAYERS_OF_NU, 2.0, {"sharp": (1.0,), "radius": 22.0}),
+        (STIFF, NU, 2.0, {"sharp": (1.0,), "radius": 22.0}),
+        (SOFT, NU, 2.0, {"sharp": (1.0,)}),
+        (SMOOTH, NU, 2.0, {"radius": 22.0}),
+        (PLAIN, LAYERS_OF_NU, 2.0, {"sharp": (1.0,)}),
+        # Both have a slope at the surface: waves up to 20 alone move the displacement by 8.7e-7.
+        (TABLE, TABLE_OF_NU, 2.0, {"wave": 40.0}),
+        # Beside it: the displacement of this solid on a mesh eight times as large.
+        (EXPONENTIAL, NU, 5.0, {"nearest": 2.0, "width": 0.125, "radius": 7.0, "wave": 40.0}),
+    ],
+)
+@pytest.mark.heavy
+def test_pull_off_of_coatings(modulus, nu, n, options):
+    """Force and displacement within the bound, which is small (measured difference: 9e-8 relative at most)."""
+    reference = pull_off(modulus, nu, _power(n), **options)
+    solutions = solve_together(_problem(modulus, n, nu), (FORCE, DISPLACEMENT), "quick")
+    for name, exact in ((FORCE, reference.force), (DISPLACEMENT, reference.displacement)):
+        assert abs(solutions[name].value - exact) <= min(1e-6, solutions[name].u_num + HANKEL_ERROR)
+        assert solutions[name].u_num <= 1e-5
 
 
 def test_displacement_of_a_table_that_falls_to_a_small_modulus():
-    """By the compliance of the integral equation; one element from 1.4 to 3 was wrong by 5.1e-6 and 6.6e-6."""
+    """One element spanned the depths 1.4 to 3 on every mesh: the displacements were wrong by 5.1e-6 and 6.6e-6."""
     radii = np.array([0.0, 1.0])
     ends = np.array([0.0, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0, 8.0, 12.0])
     x, w = np.polynomial.legendre.leggauss(16)
     half = 0.5 * np.diff(ends)[:, None]
     xi, weight = (ends[:-1, None] + half * (x + 1.0)).ravel(), (half * w).ravel()
     # The pressure exp(-r^2) has the transform exp(-xi^2/4)/2.
-    same = fscm.TabulatedModulus(FALLING.depths, FALLING.moduli, NU)
-    waves = weight * compliance(same, xi) * 0.5 * np.exp(-(xi**2) / 4.0)
+    waves = weight * transform(FALLING, NU, xi, sharp=FALLING.depths[1:]) * 0.5 * np.exp(-(xi**2) / 4.0)
     exact = special.j0(np.outer(radii, xi)) @ waves
     level = level_for("default")
     spec = replace(mesh_spec(_problem(FALLING), level, 0.25, 1.0, 1.0), density=level.density)

@@ -434,3 +434,11 @@ def test_random_bounds_contain_a_finer_solution():
         case = (number, mu, nu)
         assert abs(solution.value - finer.value) <= solution.u_num + finer.u_num, case
         assert solution.u_num < BOUND * solution.value, case
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(("number", "mu"), [(5e-3, 2.0), (1e-3, 3.0), (0.02, 0.5)])
+def test_both_forms_agree_within_their_bounds(number, mu):
+    forms = ("displacement", "mixed")
+    first, second = (solve_large_strain(sphere(number, mu, 0.3), "pull_off_force", form=form) for form in forms)
+    assert abs(first.value - second.value) <= first.u_num + second.u_num

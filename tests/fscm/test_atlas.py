@@ -188,3 +188,18 @@ def test_the_bound_of_a_sample_is_above_all_later_members(tail, most):
     assert tail_bound(np.full(60, -2.0)) == 6.0
     with pytest.raises(ValueError, match=r"9 is outside \[18, inf\)"):
         tail_bound(np.ones(9))
+
+
+def test_the_two_jumps_merge_at_the_critical_tabor_number():
+    critical = atlas(2, 0.4, 1.0, CRITICAL).value
+    mu = critical * (1.0 + np.array([1e-9, 1e-4, 1e-2]))
+    gaps, displacements = (
+        np.subtract(*(atlas(2, 0.4, mu, f"jump_{way}_{name}").value for way in ("in", "out")))
+        for name in ("gap", "displacement")
+    )
+    for difference in (gaps, displacements, atlas(2, 0.4, mu, "hysteresis_energy").value):
+        assert np.all(np.diff(difference) > 0.0)
+    assert abs(gaps[0]) < 1e-3
+    assert abs(displacements[0]) < 1e-9
+    value, bound = atlas(2, 0, [1.0, 0.3], "jump_in_gap", missing="nan")
+    assert np.isnan(value).tolist() == np.isnan(bound).tolist() == [False, True]

@@ -17,6 +17,7 @@ from fscm import (
     equilibria,
     profile,
     solve,
+    solve_together,
     trace,
 )
 from fscm._arc_length import Point, parameter_of, rates_of
@@ -218,3 +219,15 @@ def test_a_recorded_jump_passes_over_what_cannot_be_held(held: list[bool], retre
     assert cycle.jump_out is not None
     assert cycle.jump_in[0].tolist() == [0.0, 0.0]
     assert cycle.jump_out[0, 0] == retreat[-1]
+
+
+@pytest.mark.parametrize(
+    ("k", "mu", "zero_load_displacement"), [(0.0, 1e5, 194888.854486038), (0.4, 1e3, 2017.03606843554)]
+)
+@pytest.mark.heavy
+def test_an_edge_below_the_rounding_of_its_radius(k: float, mu: float, zero_load_displacement: float) -> None:
+    """JKR-n-k: it is right to 5e-7 here.  A mesh that does not resolve the edge was wrong by 2e-3."""
+    solutions = solve_together(Problem(2.0, k, mu), ("pull_off_force", "zero_load_displacement"))
+    for solution, jkr in zip(solutions.values(), (0.5 * (3.0 + k), zero_load_displacement), strict=True):
+        assert solution.value == pytest.approx(jkr, rel=5e-7)
+        assert solution.u_num < 1e-6 * jkr

@@ -13,6 +13,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.stats import binom
 
+import fem_reference
 import fscm
 from comparisons import fit
 from comparisons.cli.main import main
@@ -320,3 +321,17 @@ def test_stated_intervals_hold_as_often_as_they_say():
     for level, limit in ((0.6827, 1.0), (0.9545, 2.0)):
         share = np.mean(np.array(scores) < limit)
         assert abs(share - level) < 4.0 * binom.std(500, level) / 500
+
+
+@pytest.mark.heavy
+def test_a_record_of_the_finite_elements_gives_its_values():
+    problem = contact(5e8, 0.05)
+    path = fem_reference.trace(problem.build(fem_reference), largest_turn=1.0)
+    machine = Machine.of(Equilibria(path.displacement, path.load), math.inf)
+    far, touching = machine.far, machine.contact
+    loading = np.column_stack([far, touching[:, touching[0] > far[0, -1]]])
+    unloading = np.column_stack([far[:, far[0] < touching[0, 0]], touching])
+    cycle = loading, unloading, -path.load.min(), touching[0, 0] - 4e-9
+    result = fitted(problem, Instrument(noise=0.005).record(problem, np.random.default_rng(8), cycle=cycle))
+    assert max(map(abs, deviations(problem, result))) < 3.0
+    assert all(row.u < 2e-3 * row.value for row in result.parameters.values())

@@ -250,3 +250,22 @@ def test_a_missed_minimum_is_not_passed_in_silence() -> None:
     for seen in (replace(states, load_slope=np.abs(states.load_slope)), replace(states, load=deeper)):
         with pytest.raises(ComputationFailed, match="below the pull-off"):
             replace(events, states=seen).pull_off()
+
+
+def test_gibson_contact_is_algebraic() -> None:
+    """k = 1, Lambda < 1: c^n = a^n + n (1/Lambda - Lambda), and p = (delta - r^n / n) / 2 inside a."""
+    Lambda, n = 0.6, 3.0
+    state = CohesiveContact(GradedPunch(n, 1.0), Lambda).at(np.array([-1.0, 0.3]))
+    a, c = state.contact_radius, state.cohesive_radius
+    np.testing.assert_allclose(c**n, a**n + n * (1 / Lambda - Lambda), rtol=1e-13)
+    delta = a**n / n - 2 * Lambda
+    np.testing.assert_allclose(state.displacement, delta, rtol=1e-13)
+    load = delta * a**2 / 2 - a ** (n + 2) / (n * (n + 2)) - Lambda * (c**2 - a**2)
+    np.testing.assert_allclose(state.load, load, rtol=1e-13)
+    # The surface moves by 2 p(r).
+    for decay in (0.0, 1.0):
+        contact = CohesiveContact(GradedPunch(n, 1.0), Lambda, decay)
+        state = contact.at(np.array([0.3]))
+        r = state.contact_radius + np.array([0.0, 0.3, 0.9, 1.5]) * (state.cohesive_radius - state.contact_radius)
+        deformed = r**n / n - state.displacement + 2 * pressure(contact, state, r)
+        np.testing.assert_allclose(gap(contact, state, r), deformed, rtol=1e-12, atol=1e-13)

@@ -190,3 +190,14 @@ def test_the_fscm_refuses_a_ball_smaller_than_its_contact_before_it_traces_a_pat
 def test_refusals(problem: Problem, model: str, reason: str) -> None:
     with pytest.raises(NotApplicable, match=reason):
         result_of(problem, model)
+
+
+def test_it_is_the_limit_of_the_fscm() -> None:
+    """At a large Tabor number the law acts on the edge alone."""
+    errors = []
+    for mu in (10.0, 40.0):
+        problem = problem_of(1e-3, mu)
+        force, limit = (result_of(problem, model).value for model in ("fscm", "jkr-sphere"))
+        errors.append(abs(force / limit - 1.0))
+    assert errors[1] < 0.2 * errors[0]
+    assert errors[1] < 1e-3  # that of the paraboloid is 1e-2

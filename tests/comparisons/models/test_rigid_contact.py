@@ -180,3 +180,15 @@ def test_the_cohesive_stress_at_two_and_in_the_limit_of_a_flat_punch() -> None:
 def test_the_cohesive_stress_refuses_an_infinite_rigid_load(n: float) -> None:
     with pytest.raises(NotApplicable, match="2/3"):
         eta(n)
+
+
+@pytest.mark.parametrize("name", ["dmt", "dmt-strength"])
+def test_dmt_of_a_homogeneous_sphere_is_hertz(name: str) -> None:
+    """P = (4/3) E* a^3 / R - 2 pi R dgamma, delta = a^2 / R; E* = mu^(-3/2) for Q = z0 = dgamma = 1."""
+    mu, model = 0.6, create(name)
+    curve = model.curve(contact(2, 0, mu))
+    a = curve.columns["contact_radius"]
+    np.testing.assert_allclose(curve.load, (4 / 3) * mu**-1.5 * a**3 / np.pi - 2, rtol=1e-13, atol=1e-13)
+    np.testing.assert_allclose(curve.displacement, a**2, rtol=1e-14)
+    zero = (1.5 * np.pi * mu**1.5) ** (2 / 3)
+    assert model.evaluate(contact(2, 0, mu), "zero_load_displacement").value == pytest.approx(zero, rel=1e-13)

@@ -9,6 +9,7 @@ import pytest
 
 import fscm
 from comparisons.model import NotApplicable
+from comparisons.models import transition_formulas
 from comparisons.models.cohesive_models import MaugisDugdaleOriginal
 from comparisons.models.transition_formulas import (
     LAMBDA_OVER_MU,
@@ -93,3 +94,12 @@ def test_other_shapes_and_solids_are_refused(model) -> None:
 def test_a_fit_without_meaning_is_refused() -> None:
     with pytest.raises(NotApplicable, match=r"needs alpha >= 0\.01, below which its fit turns negative, but alpha = 0"):
         PietrementTroyon().evaluate(contact(2, 0, 1e-3), "zero_load_displacement")
+
+
+def test_pietrement_troyon_is_jkr_at_alpha_1() -> None:
+    """F = 1.5, a_0 = 6^(1/3), S = 2/3, beta = 1/2 to the digits of the coefficients."""
+    square, S, beta = transition_formulas._coefficients(1.0)
+    assert transition_formulas._pull_off(1.0) == pytest.approx(1.5, abs=1e-12)
+    assert math.sqrt(square) == pytest.approx(6 ** (1 / 3), abs=2.5e-3)
+    assert pytest.approx(2 / 3, abs=1e-3) == S
+    assert beta == pytest.approx(1 / 2, abs=3.5e-3)
