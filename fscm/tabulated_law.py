@@ -332,6 +332,6 @@ def _checked_shape(spline: scipy.interpolate.PPoly, gap: Array, p: Array) -> flo
     if len(extrema) != turns:
         raise ValueError(
             f"the smooth curve through the data turns {len(extrema)} times, the data {turns} times: "
-            "they are too coarse or too noisy, add points or state their smoothing"
+            "they are too coarse or too noisy; add points, or smooth them"
         )
     return float(extrema[np.argmin(spline(extrema))])

@@ -28,8 +28,8 @@ _SETTINGS = {
     "fem": ("quick", "default", "fine"),
     "fscm-stieltjes": ("250", "500", "1000", "2500"),
 }
-#: These are measured with `full` only, and the finite elements without it at one Tabor number only.
-_LONG, _MU_OF_ELEMENTS = "2500", 1.0
+#: Measured with `full` only.
+_LONG = "2500"
 
 
 def plan(full: bool) -> list[Numbers]:
@@ -39,7 +39,7 @@ def plan(full: bool) -> list[Numbers]:
         for mu in CERTIFIED
         for model, settings in _SETTINGS.items()
         for setting in settings
-        if full or not (setting == _LONG or (model == "fem" and mu != _MU_OF_ELEMENTS))
+        if full or setting != _LONG
     ]
 
 

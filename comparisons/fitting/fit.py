@@ -251,7 +251,10 @@ def _shifts(
 def _remarks(parameters: dict[str, FittedValue], result: Any) -> list[str]:
     remarks = [f"the curve does not determine {name}" for name, row in parameters.items() if not row.determined]
     if result.redchi >= DESCRIBED:
-        remarks.append("the model does not describe the curve with these values: begin nearer to the true ones")
+        remarks.append(
+            "the model does not describe the curve with these values: begin nearer to the true ones, and see that "
+            "tension is negative"
+        )
     names = list(parameters)
     for i, name in enumerate(names):
         correlations = result.params[plain(name)].correl or {}
@@ -275,4 +278,6 @@ def _deep(problem: Problem, position: Array) -> list[str]:
     share = math.sqrt(max(float(position.max()), 0.0) / problem.punch["R"])
     if share < _WIDE:
         return []
-    return [f"at the largest load the contact is about {share:.2g} R wide; the error of the assumptions is of pull-off"]
+    return [
+        f"at the largest load the contact is about {share:.2g} R wide: the error of the assumptions there is unknown"
+    ]

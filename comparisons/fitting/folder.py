@@ -79,6 +79,8 @@ def fit_files(
         For each file ``file``, ``fits`` as of `Fit.as_json`, and ``failure``, empty where there are fits.
     """
     tasks = {(path.name, task.digest): task for path in paths for task in [_Task(path, problem, free, options)]}
+    # One file is fitted sooner than a process has started.
+    jobs = min(jobs, len(tasks))
     if folder is None:
         items = list(each(partial(_fitted, folder=None), [*tasks.values()], jobs, lost=_item))
     else:

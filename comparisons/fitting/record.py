@@ -150,7 +150,9 @@ def _numbers(path: Path, name: str, column: pd.Series, unit: str | None, sensiti
     numbers = pd.to_numeric(column, errors="coerce").to_numpy(float)
     if not np.isfinite(numbers).all():
         row = int(np.flatnonzero(~np.isfinite(numbers))[0])
-        raise ValueError(f"{path}: {name} = {shown(str(column[row]))} in row {row + 1} is not a finite number")
+        raise ValueError(
+            f"{path}: {name} = {shown(str(column[row]))} in row {row + 1} below the names is not a finite number"
+        )
     if unit is None:
         raise ValueError(f"{path}: the column {name} has no unit; write it as {name} [n{_COLUMNS[name]}]")
     try:

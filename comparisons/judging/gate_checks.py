@@ -127,7 +127,7 @@ def _of_models(gate: Gate) -> Iterator[str]:
 
 def _of_limits(gate: Gate) -> Iterator[str]:
     if not gate.lower <= gate.upper or (math.isinf(gate.lower) and math.isinf(gate.upper)):
-        yield f"{_limits(gate)} admit nothing or everything; one must be finite"
+        yield f"{_limits(gate)} admit nothing or everything; one must be finite, and the lower one smaller"
     if gate.metric == "curve" and not (gate.lower == -math.inf and gate.upper > 0.0):
         yield f"{_limits(gate)} must be -inf and a positive number: a distance has no lower limit"
 

@@ -85,7 +85,10 @@ def column_heading(cell: str, columns: Iterable[str], location: str) -> tuple[st
     """
     match = _HEADING.fullmatch(cell)
     if not match:
-        raise ValueError(f"{location}: {shown(cell)} is not a name of a column; the names are {', '.join(columns)}")
+        remedy = "; separate columns by commas" if ";" in cell else ""
+        raise ValueError(
+            f"{location}: {shown(cell)} is not a name of a column; the names are {', '.join(columns)}{remedy}"
+        )
     known_name("column", match[1], columns, location)
     return match[1], match[2]
 

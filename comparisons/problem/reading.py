@@ -116,8 +116,9 @@ def _check_scales(problem: Problem, source: Source) -> None:
         posed = problem.build(fscm)
         z0 = posed.law.z0
         n, Q = unit_of_radii(posed.punch, z0)
-        # Q of a cone is a slope: it has no scale.
-        radius = Q ** (1.0 / (n - 1.0)) if n > 1.0 else z0
+        # Q of a cone is a slope: it has no scale.  Near a cone, Q^(1/(n-1)) is no length of the contact: r^2/z0 at the
+        # height z0 is, which is R for a sphere.
+        radius = z0 if n <= 1.0 else (Q * z0) ** (2.0 / n) / z0 if n < 2.0 else Q ** (1.0 / (n - 1.0))
         mu, reach = problem.posed.mu, problem.units["displacement"]
     except (ValueError, OverflowError) as error:
         raise ValueError(f"{source.path}: {error}; check the values and their units") from None

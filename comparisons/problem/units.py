@@ -26,8 +26,8 @@ _PREFIXES = tuple(zip(range(9, -24, -3), ("G", "M", "k", "", "m", "µ", "n", "p"
 #: of a contact is near them (z0 > 1e-11 m, E < 1e13 Pa), and cubes of their products stay in the range of a double.
 LARGEST_SIZE = 1e20
 
-#: Relative error of a few multiplications.
-_ROUNDING = 1e-14
+#: Relative error of a few multiplications, and decimals of an exponent, of which a unit has fewer.
+_ROUNDING, _DIGITS = 1e-14, 12
 
 
 class NotAValue(Exception):
@@ -62,7 +62,8 @@ def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
     if not _UNIT.fullmatch(plain):
         raise NotAValue(f"has the unit {shown(unit)}, which is no product of units")
     registry = _registry()
-    aim = registry.Unit(target) ** power
+    # Not 0.19999999999999996, which n - 1 may be.
+    aim = registry.Unit(target) ** round(power, _DIGITS)
     try:
         source_unit = registry.Unit(plain)
     except Exception:  # pint has several for what it does not know, and the tokens of Python others

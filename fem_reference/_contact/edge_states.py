@@ -183,7 +183,7 @@ class EdgeStates:
         steps = EXTREMUM_STEP * np.arange(-2, 3)
         for _ in range(MOVES):
             spec, self.start = self.own(radius)
-            values = [value(self._on_similar_mesh(spec, radius * math.exp(x))) for x in steps]
+            values = [value(self.similar(spec, radius * math.exp(x))) for x in steps]
             polynomial = np.polynomial.Polynomial.fit(steps, values, steps.size - 1)
             rate, bend = polynomial.deriv(), polynomial.deriv(2)
             x = -float(rate(0.0) / bend(0.0))
@@ -194,7 +194,7 @@ class EdgeStates:
             radius *= math.exp(float(np.clip(x, -LARGEST_MOVE, LARGEST_MOVE)))
         raise NotConverged(f"the contact edge of an extremum was not found near the radius {radius:.4g}")
 
-    def _on_similar_mesh(self, spec: MeshSpec, radius: float) -> Point:
+    def similar(self, spec: MeshSpec, radius: float) -> Point:
         """The state with the contact edge at a radius, on a mesh as fine at its edge as another one."""
         similar = replace(self.meshes.spec_at(spec.edge_width, radius), order=self.degree, density=self.density)
         return self._reached(self.meshes.contact(similar, radius), radius)

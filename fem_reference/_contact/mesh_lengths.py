@@ -21,6 +21,7 @@ __all__ = [
     "EDGE_PER_BALANCE",
     "NARROWEST",
     "NARROWEST_OF_ONE_MESH",
+    "OTHER_LENGTHS",
     "UNRESOLVED",
     "WIDEST",
     "balance_length",
@@ -30,6 +31,10 @@ __all__ = [
     "scales",
     "spot_length",
 ]
+
+#: Ratios of other lengths of the elements, whose differences tell the error by kinks of a law (measured: at most 0.44
+#: of the sum of both bounds in 44 values on seven solids, of which eight were up to 11 times outside by degrees alone).
+OTHER_LENGTHS = (0.6, 0.8, 1.25)
 
 #: Radial length resolved at r = 0, relative to the edge radius: a cone then has its pull-off force to 3e-10.
 APEX_WIDTH = 0.05

@@ -37,6 +37,7 @@ class MultimeshEvents(PathEvents):
         super().__init__((*approach, *touching))
         self._states = states
         self._slopes: dict[Point, float] = {}
+        self._doubts: dict[str, float] = {}
 
     @property
     def points(self) -> Sequence[Point]:
@@ -73,10 +74,14 @@ class MultimeshEvents(PathEvents):
         point = self.at(event)
         return point, self.slope(event, point)
 
-    def take(self, event: str, point: Point, slope: float) -> None:
+    def take(self, event: str, point: Point, slope: float, doubt: float) -> None:
         """Set the state at an event to that on its own mesh, where the path has several within their errors."""
         (vars(self) if event == kind_of(event) else self._further)[event] = point
-        self._slopes[point] = slope
+        self._slopes[point], self._doubts[event] = slope, doubt
+
+    def doubt(self, event: str) -> float:
+        """Return the relative error of the radius of the edge at an event."""
+        return self._doubts.get(event, 0.0)
 
 
 def _interpolated(a: Point, b: Point, x: float) -> Point:

@@ -56,10 +56,14 @@ class ResolvedEvents:
     placement : float
         Where the contact edge is put, in halves of the element beyond the node s = 1: with 1 the node s = 1 lies half
         an element beyond the edge.
+    beside : float
+        Where an event is taken, in its doubts beside where it is.
     """
 
-    def __init__(self, path: PathEvents | ResolvedEvents, contact: Contact, placement: float = 0.0) -> None:
-        self._path, self.contact, self._placement = path, contact, placement
+    def __init__(
+        self, path: PathEvents | ResolvedEvents, contact: Contact, placement: float = 0.0, beside: float = 0.0
+    ) -> None:
+        self._path, self.contact, self._placement, self._beside = path, contact, placement, beside
         self._points: dict[str, Point] = {}
 
     def at(self, event: str) -> Point:
@@ -78,8 +82,16 @@ class ResolvedEvents:
             original, slope = self._path.anchor(event)
             beginning = None if original.held else beginning_of(event)
             level = 0.0 if beginning is None else self.at(beginning).state.displacement
-            self._points[event] = self._solved(original, slope, excess_of(event, level))
+            point = self._solved(original, slope, excess_of(event, level))
+            if self._beside:
+                shift = self._beside * self.doubt(event)
+                point = replace(point_at(point, (1.0 + shift) * point.parameter), held=point.held)
+            self._points[event] = point
         return self._points[event]
+
+    def doubt(self, event: str) -> float:
+        """Return the relative error of the radius of the edge at an event."""
+        return self._path.doubt(event)
 
     def anchor(self, event: str) -> tuple[Point, float]:
         """Return the state at an event, and the slope there of the function that vanishes (see `excess_of`)."""

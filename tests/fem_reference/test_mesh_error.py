@@ -67,7 +67,7 @@ def _feature(name, full):
 
 ON_MESHES = {
     "fine": FINE, "lower": 1.004, "base": BASE, "feature": _feature, "placements": (FINE - 3e-5, FINE + 4e-5),
-    "tail": FINE - 6e-6, "rounding": FINE + 8e-7, "degrees": DEGREES, "accuracy": 1e-6,
+    "resized": (), "tail": FINE - 6e-6, "rounding": FINE + 8e-7, "degrees": DEGREES, "accuracy": 1e-6,
 }  # fmt: skip
 EXPECTED = {
     "mesh": 0.0018913, "first layer": 1e-3, "interior and exterior": 3e-4, "edge": 4e-5, "tail": 6e-6,
@@ -84,6 +84,11 @@ def test_each_part_is_the_whole_change_that_its_mesh_makes():
     assert tuple(parts) == PARTS
     assert parts["mesh"] == pytest.approx(degree_error(DEGREES, (BASE, 1.004, FINE)))
     assert dict(parts) | {"mesh": 0.0} == pytest.approx(EXPECTED | {"mesh": 0.0}, rel=ROUNDED)
+
+
+def test_elements_of_other_lengths_tell_what_degrees_do_not():
+    parts = _parts(resized=(FINE + 1e-3, FINE - 2e-3))
+    assert parts["mesh"] == pytest.approx(_parts()["mesh"] + 3e-3, rel=ROUNDED)
 
 
 def test_an_event_that_the_lowest_degree_does_not_have_takes_the_features_of_the_highest():

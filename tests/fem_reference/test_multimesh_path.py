@@ -108,7 +108,7 @@ def test_an_extremum_follows_from_the_values_of_its_neighbours(monkeypatch):
     """Rates on one mesh put that of a narrow edge beside it: none is used.  The polynomial has its minimum at 2."""
     states = EdgeStates(None, _States(0.0).at(math.exp(1.7)), 4, 1.4)
     monkeypatch.setattr(EdgeStates, "own", lambda states, radius: (None, _States(0.0).at(radius)))
-    monkeypatch.setattr(EdgeStates, "_on_similar_mesh", lambda states, spec, radius: _States(0.0).at(radius))
+    monkeypatch.setattr(EdgeStates, "similar", lambda states, spec, radius: _States(0.0).at(radius))
     radius, bend = states.extremum(lambda point: point.state.load)
     assert math.log(radius) == pytest.approx(2.0, abs=1e-9)
     assert bend == pytest.approx(0.5 / radius**2, rel=1e-6)

@@ -24,6 +24,10 @@ PUNCHES = {
     "rounded cone": lambda package: package.RoundedCone(0.5, 1.0),
     "sum of powers": lambda package: package.PowerSum((0.5, 0.1), (2.0, 4.0)),
 }
+#: Rows so far apart that the kinks between them are seen: those of the rate of the load decide the displacement.
+WIDE_GAPS = np.linspace(-0.3, 4.0, 20)
+MORSE = 3.0 * (np.exp(-3.0 * WIDE_GAPS) - np.exp(-1.5 * WIDE_GAPS))
+
 LAWS = {
     "Mie": lambda package: package.Mie(1.0, 1.0, 12.0, 6.0),
     "table": lambda package: package.TabulatedLaw(GAPS, GAPS**-9 - GAPS**-3, z0=1.0, tail_exponent=3.0),
@@ -53,3 +57,30 @@ def test_forces_of_other_punches_and_laws(name):
     """The kinks of a measured punch are nodes of the mesh."""
     integral, elements = agreeing(posed(name), accuracy="quick")["pull_off_force"]
     assert max(integral.u_num, elements.u_num) < LARGEST_BOUND * integral.value
+
+
+@pytest.mark.parametrize(
+    ("solid", "punch"),
+    [
+        (lambda p: p.OffsetPowerLaw(1.0, 1.0, 0.41, 1.0, 0.1), lambda p: p.PowerPunch(4.0, 3.0)),
+        *heavy((lambda p: p.Exponential(1.0, 0.6, 2.0, 0.45), lambda p: p.PowerPunch(1.0, 5.0))),
+    ],
+)
+def test_pull_off_under_a_law_with_kinks(solid, punch):
+    """By the degrees of the elements alone, the displacements were 20 and 89 times their bounds from each other."""
+
+    def problem(package):
+        return package.Problem(solid(package), punch(package), package.TabulatedLaw(WIDE_GAPS, MORSE, z0=1.0))
+
+    agreeing(problem, ("pull_off_force", "pull_off_displacement"), "quick")
+
+
+@pytest.mark.heavy
+def test_pull_off_of_a_cone_on_stiff_layers():
+    """The rates of the load on one mesh vanished where the load rises: 186 bounds from the displacement at pull-off."""
+
+    def problem(package):
+        layers = package.Layers((19.0, 92.85, 143.1, 1.208), (0.499, 0.1, 0.45, 0.3), (17.785, 26.01, 5.757))
+        return package.Problem(layers, package.PowerPunch(1.0, 3.603), package.LennardJones(30.0, 0.8))
+
+    agreeing(problem, ("pull_off_force", "pull_off_displacement"), "quick")
