@@ -228,6 +228,9 @@ class Problem:
             names = (*names, "graded")
         return f"Problem({', '.join(f'{name}={getattr(self, name)!r}' for name in names)})"
 
+    def __str__(self) -> str:
+        return f"n = {self.n:g}, k = {self.k:g}, mu = {self.mu:.6g}"
+
     def __reduce__(self) -> tuple[Any, ...]:
         """Rebuilt from its parts: units cannot be pickled."""
         if self.solid is not None:
