@@ -56,7 +56,7 @@ FARTHEST = 1e-3
 
 #: Change of the logarithm of the radius to a state beside it: the rise of its value, less that by the slope of the
 #: path, has the extremum to half of it times the error of that slope (measured: up to 8 %).
-BESIDE_EXTREMUM = 0.0015
+BESIDE_EXTREMUM = 2e-4
 
 #: Ratio of the width of an edge to the length of balance that it does not exceed where the edge is sharp (measured: 2.2
 #: at the pull-off on a soft layer with a Tabor number of 160).
