@@ -141,6 +141,16 @@ def test_the_end_of_a_further_jump_is_kept_on_any_mesh(soft_path):
     assert np.array_equal(shifted["landing_2"].y, equation.y)
 
 
+def test_an_event_is_taken_beside_where_it_is(soft_path):
+    """The doubt of its radius, which is a part of the bound."""
+    doubtful = SimpleNamespace(anchor=soft_path.anchor, doubt=lambda event: 1e-3)
+    there, beside = (ResolvedEvents(doubtful, _soft_contact(), beside=share).at("pull_off") for share in (0.0, -1.0))
+    assert beside.parameter == pytest.approx((1.0 - 1e-3) * there.parameter, rel=1e-12)
+    # An equilibrium of its own, with a larger load than the least one.
+    assert beside.state.load > there.state.load
+    assert beside.state.displacement < there.state.displacement
+
+
 def test_a_solution_holds_the_value_of_the_whole_system(solved):
     problem, right = solved
     assert right.value != right.values[-1]

@@ -99,6 +99,7 @@ def test_factors_of_a_state_nearby_give_the_same_state_and_tangent(problem: Prob
     assert rates.displacement == pytest.approx(exact.displacement, rel=1e-10, abs=1e-11)
 
 
+@pytest.mark.heavy
 def test_at_a_large_tabor_number_newton_ends_at_rounding() -> None:
     """Heights are 5e5 times the range of the forces, so that the last step is above the tolerance: the JKR limit."""
     solution = solve(Problem(2, 0, 5e5), "pull_off_force")

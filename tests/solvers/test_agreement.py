@@ -59,11 +59,12 @@ def test_forces_of_other_punches_and_laws(name):
     assert max(integral.u_num, elements.u_num) < LARGEST_BOUND * integral.value
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("solid", "punch"),
     [
         (lambda p: p.OffsetPowerLaw(1.0, 1.0, 0.41, 1.0, 0.1), lambda p: p.PowerPunch(4.0, 3.0)),
-        *heavy((lambda p: p.Exponential(1.0, 0.6, 2.0, 0.45), lambda p: p.PowerPunch(1.0, 5.0))),
+        (lambda p: p.Exponential(1.0, 0.6, 2.0, 0.45), lambda p: p.PowerPunch(1.0, 5.0)),
     ],
 )
 def test_pull_off_under_a_law_with_kinks(solid, punch):
