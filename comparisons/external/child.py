@@ -13,7 +13,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from comparisons.external import cleaner
 from comparisons.external.start import MEMORY_LIMIT, TIME_LIMIT, limit_of_environment
@@ -74,10 +74,7 @@ class Child:
         self._is_program = source["kind"] == "program"
         self._resources = contextlib.ExitStack()
         with self._ended_on_failure():
-            self._process = self._launched({"source": source, "megabytes": megabytes})
-            assert self._process.stdin is not None
-            assert self._process.stdout is not None
-            self._requests, self._replies = self._process.stdin, self._process.stdout
+            self._launch({"source": source, "megabytes": megabytes})
             self._line(_START)
 
     def exchange(self, request: dict[str, Any]) -> bytes:
@@ -130,27 +127,31 @@ class Child:
             self.close()
             raise
 
-    def _launched(self, order: dict[str, Any]) -> subprocess.Popen[bytes]:
+    def _launch(self, order: dict[str, Any]) -> None:
         names = [name for name in os.environ if name in _ENVIRONMENT or name.startswith(_KERNELS)]
         environment = {name: os.environ[name] for name in names}
         self._errors = self._resources.enter_context(tempfile.TemporaryFile())  # noqa: SIM115  # the stack closes it
-        cleaning = self._popen([sys.executable, "-I", "-S", cleaner.__file__, tempfile.gettempdir()], "/", environment)
-        assert cleaning.stdin is not None
-        assert cleaning.stdout is not None
-        if not (scratch := cleaning.stdout.readline().decode().rstrip("\n")):
+        command = [sys.executable, "-I", "-S", cleaner.__file__, tempfile.gettempdir()]
+        _, orders, answers = self._popen(command, "/", environment)
+        if not (scratch := answers.readline().decode().rstrip("\n")):
             raise ComputationFailed(f"there is no scratch folder for it{self._last_words()}")
         path = [str(Path(__file__).resolve().parents[2]), *(entry or str(Path.cwd()) for entry in sys.path)]
         command = [sys.executable, "-c", _PROGRAM, json.dumps(order | {"path": path, "scratch": scratch})]
-        process = self._popen(command, scratch, environment | _ONE_THREAD | {"HOME": scratch, "TMPDIR": scratch})
-        self._resources.callback(_kill, process)
-        cleaning.stdin.write(b"%d\n" % process.pid)
-        return process
+        environment |= _ONE_THREAD | {"HOME": scratch, "TMPDIR": scratch}
+        self._process, self._requests, self._replies = self._popen(command, scratch, environment)
+        self._resources.callback(_kill, self._process)
+        orders.write(b"%d\n" % self._process.pid)
 
-    def _popen(self, command: list[str], folder: str, environment: dict[str, str]) -> subprocess.Popen[bytes]:
+    def _popen(
+        self, command: list[str], folder: str, environment: dict[str, str]
+    ) -> tuple[subprocess.Popen[bytes], IO[bytes], IO[bytes]]:
+        """Return a new process, its standard input and its standard output; its end closes them and waits."""
         pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": self._errors}
         process = subprocess.Popen(command, bufsize=0, **pipes, cwd=folder, env=environment, start_new_session=True)
-        # Its end closes the pipes and waits.
-        return self._resources.enter_context(process)
+        assert process.stdin
+        assert process.stdout
+        self._resources.enter_context(process)
+        return process, process.stdin, process.stdout
 
     def _is_readable(self, seconds: float) -> bool:
         return bool(select.select([self._replies], [], [], max(seconds, 0.0))[0])
@@ -161,7 +162,8 @@ class Child:
         end = time.monotonic() + seconds
         while b"\n" not in chunk:
             if not self._is_readable(end - time.monotonic()):
-                raise self._overdue(seconds)
+                flush = "; a program must flush its standard output after every line" if self._is_program else ""
+                raise Overdue(f"it wrote nothing within {seconds:g} s and was ended ({TIME_LIMIT}){flush}")
             chunk = os.read(self._replies.fileno(), 1 << 16)
             line += chunk
             if not chunk:
@@ -171,12 +173,6 @@ class Child:
         if b"\n" in line.strip():
             raise ComputationFailed("its process wrote more than one line for one request")
         return bytes(line)
-
-    def _overdue(self, seconds: float) -> ComputationFailed:
-        if seconds != self._seconds:
-            return ComputationFailed(f"its process did not start within {seconds:g} s")
-        flush = "; a program must flush its standard output after every line" if self._is_program else ""
-        return Overdue(f"it gave no result within {seconds:g} s ({TIME_LIMIT}) and was ended{flush}")
 
     def _end_of_process(self) -> str:
         # The pipe may close a moment before the process is gone.

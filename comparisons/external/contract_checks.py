@@ -7,14 +7,14 @@ limits and size are wide: they find a missing pi, a sign, a swapped pair of argu
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import islice
 
 from comparisons.external.data_model import DataModel
 from comparisons.external.model_source import AnyExternalModel
 from comparisons.model import ComputationFailed, NotApplicable, Result
-from comparisons.models.bradley import rigid_pull_off
+from comparisons.models.bradley import Bradley
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
@@ -41,10 +41,10 @@ _CASES = (
 )
 _ALL_QUANTITIES = 2
 
-#: Name of the limit in `limits` of a model -> its name in a sentence, Tabor numbers towards it.
+#: Name of the limit in `limits` of a model -> its name in a sentence, its model, Tabor numbers towards it.
 _LIMITS = {
-    "rigid": ("Bradley, mu -> 0", (0.1, 0.01, 0.001)),
-    "jkr": ("JKR, mu -> infinity", (2.0, 5.0, 10.0, 30.0, 100.0)),
+    "rigid": ("Bradley, mu -> 0", Bradley(), (0.1, 0.01, 0.001)),
+    "jkr": ("JKR, mu -> infinity", JKR(), (2.0, 5.0, 10.0, 30.0, 100.0)),
 }
 _LIMIT_CASES = ((2.0, 0.0), (2.0, 0.4), (1.0, 0.2), (5.0, 0.6))
 #: The approach to a limit is a power of mu that differs between models; at the ends of the lists above those
@@ -87,19 +87,17 @@ def examine(model: AnyExternalModel) -> list[Finding]:
     return [*findings, Finding("is of the right size", *_size(results))]
 
 
-def _keys(model: AnyExternalModel) -> Iterator[_Key]:
+def _keys(model: AnyExternalModel) -> list[_Key]:
     if isinstance(model, DataModel):
-        yield from islice(model.rows, _MOST_ROWS)
-        return
-    for number, case in enumerate([*_CASES, *_CALIBRATION]):
-        for quantity in QUANTITIES if number < _ALL_QUANTITIES else (_FORCE,):
-            yield quantity, Problem.dimensionless(*case)
-    for limit in model.limits:
-        yield from (_key(n, k, mu) for n, k in _LIMIT_CASES for mu in (_LIMITS[limit][1] if limit in _LIMITS else ()))
+        return list(islice(model.rows, _MOST_ROWS))
+    keys = [_key(*case, quantity) for case in _CASES[:_ALL_QUANTITIES] for quantity in QUANTITIES]
+    keys += [_key(*case) for case in (*_CASES, *_CALIBRATION)]
+    towards = [_LIMITS[limit][-1] for limit in model.limits if limit in _LIMITS]
+    return keys + [_key(*case, mu) for numbers in towards for case in _LIMIT_CASES for mu in numbers]
 
 
-def _key(n: float, k: float, mu: float) -> _Key:
-    return _FORCE, Problem.dimensionless(n, k, mu)
+def _key(n: float, k: float, mu: float, quantity: str = _FORCE) -> _Key:
+    return quantity, Problem.dimensionless(n, k, mu)
 
 
 def _label(key: _Key) -> str:
@@ -123,8 +121,8 @@ def _texts(model: AnyExternalModel) -> tuple[str, str]:
 
 
 def _finite(outcomes: _Outcomes, values: int) -> tuple[str, str]:
-    failures = {key: error for key, error in outcomes.items() if isinstance(error, ComputationFailed)}
-    for key, reason in failures.items():
+    if failures := [(key, error) for key, error in outcomes.items() if isinstance(error, ComputationFailed)]:
+        key, reason = failures[0]
         return FAILED, f"{len(failures)} of {len(outcomes)} evaluations failed, the first is {_label(key)}: {reason}"
     if not values:
         return FAILED, f"none of {len(outcomes)} evaluations gave a value"
@@ -162,16 +160,15 @@ def _in_limit(results: dict[_Key, Result], name: str) -> tuple[str, str]:
     """Compare the pull-off force with a limit that the author states: it must come nearer, and near at last."""
     if name not in _LIMITS:
         return WRONG, f"no such limit is known; known are {', '.join(_LIMITS)}"
-    limit, tabor_numbers = _LIMITS[name]
+    limit, exact, tabor_numbers = _LIMITS[name]
     parts = []
     for n, k in _LIMIT_CASES:
-        exact = rigid_pull_off(n) if name == "rigid" else JKR().evaluate(Problem.dimensionless(n, k, 1.0), _FORCE)
-        keys = {mu: _key(n, k, mu) for mu in tabor_numbers}
-        errors = {mu: results[key].value / exact.value - 1.0 for mu, key in keys.items() if key in results}
+        force = exact.evaluate(Problem.dimensionless(n, k, 1.0), _FORCE).value
+        keys = [(mu, _key(n, k, mu)) for mu in tabor_numbers]
+        errors = [(mu, results[key].value / force - 1.0) for mu, key in keys if key in results]
         if not errors:
             continue
-        points = list(errors.items())
-        (farthest_mu, farthest), (nearest_mu, nearest) = points[0], points[-1]
+        (farthest_mu, farthest), (nearest_mu, nearest) = errors[0], errors[-1]
         if abs(nearest) > _LIMIT_TOLERANCE or abs(nearest) > abs(farthest) + _STANDSTILL:
             return WRONG, (
                 f"the pull-off force at n = {n:g}, k = {k:g} is {100.0 * farthest:.3g} % off {limit} at "
@@ -184,13 +181,12 @@ def _in_limit(results: dict[_Key, Result], name: str) -> tuple[str, str]:
 
 def _size(results: dict[_Key, Result]) -> tuple[str, str]:
     """Compare the pull-off force with three accurate values, to a factor of 1.4."""
-    keys = {_key(*case): force for case, force in _CALIBRATION.items()}
-    ratios = {key: results[key].value / force for key, force in keys.items() if key in results}
+    forces = {_key(*case): force for case, force in _CALIBRATION.items()}
+    ratios = [(results[key].value / force, key) for key, force in forces.items() if key in results]
     if not ratios:
         return SKIPPED, "it has none of the three calibration values"
-    sizes = {key: abs(math.log(ratio)) if ratio > 0 else math.inf for key, ratio in ratios.items()}
-    worst = max(sizes, key=sizes.__getitem__)
-    text = f"{_label(worst)} is {ratios[worst]:.3g} times the accurate one"
-    if sizes[worst] <= math.log(_CALIBRATION_FACTOR):
+    worst, key = max(ratios, key=lambda pair: max(pair[0], 1.0 / pair[0]) if pair[0] > 0.0 else math.inf)
+    text = f"{_label(key)} is {worst:.3g} times the accurate one"
+    if 1.0 / _CALIBRATION_FACTOR <= worst <= _CALIBRATION_FACTOR:
         return OK, f"the model has {len(ratios)} of 3 calibration values; at worst {text}"
     return WRONG, f"{text}; it is the positive number -min P, in the unit {QUANTITIES[_FORCE].unit}"

@@ -11,7 +11,7 @@ from __future__ import annotations
 import csv
 import hashlib
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -69,15 +69,12 @@ class DataModel:
     def __init__(self, folder: Path) -> None:
         try:
             manifest = _manifest(folder)
-            content = _content(folder, manifest)
-            covered = _covered_cases(folder, manifest, len(content.splitlines()))
-            case = _PROBLEM if "problem" in manifest["covers"][0] else _NUMBERS
-            rows = _rows(folder / manifest["predictions"], covered, case)
+            lines = _lines(folder, manifest)
+            covered = _covered_cases(folder, manifest, len(lines))
+            rows = _rows(lines, manifest, covered)
             self.rows = {(key[0], covered[key]): prediction for key, prediction in rows.items()}
-        except ValueError as error:
+        except (ValueError, OSError) as error:
             raise ValueError(f"{one_line(str(folder), 200)}: {one_line(str(error))}") from None
-        except OSError as error:
-            raise ValueError(f"{one_line(str(folder), 200)}: it cannot be read ({error.strerror})") from None
         self.name, self.domain = manifest["name"], manifest["domain"]
         self.limits = tuple(one_line(limit, 60) for limit in manifest.get("limits", []))
         self.version = f"{manifest['version']} ({manifest['sha256'].lower()[:12]})"
@@ -100,10 +97,7 @@ class DataModel:
 
 def _manifest(folder: Path) -> dict[str, Any]:
     manifest = parse(read_text(folder / MANIFEST, "the description of the predictions"), MANIFEST)
-    try:
-        validated(manifest, "model", MANIFEST)
-    except RecursionError:
-        raise ValueError(f"{MANIFEST} cannot be read: its brackets are nested too deeply") from None
+    validated(manifest, "model", MANIFEST)
     for name, value in manifest.items():
         if isinstance(value, str) and value != one_line(value):
             raise ValueError(f"{MANIFEST}: {name} must be one line of 1 to 500 printable characters")
@@ -113,12 +107,11 @@ def _manifest(folder: Path) -> dict[str, Any]:
         known_name("quantity", quantity, QUANTITIES, f"{MANIFEST}: [[covers]]")
     if manifest["units"].keys() != quantities:
         raise ValueError(f"{MANIFEST}: [units] must have exactly {', '.join(sorted(quantities))}")
-    forms = {frozenset(table) - {"quantities"} for table in manifest["covers"]}
-    of_files = all(form - {"vary"} == {*_PROBLEM} for form in forms)
-    if not of_files and forms != {frozenset(_NUMBERS)}:
+    forms = {frozenset(table) - {"quantities", "vary"} for table in manifest["covers"]}
+    if forms not in ({frozenset(_NUMBERS)}, {frozenset(_PROBLEM)}):
         raise ValueError(f"{MANIFEST}: each [[covers]] has n, k and mu, or each has problem and perhaps vary")
     for name, unit in manifest["units"].items():
-        compared = QUANTITIES[name].si_unit if of_files else QUANTITIES[name].unit
+        compared = QUANTITIES[name].si_unit if forms == {frozenset(_PROBLEM)} else QUANTITIES[name].unit
         if unit != compared:
             raise ValueError(
                 f'{MANIFEST}: {name} has the unit "{unit}" but is compared in "{compared}": state the values in that'
@@ -126,57 +119,52 @@ def _manifest(folder: Path) -> dict[str, Any]:
     return manifest
 
 
-def _content(folder: Path, manifest: dict[str, Any]) -> bytes:
+def _lines(folder: Path, manifest: dict[str, Any]) -> list[str]:
+    """Return the lines of the CSV, whose checksum the manifest states."""
     name = manifest["predictions"]
-    path = path_inside(folder, name)
-    if not path.is_file():
-        raise ValueError(f"there is no file {name}")
-    content = read_bytes(path, LARGEST_TABLE)
+    content = read_bytes(path_inside(folder, name), LARGEST_TABLE)
     digest = hashlib.sha256(content).hexdigest()
     if digest != manifest["sha256"].lower():
         raise ValueError(
             f"{name} has the SHA-256 {digest}, but {MANIFEST} states {manifest['sha256']}: one of the two files was "
             "changed"
         )
-    return content
+    return content.decode("utf-8-sig").splitlines()
 
 
 def _covered_cases(folder: Path, manifest: dict[str, Any], lines: int) -> dict[Key, Problem]:
     """Return the cases that the [[covers]] tables promise, for a CSV with so many lines."""
-    tables = manifest["covers"]
     # Nothing is built before it is known how many cases there are: a short file can promise very many.
-    lists = [[list(dict.fromkeys(values)) for values in _lists(table)] for table in tables]
-    sizes = [math.prod(map(len, columns)) for columns in lists]
+    tables = manifest["covers"]
+    varied = [[table.get(name, [None]) for name in _NUMBERS] + [*table.get("vary", {}).values()] for table in tables]
+    sizes = [math.prod(len({*values}) for values in columns) for columns in varied]
     if sum(sizes) > _MOST_CASES or max(sizes) > lines + _NAMED_MISSING:
         raise ValueError(
             f"{MANIFEST}: the [[covers]] tables promise {sum(sizes)} cases, but the predictions have {lines} "
             f"lines, and at most {_MOST_CASES} cases are read: each case needs a row"
         )
     covered: dict[Key, Problem] = {}
-    for table, (quantities, *columns) in zip(tables, lists, strict=True):
+    for table, columns in zip(tables, varied, strict=True):
         if "problem" in table:
             variations = [Variation.of_values(key, values) for key, values in table.get("vary", {}).items()]
             problems = problems_of(path_inside(folder, table["problem"]), variations, table["problem"])
             cases = {(problem.name,): problem for problem in problems}
         else:
-            cases = {numbers: Problem.dimensionless(*numbers) for numbers in product(*columns)}
-        covered |= {(quantity, *cells): case for quantity in quantities for cells, case in cases.items()}
+            numbers = product(*map(dict.fromkeys, columns))
+            cases = {case: Problem.dimensionless(*case) for case in numbers}
+        covered |= {(quantity, *cells): case for quantity in table["quantities"] for cells, case in cases.items()}
     if not covered:
         raise ValueError(f"{MANIFEST}: [[covers]] has no case")
     return covered
 
 
-def _lists(table: Mapping[str, Any]) -> list[list[Any]]:
-    return [table["quantities"], *(table[name] for name in _NUMBERS if name in table), *table.get("vary", {}).values()]
-
-
-def _rows(path: Path, covered: Collection[Key], case: Sequence[str]) -> dict[Key, tuple[float, float]]:
-    """Return the predictions of a CSV, one for each covered case, whose columns are given."""
+def _rows(lines: Sequence[str], manifest: dict[str, Any], covered: Collection[Key]) -> dict[Key, tuple[float, float]]:
+    """Return the predictions of a CSV, one for each covered case."""
     rows: dict[Key, tuple[float, float]] = {}
+    name, case = manifest["predictions"], _PROBLEM if "problem" in manifest["covers"][0] else _NUMBERS
     columns = ["quantity", *case, *_VALUES]
-    text = read_text(path, "the predictions", LARGEST_TABLE)
     # strict: a quotation mark that is not closed is an error, not the rest of the file.
-    reader = csv.reader(text.splitlines(keepends=True), strict=True)
+    reader = csv.reader(lines, strict=True)
     try:
         if next(reader, []) != columns:
             raise ValueError(f"the first line must be {','.join(columns)}")
@@ -187,10 +175,10 @@ def _rows(path: Path, covered: Collection[Key], case: Sequence[str]) -> dict[Key
                 raise ValueError(f"{_label(key)} {why}")
             rows[key] = prediction
     except (ValueError, csv.Error) as error:
-        raise ValueError(f"{path.name}, line {reader.line_num}: {error}") from None
+        raise ValueError(f"{name}, line {reader.line_num}: {error}") from None
     if missing := sorted(set(covered) - rows.keys()):
         raise ValueError(
-            f"{path.name}: {len(missing)} of {len(covered)} rows that [[covers]] promises are missing, the first is "
+            f"{name}: {len(missing)} of {len(covered)} rows that [[covers]] promises are missing, the first is "
             f"{_label(missing[0])}"
         )
     return rows

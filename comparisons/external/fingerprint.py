@@ -49,41 +49,33 @@ def fingerprint(
     ValueError
         If what is declared does not exist or is too large.
     """
-    files: dict[str, Path] = {}
-    words: list[str] = []
+    files = dict(_declared(declared, next(iter(roots), Path())))
+    words = [f"{len(files)} declared file{'s' * (len(files) > 1)}"] if files else []
     for number, (root, file) in enumerate(roots.items()):
         beside, text = _of_root(root, loaded)
         files |= {f"{number}/{path.relative_to(root).as_posix()}": path for path in {file, *beside} if path.is_file()}
-        words.append(text)
-    if named := dict(_declared(declared, next(iter(roots), Path()))):
-        words.append(f"{len(named)} declared file{'s' * (len(named) > 1)}")
-    digest, size = _digest(files | named)
-    text = " and ".join(words) or "nothing: the model has no file"
-    return digest, one_line(f"{text}; {len(files | named)} files, {size} bytes")
-
-
-def _digest(files: Mapping[str, Path]) -> tuple[str, int]:
+        words.insert(number, text)
     digest, size = hashlib.sha256(), 0
     for label, path in sorted(files.items()):
         content = b"unreadable"
-        with contextlib.suppress(OSError), path.open("rb") as file:
-            content = hashlib.file_digest(file, "sha256").digest()
-            size += file.tell()
+        with contextlib.suppress(OSError), path.open("rb") as opened:
+            content = hashlib.file_digest(opened, "sha256").digest()
+            size += opened.tell()
         digest.update(label.encode(errors="surrogateescape") + b"\0" + content)
-    return digest.hexdigest(), size
+    text = " and ".join(words) or "nothing: the model has no file"
+    return digest.hexdigest(), one_line(f"{text}; {len(files)} files, {size} bytes")
 
 
 def _of_root(root: Path, loaded: Collection[Path]) -> tuple[Collection[Path], str]:
     """Return the files of a folder that count, and which they are in words."""
     used = [path for path in loaded if path.is_relative_to(root) and path.is_file() and _counts(path, root)]
-    name, why = one_line(root.name, 60), "other uses"
+    name = one_line(root.name, 60)
     if root.name in SITES or any(root.glob("*.dist-info")):
         return used, "the installed files of the model"
-    if not _is_shared(root):
-        if (files := _every_file(root)) is not None:
-            return files, f"all files in {name}"
-        why = f"over {MOST_FILES} files or {MOST_BYTES // 1_000_000} MB"
-    return used, f"the imported modules in {name} (not the folder, which has {why})"
+    if not _is_shared(root) and (files := _every_file(root)) is not None:
+        return files, f"all files in {name}"
+    large = f"over {MOST_FILES} files or {MOST_BYTES // 1_000_000} MB"
+    return used, f"the imported modules in {name} (not the folder, which has {large}, or other uses)"
 
 
 def _is_shared(root: Path) -> bool:
@@ -117,10 +109,8 @@ def _every_file(root: Path) -> list[Path] | None:
 
 def _takes_output(status: os.stat_result) -> bool:
     """Whether a file takes our output and so grows: ``fscm-bench run > output.txt``."""
-    for descriptor in (1, 2):
-        with contextlib.suppress(OSError):
-            if os.path.samestat(os.fstat(descriptor), status):
-                return True
+    with contextlib.suppress(OSError):
+        return any(os.path.samestat(os.fstat(descriptor), status) for descriptor in (1, 2))
     return False
 
 

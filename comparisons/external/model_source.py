@@ -27,9 +27,6 @@ AnyExternalModel = ExternalModel | DataModel
 #: Group of the entry points by which an installed package offers models.
 GROUP = "fscm_bench.models"
 
-#: Endings of tables, which are no programs even where a file system marks every file as executable.
-_TABLES = {".csv", ".tsv", ".dat", ".txt", ".parquet", ".xlsx", ".ods"}
-
 _SPECS = f"an installed model, FILE.py:CLASS, a program (./PROGRAM) or a folder with a {MANIFEST}"
 
 _loaded: dict[str, AnyExternalModel] = {}
@@ -75,16 +72,14 @@ def source_of(spec: str) -> dict[str, Any]:
     path = os.path.realpath(os.path.expanduser(spec))
     folder = os.path.dirname(path) if os.path.basename(path) == MANIFEST else path
     data = os.path.isfile(os.path.join(folder, MANIFEST))
-    if os.path.isfile(path) and not data:
-        # A value has a quantity, a case and a unit, which the file beside a table states.
-        if os.path.splitext(path)[1].lower() in _TABLES:
+    # Without a separator it is a name, as for a shell.
+    if os.path.isfile(path) and not data and os.sep in spec:
+        if not os.access(path, os.X_OK):
             raise ValueError(
-                f"{quoted} is a table and no model: put it in a folder with a {MANIFEST}, which states its name, its "
-                "units and its cases, and give the name of the folder (docs/judge_your_model.md, Only data)"
+                f"{quoted} is a file that is no program: make it executable (chmod +x), name the class of a file in "
+                f"Python (FILE.py:CLASS), or put a table into a folder with a {MANIFEST}"
             )
-        # Without a separator it is a name, as for a shell.
-        if os.sep in spec:
-            return _program(path, quoted)
+        return {"kind": "program", "file": path}
     count = 0 if os.sep in spec else len({entry for entry in entry_points(group=GROUP) if entry.name == spec})
     if data and count:
         raise ValueError(
@@ -99,13 +94,6 @@ def source_of(spec: str) -> dict[str, Any]:
     if count == 0:
         raise ValueError(f"no installed package has a model {quoted!r} (entry points of group {GROUP}); name {_SPECS}")
     return {"kind": "package", "group": GROUP, "name": spec}
-
-
-def _program(path: str, quoted: str) -> dict[str, Any]:
-    if not os.access(path, os.X_OK):
-        hint = " or, for a model in Python, name its class (FILE.py:CLASS)" if path.endswith(".py") else ""
-        raise ValueError(f"{quoted} is a file that is no program: make it executable (chmod +x){hint}")
-    return {"kind": "program", "file": path}
 
 
 def load_model(spec: str) -> AnyExternalModel:

@@ -128,12 +128,10 @@ def contradiction(before: tuple[str, str], now: tuple[str, str]) -> str:
     Examples
     --------
     >>> contradiction(("mine", "1 (ab)"), ("mine", "1 (cd)"))
-    "the model's files changed after it was loaded: it is mine 1 (cd) in a later process, and was mine 1 (ab)"
+    "the model's name, version or files changed after it was loaded: it is mine 1 (cd) in a later process, and ..."
     """
-    same = before[0] == now[0] and before[1].rpartition(" (")[0] == now[1].rpartition(" (")[0]
-    changed = "files" if same else "name or version"
     later = f"it is {' '.join(now)} in a later process, and was {' '.join(before)}"
-    return one_line(f"the model's {changed} changed after it was loaded: {later}")
+    return one_line(f"the model's name, version or files changed after it was loaded: {later}")
 
 
 def _started(source: dict[str, Any]) -> tuple[Child, dict[str, Any]]:

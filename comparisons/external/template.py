@@ -9,12 +9,12 @@ from collections.abc import Collection
 from importlib.resources import files
 from pathlib import Path
 
-from comparisons.console.exit_status import full_disk
 from comparisons.external.text_rules import model_name
 
 #: What the model or its tools import, or take for their own file, and would find beside the model instead.
 _SHADOWED = {"comparisons", "fem_reference", "fscm", "numpy", "scipy", "pandas", "pytest", "setup", "conftest"}
-_IMPORTED = {"NotApplicable", "Result"}
+#: Names that neither the module nor its class can have.
+_TAKEN = {*_SHADOWED, "NotApplicable", "Result", *sys.stdlib_module_names, *keyword.kwlist}
 
 #: Where each file of the template goes; MODULE is the name of the module.
 _PLACES = {
@@ -47,38 +47,27 @@ def write_template(folder: Path, reserved: Collection[str] = ()) -> tuple[list[P
     Raises
     ------
     ValueError
-        If the folder is not empty, its name cannot be that of a model or is reserved, or nothing can be written
-        there.
+        If the folder is not empty, or its name cannot be that of a model or is reserved.
     OSError
-        If the disk is full.
+        If it cannot be written.
     """
     name = model_name(Path(os.path.realpath(folder)).name)
     module = name.replace("-", "_").replace(".", "_").lower()
-    cls = "".join(word.title() for word in module.split("_"))
-    taken = _SHADOWED | sys.stdlib_module_names | {model.replace("-", "_") for model in reserved}
-    hidden = module in taken or cls in _IMPORTED
-    if hidden or not module.isidentifier() or {module, cls} & set(keyword.kwlist) or not name[-1].isalnum():
+    cls = module.title().replace("_", "")
+    taken = {module, cls} & _TAKEN or module in {model.replace("-", "_") for model in reserved}
+    if taken or not module.isidentifier() or not name[-1].isalnum():
         raise ValueError(
             f"the folder's name {name} cannot be that of a model: a module {module} with a class {cls} cannot be "
             "imported or installed, or hides another; choose another name"
         )
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise ValueError(f"{folder} exists and is not an empty folder")
-    words = {"MODEL": name, "MODULE": module, "CLASS": cls}
-    try:
-        written = [_written(folder, source, target, words) for source, target in _PLACES.items()]
-    except OSError as error:
-        if full_disk(error):
-            raise OSError(f"{folder} cannot be written ({error.strerror})") from error
-        raise ValueError(f"{folder} cannot be written ({error.strerror})") from None
-    return written, f"{folder / module}.py:{cls}"
-
-
-def _written(folder: Path, source: str, target: str, words: dict[str, str]) -> Path:
-    text = files("comparisons.external").joinpath("template_files", source).read_text(encoding="utf-8")
-    path = folder / target.replace("MODULE", words["MODULE"])
-    path.parent.mkdir(parents=True, exist_ok=True)
-    for word, meaning in words.items():
-        text = text.replace(f"@{word}@", meaning)
-    path.write_text(text, encoding="utf-8")
-    return path
+    paths = []
+    for source, target in _PLACES.items():
+        text = files("comparisons.external").joinpath("template_files", source).read_text(encoding="utf-8")
+        for word, meaning in (("@MODEL@", name), ("@MODULE@", module), ("@CLASS@", cls)):
+            text = text.replace(word, meaning)
+        paths.append(folder / target.replace("MODULE", module))
+        paths[-1].parent.mkdir(parents=True, exist_ok=True)
+        paths[-1].write_text(text, encoding="utf-8")
+    return paths, f"{folder / module}.py:{cls}"

@@ -11,7 +11,7 @@ import numbers
 import os
 import sys
 import traceback
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from typing import Any
@@ -75,17 +75,13 @@ def _plain(value: object) -> object:
         return value.tolist()
     if isinstance(value, numbers.Real) and not isinstance(value, np.bool_):
         return float(value)
-    raise ComputationFailed(f"the model gave {_kind(value)} in place of a real number, a text or a list")
-
-
-def _kind(value: object) -> str:
-    return one_line(f"an object of type {type(value).__name__}", 80)
+    raise ComputationFailed(one_line(f"the model gave a {type(value).__name__} in place of a number, a text or a list"))
 
 
 def _attributes(value: object, cls: type, names: Iterable[str]) -> dict[str, Any]:
     """Return what is sent of a result; refuse one of another class."""
     if not isinstance(value, cls):
-        raise ComputationFailed(f"the model returned {_kind(value)}, which is not a comparisons.model.{cls.__name__}")
+        raise ComputationFailed(one_line(f"the model returned a {type(value).__name__}, not a {cls.__name__}"))
     return {name: getattr(value, name) for name in names}
 
 
@@ -139,11 +135,10 @@ def _attribute_of_file(file: Path, attribute: str) -> Any:
 
 
 def _description(model: Any, files: dict[str, Any]) -> dict[str, Any]:
-    if missing := [name for name in TEXTS if not hasattr(model, name)]:
-        raise ComputationFailed(f"the model has no {', '.join(missing)}; it needs {', '.join(TEXTS)}")
+    needed = (*TEXTS, "evaluate")
+    if missing := [name for name in needed if not hasattr(model, name)]:
+        raise ComputationFailed(f"the model has no {', '.join(missing)}; it needs {', '.join(needed)}")
     domain = declared_domain(model)
-    if not callable(getattr(model, "evaluate", None)):
-        raise ComputationFailed("the model has no method evaluate(problem, quantity)")
     limits = getattr(model, "limits", ())
     return {
         **{name: str(getattr(model, name)) for name in TEXTS},
@@ -173,12 +168,12 @@ def _is_of_model(filename: str) -> bool:
     return not filename.startswith("<") and not Path(filename).is_relative_to(_FOLDER)
 
 
-def _text_of(value: object, by: Callable[[object], str] = str) -> str:
+def _text_of(error: BaseException) -> str:
     """Return the text of an exception; its class may be of the model, and the conversion may fail."""
     try:
-        return one_line(by(value))
+        return one_line(str(error))
     except BaseException as worse:
-        return f"its text cannot be had: __{by.__name__}__ raises {type(worse).__name__}"
+        return f"its text cannot be had: __str__ raises {type(worse).__name__}"
 
 
 def _explain(error: BaseException, megabytes: float, loading: bool) -> str:
@@ -187,8 +182,6 @@ def _explain(error: BaseException, megabytes: float, loading: bool) -> str:
         return _text_of(error)
     if isinstance(error, MemoryError):
         return f"MemoryError: the model needs more than its {megabytes:g} MB"
-    if isinstance(error, SystemExit):
-        return f"SystemExit: the model called sys.exit({one_line(_text_of(error.code, repr), 60)})"
     # The place in the author's code, where for instance a Result was made of a text.
     all_frames = traceback.extract_tb(error.__traceback__)
     frames = [frame for frame in all_frames if _is_of_model(frame.filename)] or all_frames

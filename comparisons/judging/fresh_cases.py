@@ -17,12 +17,11 @@ from zlib import crc32
 from comparisons.console.progress import log
 from comparisons.data.contained_paths import path_inside
 from comparisons.domain import Domain, declared_domain
-from comparisons.judging.fresh_points import REACH, sample
+from comparisons.judging.fresh_points import REACH, named_problem, sample
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.selection import cases_of, relevant
 from comparisons.problem import Problem
 from comparisons.problem.problem import split_name
-from comparisons.problem.variation import parse_variation, problems_of
 from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.cases import TIERS, Grid
 from comparisons.runs.tasks import Task, plan
@@ -30,6 +29,13 @@ from comparisons.runs.tasks import Task, plan
 #: The end of the id of a gate that is judged in fresh cases, and the tag of their grids.
 RANDOM = "-RANDOM"
 _TAG = "random"
+
+#: The end of the reason why standing cases of a model have no fresh ones.
+_NO_ROOM = (
+    "standing cases are in parts of the domain of {} that have no room for fresh cases beside them: points, ranges "
+    "hardly wider than a point, no varied key, or outside "
+    + ", ".join(f"{low:g} <= {name} <= {high:g}" for name, (low, high) in REACH.items())
+)
 
 #: The metrics of gates that are judged in fresh cases: those of one value beside one reference.
 _METRICS = ("rel", "abs", "en")
@@ -88,10 +94,10 @@ class FreshCases:
     def of_json(cls, stored: Mapping[str, Any], gates: Iterable[Gate], folder: Path) -> FreshCases:
         """Return the fresh cases of a record, as far as they are about some gates; the folder has the problem files."""
         gates_by_id = {gate.id: gate for gate in gates}
-        parts = []
+        parts: list[Part] = []
         for entry in stored["parts"]:
             if gate := gates_by_id.get(entry["gate"]):
-                cases = tuple(_stored_problem(case, folder) for case in entry["cases"])
+                cases = [_stored_problem(case, folder) for case in entry["cases"]]
                 parts.append(_part(gate, entry["candidate"], entry["reference"], cases))
         undrawn = tuple(entry for entry in stored["undrawn"] if entry["gate"] in gates_by_id)
         return cls(stored["count"], stored["seed"], tuple(parts), undrawn)
@@ -100,9 +106,8 @@ class FreshCases:
 def _stored_problem(case: list[float] | str, folder: Path) -> Problem:
     if not isinstance(case, str):
         return Problem.dimensionless(*case[:3])
-    file, *texts = split_name(case)
-    (problem,) = problems_of(path_inside(folder, file), [parse_variation(text) for text in texts], file)
-    return problem
+    name = split_name(case)
+    return named_problem(path_inside(folder, name[0]), name)
 
 
 def draw(
@@ -154,29 +159,21 @@ def draw(
             continue
         cases, untested = drawn
         if untested:
-            reason = _no_room(gate.candidate, len(untested), len(standing))
-            names = {"gate": gate.id, "candidate": gate.candidate, "quantity": gate.quantity}
-            undrawn.append(names | {"reason": reason})
+            reason = f"{len(untested)} of {len(standing)} {_NO_ROOM.format(gate.candidate)}"
+            entry = {"gate": gate.id, "candidate": gate.candidate, "quantity": gate.quantity, "reason": reason}
+            undrawn.append(entry)
         elif not cases:
             log(f"{gate.id} has no fresh cases: the domain of {gate.candidate} has none that it can be judged in")
-        by_reference: dict[str, list[Problem]] = {}
-        for case in cases:
-            by_reference.setdefault(_reference(gate, case), []).append(case)
-        parts += [_part(gate, gate.candidate, name, tuple(of_name)) for name, of_name in sorted(by_reference.items())]
+        references = [_reference(gate, case) for case in cases]
+        for name in sorted({*references}):
+            of_name = [case for case, reference in zip(cases, references, strict=True) if reference == name]
+            parts.append(_part(gate, gate.candidate, name, of_name))
     if passed_over:
         log(f"{passed_over} gates have no fresh cases: of curves, with a rival or a reference_at, or of single cases")
     return FreshCases(count, seed, tuple(parts), tuple(undrawn))
 
 
-def _no_room(name: str, untested: int, standing: int) -> str:
-    reach = ", ".join(f"{low:g} <= {parameter} <= {high:g}" for parameter, (low, high) in REACH.items())
-    return (
-        f"{untested} of {standing} standing cases are in parts of the domain of {name} that have no room for fresh "
-        f"cases beside them: points, ranges hardly wider than a point, no varied key, or outside {reach}"
-    )
-
-
-def _part(gate: Gate, candidate: str, reference: str, cases: tuple[Problem, ...]) -> Part:
+def _part(gate: Gate, candidate: str, reference: str, cases: Sequence[Problem]) -> Part:
     least = _ATLAS_BOUND if reference == _ATLAS else 0.0
     fresh = replace(
         gate,
@@ -192,7 +189,9 @@ def _part(gate: Gate, candidate: str, reference: str, cases: tuple[Problem, ...]
         not_applicable="leave-out",
     )
     title = f"Fresh cases of {candidate} for {gate.id}"
-    return Part(fresh, Grid(fresh.id, title, TIERS[0], reference, (candidate,), (gate.quantity,), cases, (_TAG,)))
+    return Part(
+        fresh, Grid(fresh.id, title, TIERS[0], reference, (candidate,), (gate.quantity,), tuple(cases), (_TAG,))
+    )
 
 
 def _reference(gate: Gate, case: Problem) -> str:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import suppress
 from itertools import groupby, islice
-from typing import Any
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,7 +68,7 @@ def sample(
         itself leaves no room, whatever the domain is.
     """
     groups = groupby(sorted(standing, key=_family_of), _family_of)
-    families = [_Family.of(gate, list(cases), avoided) for _, cases in groups]
+    families = [_Family(gate, list(cases), avoided) for _, cases in groups]
     if all(family.reach and not family.points(family.frame(domain), 1, seed) for family in families):
         return None
     spaces = [(family, box, tested) for family in families for box, tested in family.boxes(domain)]
@@ -95,39 +95,32 @@ def _family_of(case: Problem) -> tuple[str, ...]:
     return split_name(case.name)[0], *_numbers(case), *words
 
 
-@dataclass(frozen=True, slots=True)
 class _Family:
     """Standing cases of a gate that differ in numbers alone, and the cases that fresh ones are apart from.
 
     `reach` has the parameters in which fresh cases can differ, with the ends of the ranges in which they are drawn.
     """
 
-    gate: Gate
-    standing: list[Problem]
-    avoided: list[Problem]
-    hull: _Box
-    reach: _Box
-
-    @classmethod
-    def of(cls, gate: Gate, standing: list[Problem], avoided: Iterable[Problem]) -> _Family:
+    def __init__(self, gate: Gate, standing: list[Problem], avoided: Iterable[Problem]) -> None:
+        self._gate, self._standing = gate, standing
+        self._avoided = [_numbers(case) for case in avoided if _family_of(case) == _family_of(standing[0])]
         values = {name: [_numbers(case)[name] for case in standing] for name in _numbers(standing[0])}
-        hull = {name: (min(numbers), max(numbers)) for name, numbers in values.items()}
-        reach = {name: REACH.get(name, ends) for name, ends in hull.items()}
-        alike = [case for case in avoided if _family_of(case) == _family_of(standing[0])]
-        return cls(gate, standing, alike, hull, {name: ends for name, ends in reach.items() if ends[0] < ends[1]})
+        self._hull: _Box = {name: (min(numbers), max(numbers)) for name, numbers in values.items()}
+        reach = {name: REACH.get(name, ends) for name, ends in self._hull.items()}
+        self.reach: _Box = {name: ends for name, ends in reach.items() if ends[0] < ends[1]}
 
     def frame(self, domain: Domain | None) -> _Box:
         """Return the largest box that the gate leaves to any domain, or to models that declare none."""
-        return self._limited(self.hull if domain is None else {})
+        return self._limited(self._hull if domain is None else {})
 
     def boxes(self, domain: Domain | None) -> Iterator[tuple[_Box, list[Problem]]]:
         """Yield the boxes in which fresh cases are drawn, each with the standing cases that they test."""
         # A domain restricts n, k and mu alone.
         if domain is None or not self.reach.keys() & REACH.keys():
-            yield self.frame(None), self.standing
+            yield self.frame(None), self._standing
             return
-        for table in domain.of_quantity(self.gate.quantity):
-            tested = [case for case in self.standing if table.within(case.parameters)]
+        for table in domain.of_quantity(self._gate.quantity):
+            tested = [case for case in self._standing if table.within(case.parameters)]
             yield self._limited({name: table.limits.get(name, NO_LIMITS) for name in self.reach}), tested
 
     def points(self, box: _Box, count: int, seed: list[int]) -> list[dict[str, float]]:
@@ -137,35 +130,32 @@ class _Family:
         # It takes a second to import.
         from scipy.stats import qmc
 
-        is_linear = [name in _LINEAR or low <= 0.0 for name, (low, _) in box.items()]
+        is_log = np.array([name not in _LINEAR and low > 0.0 for name, (low, _) in box.items()])
 
-        def coordinates(points: Iterable[Mapping[str, Any]]) -> NDArray[np.float64]:
-            values = np.array([[point[name] for name in box] for point in points], dtype=float)
-            return np.where(is_linear, values, np.log(np.where(is_linear, 1.0, values)))
+        def coordinates(values: Sequence[Sequence[float]]) -> NDArray[np.float64]:
+            return np.where(is_log, np.log(np.where(is_log, values, 1.0)), values)
 
-        low, high = coordinates([{name: ends[end] for name, ends in box.items()} for end in (0, 1)])
+        low, high = coordinates([*zip(*box.values(), strict=True)])
+        least, largest = coordinates([*zip(*(self.reach[name] for name in box), strict=True)])
+        avoided = coordinates([[case[name] for name in box] for case in self._avoided])
         unit = qmc.Halton(len(box), seed=np.random.default_rng(seed)).random(max(_DRAWN, 3 * count))
         points = low + unit * (high - low)
-        ends = coordinates([{name: self.reach[name][end] for name in box} for end in (0, 1)])
-        distance = np.abs(points[:, None] - coordinates(map(_numbers, self.avoided)))
-        apart = ((distance / np.diff(ends, axis=0)).max(axis=2) >= _APART).all(axis=1)
-        values = np.where(is_linear, points, np.exp(np.where(is_linear, 0.0, points)))[apart]
+        distance = np.abs(points[:, None] - avoided) / (largest - least)
+        apart = (distance.max(axis=2) >= _APART).all(axis=1)
+        values = np.where(is_log, np.exp(np.where(is_log, points, 0.0)), points)[apart]
         drawn = [dict(zip(box, map(_rounded, point, box.values()), strict=True)) for point in values]
         return drawn if apart.mean() >= _ROOM else []
 
     def problems_at(self, points: Iterable[Mapping[str, float]]) -> Iterator[Problem]:
-        """Yield the problem at each point that has one."""
+        """Yield the problem at each point that has one: two keys may exclude each other."""
         for point in points:
-            try:
-                yield _problem_at(self.standing[0], point)
-            except ValueError:
-                # Two keys may exclude each other, as the thickness of a coating and that of its transition.
-                continue
+            with suppress(ValueError):
+                yield _problem_at(self._standing[0], point)
 
     def _limited(self, box: _Box) -> _Box:
         """Return the part of a box that the gate is about and in which fresh cases are drawn."""
         limits = {
-            name: [ends, box.get(name, ends), self.gate.cases.get(name, ends)] for name, ends in self.reach.items()
+            name: [ends, box.get(name, ends), self._gate.cases.get(name, ends)] for name, ends in self.reach.items()
         }
         return {name: (max(low for low, _ in ends), min(high for _, high in ends)) for name, ends in limits.items()}
 
@@ -181,7 +171,12 @@ def _problem_at(like: Problem, point: Mapping[str, float]) -> Problem:
     for column, value in {**like.parameters, **point}.items():
         key, unit = unit_in(column)
         texts.append(f"{key}={value}" if isinstance(value, str) or unit == "1" else f"{key}={value!r} {unit}")
-    (problem,) = problems_of(like.path, [parse_variation(text) for text in texts], split_name(like.name)[0])
+    return named_problem(like.path, [split_name(like.name)[0], *texts])
+
+
+def named_problem(path: Path, name: Sequence[str]) -> Problem:
+    """Return the problem of a file whose name, as of `split_name`, has the values of its keys."""
+    (problem,) = problems_of(path, [parse_variation(text) for text in name[1:]], name[0])
     return problem
 
 

@@ -28,11 +28,10 @@ def judge_undrawn(undrawn: Iterable[Mapping[str, str]]) -> pd.DataFrame:
     >>> table["gate"].item(), str(table["verdict"].item())
     ('A-RANDOM', 'INCONCLUSIVE')
     """
-    verdict, names = Verdict.INCONCLUSIVE, ("candidate", "reason", "quantity")
-    entries = ((f"{entry['gate']}{RANDOM}", *(entry[name] for name in names)) for entry in undrawn)
+    entries = pd.DataFrame(undrawn, columns=["gate", "candidate", "quantity", "reason"])
     return verdict_table(
-        verdict_on_model(id, candidate, verdict, reason, quantity=quantity)
-        for id, candidate, reason, quantity in entries
+        verdict_on_model(f"{gate}{RANDOM}", candidate, Verdict.INCONCLUSIVE, reason, quantity=quantity)
+        for gate, candidate, quantity, reason in entries.itertuples(index=False, name=None)
     )
 
 
@@ -67,9 +66,9 @@ def _difference(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
         )
     # Fresh cases of problem files are drawn between the standing ones, and have no n, k and mu.
     ranges = {name: (right[name].min(), right[name].max()) for name in ("n", "k", "mu")}
-    between = pd.concat([new[name].between(*ends) | new[name].isna() for name, ends in ranges.items()], axis=1).all(
-        axis=1
-    )
+    between = pd.Series(True, index=new.index)
+    for name, ends in ranges.items():
+        between &= new[name].between(*ends) | new[name].isna()
     beyond, largest, certain = new["verdict"] == Verdict.FAIL, _errors(right), _errors(new[between])
     # What is certain of the error of a fresh case, against the most that the error of a standing one can be.
     much_worse = len(certain) > 0 and _is_much_worse(largest, certain)

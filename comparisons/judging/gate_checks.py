@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from comparisons.data.validation import known_name
@@ -101,76 +101,59 @@ def plain_text(key: str, text: str, where: str) -> str:
     return line
 
 
-def defects(gate: Gate) -> Iterator[str]:
-    """Yield why a gate compares nothing, could not fail or could never pass, each as the end of a sentence."""
-    yield from _of_models(gate)
-    yield from _of_limits(gate)
-    yield from _of_uncertainties(gate)
-    yield from _of_measurement(gate)
-
-
-def _of_models(gate: Gate) -> Iterator[str]:
-    if gate.rival and gate.metric in ("en", "curve"):
-        yield f"the metric {gate.metric} compares with no rival; state rel, abs or range-relative"
+def defects(gate: Gate) -> list[str]:
+    """Return why a gate compares nothing, could not fail or could never pass, each as the end of a sentence."""
+    limits = f"the limits {exact(gate.lower)} to {exact(gate.upper)}"
     elsewhere = any(gate.cases.get(name) != [value, value] for name, value in gate.reference_at.items())
-    same = {role for role, model in gate.models.items() if model == gate.candidate} - {"candidate"}
-    for role in sorted(same - {"reference"} if elsewhere else same):
-        yield (
-            f"candidate and {role} are both {gate.candidate!r} in the same cases, so that the gate cannot fail; name "
-            f"another {role}" + (", or other parameters in reference_at" if role == "reference" else "")
-        )
-    try:
-        Problem.dimensionless(2.0, 0.0, 1.0).at(gate.reference_at)
-    except ValueError as refusal:
-        yield f"reference_at: {refusal}"
-
-
-def _of_limits(gate: Gate) -> Iterator[str]:
-    if not gate.lower <= gate.upper or (math.isinf(gate.lower) and math.isinf(gate.upper)):
-        yield f"{_limits(gate)} admit nothing or everything; one must be finite, and the lower one smaller"
-    if gate.metric == "curve" and not (gate.lower == -math.inf and gate.upper > 0.0):
-        yield f"{_limits(gate)} must be -inf and a positive number: a distance has no lower limit"
-
-
-def _of_uncertainties(gate: Gate) -> Iterator[str]:
-    if gate.metric != "en":
-        return
-    if gate.max_candidate_uncertainty is None:
-        yield (
-            "the metric en needs max_candidate_uncertainty, relative to the reference: a candidate that states a large "
-            "uncertainty would pass with any value"
-        )
-    for key in ("max_reference_uncertainty", "max_candidate_uncertainty"):
-        if (getattr(gate, key) or 0.0) >= 1.0:
-            yield (
-                f"{key} = {exact(getattr(gate, key))} must be below 1 with the metric en: an uncertainty as large as "
-                "the reference lets any value pass"
-            )
-
-
-def _of_measurement(gate: Gate) -> Iterator[str]:
-    worst, measured = gate.worst_measured, gate.measured_range
-    if (gate.basis == "measured" or measured is not None) != (worst is not None):
-        yield "a measured basis or a measured_range, and nothing else, states its worst_measured"
-    elif worst is not None and (gate.lower <= worst <= gate.upper) is not (gate.expected_failure is None):
-        yield (
-            f"worst_measured = {exact(worst)} must be within {_limits(gate)}, or beyond them with expected_failure: "
-            "correct one of them"
-        )
-    if measured is None and gate.expected_failure is not None:
-        yield (
+    compared = [gate.rival] if elsewhere else [gate.rival, gate.reference]
+    largest_uncertainty = max(gate.max_reference_uncertainty, gate.max_candidate_uncertainty or 0.0)
+    worst, measured, is_en = gate.worst_measured, gate.measured_range, gate.metric == "en"
+    is_within = worst is not None and gate.lower <= worst <= gate.upper
+    rules = [
+        (
+            gate.rival is not None and gate.metric in ("en", "curve"),
+            f"the metric {gate.metric} compares with no rival; state rel, abs or range-relative",
+        ),
+        (
+            gate.candidate in compared,
+            f"the candidate {gate.candidate!r} is compared with itself in the same cases, so that the gate cannot "
+            "fail; name another reference or rival, or other parameters in reference_at",
+        ),
+        (
+            not gate.lower <= gate.upper or (math.isinf(gate.lower) and math.isinf(gate.upper)),
+            f"{limits} admit nothing or everything; one must be finite, and the lower one smaller",
+        ),
+        (
+            gate.metric == "curve" and not (gate.lower == -math.inf and gate.upper > 0.0),
+            f"{limits} must be -inf and a positive number: a distance has no lower limit",
+        ),
+        (
+            is_en and (gate.max_candidate_uncertainty is None or largest_uncertainty >= 1.0),
+            "the metric en needs max_candidate_uncertainty and max_reference_uncertainty below 1, relative to the "
+            "reference: a candidate or a reference that states a large uncertainty would pass with any value",
+        ),
+        (
+            (gate.basis == "measured" or measured is not None) != (worst is not None),
+            "a measured basis or a measured_range, and nothing else, states its worst_measured",
+        ),
+        (
+            worst is not None and is_within is not (gate.expected_failure is None),
+            f"worst_measured = {worst} must be within {limits}, or beyond them with expected_failure",
+        ),
+        (
+            measured is None and gate.expected_failure is not None,
             "expected_failure needs measured_range = [low, high], the errors that were measured: without it every "
-            "wrong value would be accepted as the known failure"
-        )
-    if measured is None or worst is None:
-        return
+            "wrong value would be accepted as the known failure",
+        ),
+        (
+            measured is not None and worst is not None and not _contains(measured, worst),
+            f"measured_range = {measured} must contain worst_measured = {worst} and reach at most "
+            f"{LARGEST_MARGIN:g} times as far, or it would notice no change",
+        ),
+    ]
+    return [sentence for is_wrong, sentence in rules if is_wrong]
+
+
+def _contains(measured: tuple[float, float], worst: float) -> bool:
     low, high = measured
-    if not low <= worst <= high or max(abs(low), abs(high)) > LARGEST_MARGIN * abs(worst):
-        yield (
-            f"measured_range = [{exact(low)}, {exact(high)}] must contain worst_measured = {exact(worst)} and reach at "
-            f"most {LARGEST_MARGIN:g} times as far, or it would notice no change"
-        )
-
-
-def _limits(gate: Gate) -> str:
-    return f"the limits {exact(gate.lower)} to {exact(gate.upper)}"
+    return low <= worst <= high and max(abs(low), abs(high)) <= LARGEST_MARGIN * abs(worst)

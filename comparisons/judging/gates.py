@@ -200,8 +200,12 @@ def _gate(table: dict[str, Any], where: str, models: set[str], shared: Mapping[s
             known_name(role, model, sorted(models), where)
     quantities = CURVES if gate.metric == "curve" else QUANTITIES
     known_name(f"quantity of the metric {gate.metric}", gate.quantity, quantities, where)
-    for defect in defects(gate):
-        raise ValueError(f"{where}: {defect}")
+    try:
+        gate.reference_case(Problem.dimensionless(2.0, 0.0, 1.0))
+    except ValueError as refusal:
+        raise ValueError(f"{where}: reference_at: {refusal}") from None
+    if reasons := defects(gate):
+        raise ValueError(f"{where}: {reasons[0]}")
     return gate
 
 

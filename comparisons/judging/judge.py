@@ -15,16 +15,7 @@ import pandas as pd
 from comparisons.domain import Domain
 from comparisons.judging.decision import Verdict, crossing, decide, expecting_failure
 from comparisons.judging.gates import Gate
-from comparisons.judging.metrics import (
-    CURVE,
-    NUMBER,
-    CaseError,
-    GateResults,
-    UnusableResult,
-    case_error,
-    reference_range,
-    rows_by_key,
-)
+from comparisons.judging.metrics import CaseError, GateResults, UnusableResult, case_error, reference_range, rows_by_key
 from comparisons.judging.selection import cases_of, promised, relevant
 from comparisons.numerics.number_text import exact
 from comparisons.problem import Problem
@@ -103,13 +94,11 @@ def judge(
         The fields of `Judged`, one row a gate and case, in the order of the gates, then of the cases.
     """
     judged_gates = relevant(gates, grids, models)
-    of_curves = [gate for gate in judged_gates if gate.metric == "curve"]
-    numbers = rows_by_key(rows, NUMBER, [gate for gate in judged_gates if gate not in of_curves])
-    points = rows_by_key(curves, CURVE, of_curves)
+    compared = rows_by_key([rows] if curves is None else [rows, curves], judged_gates)
     judged: list[Judged] = []
     for gate in judged_gates:
-        results = GateResults(gate, points if gate in of_curves else numbers)
-        judged += _judge_gate(results, cases_of(gate, grids, models), (domains or {}).get(gate.candidate))
+        domain = (domains or {}).get(gate.candidate)
+        judged += _judge_gate(GateResults(gate, compared), cases_of(gate, grids, models), domain)
     return verdict_table(judged)
 
 

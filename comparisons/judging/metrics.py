@@ -14,15 +14,13 @@ import pandas as pd
 from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import Gate
 from comparisons.judging.selection import key_of
-from comparisons.numerics.bounds import combined, relative_difference
+from comparisons.numerics.bounds import combined
 from comparisons.problem import Problem
 from comparisons.runs.frames import keys_in
 from comparisons.runs.rows import Key
 
-#: Columns of a table of scalars that are judged.
-NUMBER = ("status", "reason", "value", "u_num")
-#: The same of a table of curves.
-CURVE = ("status", "reason", "x", "y", "u_distance")
+#: Columns that are judged: of a table of numbers, of a table of curves.
+_COLUMNS = ("status", "reason", "value", "u_num", "x", "y", "u_distance")
 
 
 class UnusableResult(Exception):
@@ -33,27 +31,16 @@ class UnusableResult(Exception):
         self.verdict, self.reason = verdict, reason
 
 
-def rows_by_key(
-    table: pd.DataFrame | None, columns: Iterable[str], gates: Iterable[Gate]
-) -> dict[Key, list[dict[str, Any]]]:
-    """Return the rows of a table that some gates compare, by their keys: more than one only for the points of a curve.
-
-    Parameters
-    ----------
-    table : DataFrame or None
-        None is a table without rows.
-    columns : iterable of str
-        `NUMBER` or `CURVE`.
-    gates : iterable of Gate
-    """
+def rows_by_key(tables: Iterable[pd.DataFrame], gates: Iterable[Gate]) -> dict[Key, list[dict[str, Any]]]:
+    """Return the rows of tables that some gates compare, by their keys: several only for the points of a curve."""
     names = {(model, gate.quantity) for gate in gates for model in gate.models.values()}
     rows: dict[Key, list[dict[str, Any]]] = defaultdict(list)
-    if table is None or not names:
-        return rows
-    needed = table[pd.MultiIndex.from_frame(table[["model", "quantity"]]).isin(list(names))]
-    records = needed[list(columns)].to_dict("records")
-    for key, record in zip(keys_in(needed), records, strict=True):
-        rows[key].append(record)
+    for table in tables:
+        is_compared = [pair in names for pair in zip(table["model"], table["quantity"], strict=True)]
+        compared = table.loc[is_compared]
+        records = compared[compared.columns.intersection(_COLUMNS)].to_dict("records")
+        for key, record in zip(keys_in(compared), records, strict=True):
+            rows[key].append(record)
     return rows
 
 
@@ -158,31 +145,24 @@ def case_error(results: GateResults, case: Problem, scale: float) -> CaseError:
     value, u_num = results.number("candidate", case)
     reference, u_reference = results.number("reference", case)
     facts = {"value": value, "u_num": u_num, "reference_value": reference, "u_reference": u_reference}
+    unit = {"abs": 1.0, "range-relative": scale}.get(gate.metric, abs(reference))
+    # E_n is the difference in units of the bound U, so that it has no bound of its own.
+    divisor = combined(u_num, u_reference) if gate.metric == "en" else unit
+    if unit == 0.0 or divisor == 0.0:
+        raise UnusableResult(Verdict.ERROR, "the reference, its range, or both uncertainties are zero: use metric abs")
+    error, bounds = (value - reference) / divisor, {"candidate": u_num / unit, "reference": u_reference / unit}
     if gate.metric == "en":
-        # The difference in units of the bound U, so that it has no bound of its own.
-        bound, unit = combined(u_num, u_reference), abs(reference)
-        if bound == 0.0 or unit == 0.0:
-            raise UnusableResult(Verdict.ERROR, "the reference or both uncertainties are zero: use metric abs")
-        bounds = {"candidate": u_num / unit, "reference": u_reference / unit}
-        return CaseError((value - reference) / bound, 0.0, bounds, facts)
-    unit = {"rel": abs(reference), "abs": 1.0, "range-relative": scale}[gate.metric]
-    if unit == 0.0:
-        raise UnusableResult(Verdict.ERROR, f"the reference {gate.reference} is or has a range of zero: use metric abs")
+        return CaseError(error, 0.0, bounds, facts)
 
-    def error_of(value: float) -> tuple[float, float]:
-        """The error of a value, and the share of the reference: it is also the unit of a relative error."""
-        if gate.metric == "rel":
-            return relative_difference(value, reference), abs(value / reference) * u_reference / unit
-        return (value - reference) / unit, u_reference / unit
+    def share(value: float) -> float:
+        """The part of the reference in the bound: it is also the unit of a relative error."""
+        return (abs(value / reference) if gate.metric == "rel" else 1.0) * u_reference / unit
 
-    error, share = error_of(value)
-    shares = {"candidate": u_num / unit, "reference": share}
+    shares = {"candidate": u_num / unit, "reference": share(value)}
     if gate.rival:
-        rival_value, u_rival = results.number("rival", case)
-        error_of_rival, share_of_rival = error_of(rival_value)
-        error = abs(error) - abs(error_of_rival)
-        shares |= {"reference": share + share_of_rival, "rival": u_rival / unit}
-    bounds = {"candidate": u_num / unit, "reference": u_reference / unit}
+        rival, u_rival = results.number("rival", case)
+        error = abs(error) - abs((rival - reference) / unit)
+        shares |= {"reference": share(value) + share(rival), "rival": u_rival / unit}
     return CaseError(error, combined(*shares.values()), bounds, facts, shares)
 
 

@@ -99,35 +99,6 @@ def needed_keys(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[s
     return needed
 
 
-def skipped_gates(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> list[Gate]:
-    """Return the gates about models that are not given, which a run leaves out.
-
-    Parameters
-    ----------
-    gates, grids, models
-        As of `relevant`.
-
-    Raises
-    ------
-    ValueError
-        If a gate is about a model that is given, but its reference or rival is not computed: left out as well, it
-        would let the run pass without having been judged.
-    """
-    if models is None:
-        return [gate for gate in gates if gate.candidate == GIVEN]
-    skipped = []
-    for gate in gates:
-        missing = sorted(_not_computed(gate, grids, models))
-        if gate.candidate not in {GIVEN, *models}:
-            skipped.append(gate)
-        elif missing:
-            raise ValueError(
-                f"gate {gate.id} needs {' and '.join(missing)}, which this run does not compute: "
-                f"add --model {' '.join(missing)}"
-            )
-    return skipped
-
-
 def _not_computed(gate: Gate, grids: Sequence[Grid], models: Sequence[str]) -> set[str]:
     """Return which of the models that a gate compares with are neither given nor the reference of a grid."""
     compared = {model for role, model in gate.models.items() if role != "candidate"}
@@ -151,14 +122,20 @@ def load_user_gates(
     Raises
     ------
     ValueError
-        If a gate is wrong or needs a model that is not computed; one sentence names it.
+        If a gate is wrong, or its candidate is given but its reference or rival not computed: left out as well, it
+        would let the run pass without having been judged.
     """
     of_file = load_gates(text, models or (), source)
     gates = of_tier(of_file, tier)
-    if skipped := skipped_gates(gates, grids, models):
-        log(
-            f"{len(skipped)} of {len(of_file)} gates of {source} are left out: their candidate is not given to this run"
-        )
+    skipped = 0
+    for gate in gates:
+        if gate.candidate == GIVEN if models is None else gate.candidate not in {GIVEN, *models}:
+            skipped += 1
+        elif models is not None and (missing := sorted(_not_computed(gate, grids, models))):
+            needed = " and ".join(missing)
+            raise ValueError(f"gate {gate.id} needs {needed}, not computed here: add --model {' '.join(missing)}")
+    if skipped:
+        log(f"{skipped} of {len(of_file)} gates of {source} are left out: their candidate is not given to this run")
     if later := len(of_file) - len(gates):
         log(f"{later} of {len(of_file)} gates of {source} are left out: they are of the tier full")
     return gates

@@ -15,13 +15,15 @@ from comparisons.console.exit_status import OK
 from comparisons.console.progress import log
 from comparisons.external.template import write_template
 from comparisons.registry import MODELS
+from comparisons.runs.atomic_files import writing
 
 OPTIONS = (file("folder", metavar="DIR", help="new folder, e.g. my-model; its name becomes that of the model"),)
 
 
 def call(args: argparse.Namespace) -> int:
     """Write the files and name them; return the exit status."""
-    written, spec = write_template(args.folder, reserved=MODELS)
+    with writing(args.folder, "folder", "choose another one"):
+        written, spec = write_template(args.folder, reserved=MODELS)
     for path in written:
         print(path)
     log(f"change what the model computes; then: fscm-bench check-model {quote(spec)}")

@@ -12,7 +12,7 @@ from comparisons.external.model_source import GROUP
 from comparisons.judging.gates import load_gates
 from comparisons.registry import create
 
-from .conftest import EXAMPLE, ROWS
+from .conftest import EXAMPLE
 
 #: JKR, so that everything else about the models below is in order.
 JKR = """if problem.n != 2 or quantity != "pull_off_force":
@@ -20,10 +20,6 @@ JKR = """if problem.n != 2 or quantity != "pull_off_force":
 value = (3 + problem.k) / 2
 """
 RIGHT = JKR + "return Result(value, 0.0)"
-
-
-def findings_of(spec):
-    return {finding.check: finding for finding in examine(create(str(spec)))}
 
 
 def test_a_right_model_passes(capsys):
@@ -47,7 +43,7 @@ COUNTS = "setattr(self, 'calls', getattr(self, 'calls', 0) + 1) or value / 2 + 1
     ],
 )
 def test_what_is_wrong_is_named(write_model, value, more, wrong):
-    findings = findings_of(write_model(f"{JKR}return Result({value}, 0.0)", more=more)).values()
+    findings = examine(create(write_model(f"{JKR}return Result({value}, 0.0)", more=more)))
     texts = [finding.text for finding in findings if finding.status == "wrong"]
     sentences = wrong.split("|")
     assert [sentence in text for sentence, text in zip(sentences, texts, strict=True)] == [True] * len(sentences), texts
@@ -65,25 +61,16 @@ def test_a_failed_computation_has_status_4(write_model, capsys, body, sentence):
     assert sentence in " ".join(capsys.readouterr().out.split())
 
 
-def test_a_submission_is_examined_where_it_covers(write_data):
-    findings = findings_of(write_data(rows=[ROWS[0].replace(",1.9,", ",-1.9,"), *ROWS[1:]]))
-    assert findings["keeps the sign rules"].status == "wrong"
-    assert "mu = 0.1 is -1.9" in findings["keeps the sign rules"].text
-    assert findings["gives the same result again"].status == "not checked"
-
-
-@pytest.fixture
-def package(tmp_path, capsys):
-    folder = tmp_path / "my-model"
-    assert main(["new-model", str(folder)]) == 0
+def test_a_new_package_is_complete_keeps_the_contract_passes_its_tests_and_is_not_overwritten(
+    tmp_path, capsys, monkeypatch, refused
+):
+    package = tmp_path / "my-model"
+    assert main(["new-model", str(package)]) == 0
     printed = capsys.readouterr()
-    assert f"check-model {folder / 'my_model.py'}:MyModel" in printed.err
-    assert sorted(printed.out.splitlines()) == sorted(str(path) for path in folder.rglob("*") if path.is_file())
-    return folder
-
-
-def test_the_package_is_complete_and_is_not_overwritten(package, refused):
-    assert not any(re.search(r"@[A-Z]+@", path.read_text()) for path in package.rglob("*") if path.is_file())
+    assert f"check-model {package / 'my_model.py'}:MyModel" in printed.err
+    files = [path for path in package.rglob("*") if path.is_file()]
+    assert sorted(printed.out.splitlines()) == sorted(map(str, files))
+    assert not any(re.search(r"@[A-Z]+@", path.read_text()) for path in files)
     project = tomllib.loads((package / "pyproject.toml").read_text())
     assert project["project"]["entry-points"][GROUP] == {"my-model": "my_model:MyModel"}
     (gate,) = load_gates((package / "gates.toml").read_text().replace('"my-model"', '"jkr"'))
@@ -92,9 +79,6 @@ def test_the_package_is_complete_and_is_not_overwritten(package, refused):
     before = (package / "my_model.py").read_text()
     refused(["new-model", package], "not an empty folder")
     assert (package / "my_model.py").read_text() == before
-
-
-def test_the_model_keeps_the_contract_and_its_own_tests_pass(package, capsys, monkeypatch):
     assert main(["check-model", f"{package / 'my_model.py'}:MyModel"]) == 0
     assert "is right in the limit jkr" in capsys.readouterr().out
     monkeypatch.syspath_prepend(package)

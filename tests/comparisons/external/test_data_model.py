@@ -48,7 +48,7 @@ law = { kind = "lennard-jones-9-3", work_of_adhesion = "50 mJ/m^2", z0 = "0.4 nm
 """
 
 
-def test_numbers_in_newtons_are_those_of_a_problem_file(write_data):
+def test_numbers_in_newtons_are_those_of_a_problem_file(write_data, capsys):
     folder = write_data(**PADS, more={"pad.toml": PAD})
     model = create(str(folder))
     vary = [Variation.of_values("solid.thickness", ["12 nm", "35 nm"])]
@@ -58,6 +58,7 @@ def test_numbers_in_newtons_are_those_of_a_problem_file(write_data):
     assert [row.value for row in rows] == pytest.approx([3e-8, 4e-8], rel=1e-14)
     assert [row.u_num for row in rows] == pytest.approx([1e-9, 1e-9], rel=1e-14)
     assert main(["check-model", str(folder)]) == 0
+    assert "not checked  gives the same result again" in capsys.readouterr().out
     # Another problem of the same name, another quantity, another kind of case.
     (folder / "pad.toml").write_text(PAD.replace("100 nm", "99 nm"))
     others = [("pull_off_force", problem) for problem in problems_of(folder / "pad.toml", vary)]
@@ -83,7 +84,7 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
         ({"change": {'"pi Q': '"2 pi Q'}}, "state the values in that"),
         ({"change": {'pull_off_force = "': 'jump_in_gap = "'}}, "[units] must have exactly pull_off_force"),
         ({"change": {'"predictions.csv"': '"../data/predictions.csv"'}}, "must be the name of a .csv file"),
-        ({"change": {'"predictions.csv"': '"other.csv"'}}, "there is no file other.csv"),
+        ({"change": {'"predictions.csv"': '"other.csv"'}}, "other.csv"),
         ({"change": {'"measured"': '"<b>measured</b>"'}}, "letters, digits"),
         ({"change": {'doi = "10.1000/182"': 'doi = "javascript:1"'}}, "doi = "),
         ({"change": {"[[covers]]": f"{TABLE}\n[[covers]]"}}, "promise 15492 cases"),
