@@ -66,8 +66,8 @@ def html_table(table: Table) -> Markup:
 
     Examples
     --------
-    >>> from comparisons.output.table import numbers
-    >>> html = html_table(Table("t", "Cases", [numbers("n", form=".2g")], pd.DataFrame({"n": [1 / 3]})))
+    >>> from comparisons.output.table import column
+    >>> html = html_table(Table("t", "Cases", [column("n", form=".2g")], pd.DataFrame({"n": [1 / 3]})))
     >>> "<caption>Cases</caption>" in html, '<td><data value="0.3333333333333333">0.33</data></td>' in html
     (True, True)
     """

@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd
 
 from comparisons.numerics.number_text import case_text, percent_text
-from comparisons.output.style import MODEL_ORDER, model_styles
-from comparisons.output.table import Column, Record, columns, key_columns, key_text, physical_text, words
+from comparisons.output.style import BROAD, MODEL_ORDER
+from comparisons.output.table import LAYOUT, Column, Record, column, columns, key_columns, key_text, physical_text
 from comparisons.problem.problem import split_name
 from comparisons.problem.units import prefixed_unit
 from comparisons.quantities import ALL_QUANTITIES, CURVES, Axis, CurveQuantity, Kind, title_of
@@ -75,20 +75,17 @@ class Plot:
     @property
     def controls(self) -> list[tuple[str, list[str]]]:
         """Label and options of each choice, in the order of the points."""
-        options = zip(*self.points["options"], strict=True)
-        return [
-            (column.heading, list(dict.fromkeys(texts))) for column, texts in zip(self.choices, options, strict=False)
-        ]
+        chosen = zip(self.choices, zip(*self.points["options"], strict=True), strict=False)
+        return [(choice.heading, list(dict.fromkeys(texts))) for choice, texts in chosen]
 
     def group(self, row: Record) -> str:
         """Return the group of a row."""
-        return "|".join(column.text(row) for column in self.choices)
+        return "|".join(choice.text(row) for choice in self.choices)
 
     @property
     def models(self) -> list[str]:
         """Names of what can be switched on and off; the broad line is drawn first, below the others."""
-        styles = model_styles(self.points["model"])
-        return sorted(dict.fromkeys(self.points["model"]), key=lambda name: not styles[name].broad)
+        return sorted(dict.fromkeys(self.points["model"]), key=lambda name: name != BROAD)
 
     @property
     def first_models(self) -> list[str]:
@@ -116,7 +113,7 @@ def _points(
     table["label"] = [
         row["model"] if math.isnan(row.get("nu", math.nan)) else f"{row['model']}, ν = {row['nu']:g}" for row in records
     ]
-    table["options"] = [tuple(column.text(row) for column in choices) for row in records]
+    table["options"] = [tuple(choice.text(row) for choice in choices) for row in records]
     table["group"], table["hover"] = list(map("|".join, table["options"])), list(map(hover, records))
     # An absurd value overflows in percent; it is in the tables, but there is no place for it in a picture.
     return table[np.isfinite(table[["x", "y", "low", "high"]].astype(float)).all(axis="columns")]
@@ -156,8 +153,7 @@ def kappa(table: pd.DataFrame, over: str = "") -> Plot:
         choices=choices,
         points=_points(rows, choices, hover, rows[over], 100 * rows["kappa"], 100 * rows["u_kappa"]),
         table="kappa",
-        caption="κ = (model − reference) / |reference|. A band shows what the numerical uncertainties of model and "
-        "reference allow together; where it is not visible, it is narrower than the line.",
+        caption=LAYOUT["caption"]["kappa"],
         unit=" %",
     )
 
@@ -208,7 +204,7 @@ def curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
         The points: model, the text of the case, x and y, and perhaps nu.
     """
     x, y = quantity.x.symbol, quantity.y.symbol
-    choices = [words("case")]
+    choices = [column("case")]
     (x_label, abscissas), (y_label, ordinates) = (_scaled(quantity.x, rows["x"]), _scaled(quantity.y, rows["y"]))
     points = _points(rows, choices, lambda row: f"{x} = {row['x']:.6g}, {y} = {row['y']:.6g}", abscissas, ordinates)
     views = {
@@ -295,6 +291,6 @@ def _over_key(rows: pd.DataFrame, keys: list[str], file: str, id: str) -> Plot:
         choices=choices,
         points=points,
         table=f"{id}-numbers",
-        caption="A band shows the bound on the numerical error; where it is not visible, it is narrower than the line.",
+        caption=LAYOUT["caption"]["over_key"],
         y_labels=labels,
     )

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Okabe and Ito's colours that stay apart for every kind of colour vision and, in this order, in grey.
 COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666")
+#: Colours that a dark page has in place of those that are too dark for it; the others are used on both.
+_ON_DARK = {"#000000": "#f2f4f6", "#0072b2": "#3f9fe0", "#d55e00": "#f07a24", "#666666": "#a8afb7"}
 #: Markers of the points, in the order of `COLOURS`; the same in Bokeh, and as characters.
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 _BOKEH_MARKERS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "hex", "square_pin", "star")
@@ -43,7 +45,7 @@ _MODEL_DASHES = {
 MODEL_ORDER = tuple(_MODEL_DASHES)
 
 #: The model whose curve is broad and pale, below the others: where they are right they cover it.
-_BROAD = "fscm"
+BROAD = "fscm"
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +71,11 @@ class ModelStyle:
     marker: str
     sign: str
     broad: bool
+
+    @property
+    def on_dark(self) -> str:
+        """Its colour on a dark page."""
+        return _ON_DARK.get(self.colour, self.colour)
 
     @property
     def arguments(self) -> dict[str, Any]:
@@ -99,7 +106,7 @@ def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
         # With every turn of the colours the markers move on by one: a pair of both comes back after 64 models.
         shape = (index + turn) % len(MARKERS)
         markers = MARKERS[shape], _BOKEH_MARKERS[shape], _SIGNS[shape]
-        styles[name] = ModelStyle(COLOURS[colour], line, _DASHES[line], *markers, broad=name == _BROAD)
+        styles[name] = ModelStyle(COLOURS[colour], line, _DASHES[line], *markers, broad=name == BROAD)
     return {name: styles[name] for name in present}
 
 

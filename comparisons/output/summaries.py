@@ -19,9 +19,8 @@ from comparisons.output.table import (
     Table,
     columns,
     key_columns,
-    percents,
+    laid_out,
     physical_text,
-    words,
 )
 from comparisons.output.terminal import rich_table
 from comparisons.problem.units import si_text
@@ -37,10 +36,6 @@ _LEAST_REFERENCE = 5e-7
 
 #: Failures that are written one by one.
 _FAILURES = 3
-
-_QUANTITY = words("quantity")
-_SHORT = percents("largest", "kappa", "u_kappa", least=SHORT_PERCENT)
-_CASE = columns(*CASE)
 
 
 def _error_text(model: str, row: Record) -> str:
@@ -80,7 +75,7 @@ def case_tables(table: pd.DataFrame) -> Iterator[Table]:
         yield Table(
             f"cases-{quantity}-{reference}",
             f"{quantity}: kappa in percent (uncertainty) against {reference}",
-            [*_CASE, Column(str(reference), _reference_text, "reference_value"), *models],
+            [*columns(*CASE), Column(str(reference), _reference_text, "reference_value"), *models],
             cases.join(of_models),
         )
 
@@ -138,16 +133,16 @@ def side_by_side(cases: Table, width: int) -> Iterator[pd.DataFrame]:
     yield cases.texts[[*fixed, *beside]]
 
 
-def _printed(layout: Sequence[Column], rows: pd.DataFrame, title: str) -> RenderableType:
-    """Return a table of the first rows; the title tells how many there are."""
-    more = f" (the first {_ROWS} of {len(rows)} rows)" if len(rows) > _ROWS else ""
-    return rich_table(Table("", title, layout, rows.head(_ROWS)).texts, title + more)
+def _printed(table: Table) -> RenderableType:
+    """Return the first rows of a table; the title tells how many there are."""
+    count = len(table.stored)
+    more = f" (the first {_ROWS} of {count} rows)" if count > _ROWS else ""
+    return rich_table(replace(table, stored=table.stored.head(_ROWS)).texts, table.caption + more)
 
 
 def largest_errors(kappa: pd.DataFrame) -> RenderableType:
     """Return the largest relative error of each model and quantity, in percent, and its case."""
-    layout = [_QUANTITY, *columns("model"), _SHORT, *_CASE]
-    return _printed(layout, worst_rows(kappa, ["quantity", "model"]), "largest abs(kappa) in percent")
+    return _printed(laid_out("largest_on_screen", worst_rows(kappa, ["quantity", "model"])))
 
 
 def sweep_tables(results: pd.DataFrame, kappa: pd.DataFrame) -> Iterator[RenderableType]:
@@ -174,7 +169,7 @@ def sweep_tables(results: pd.DataFrame, kappa: pd.DataFrame) -> Iterator[Rendera
     keys = [name for name in varied_of(of_files) if of_files[name].notna().any()]
     for quantity, rows in of_files.groupby("quantity", sort=False):
         layout = [*(key_columns(keys) or columns("problem")), *columns("model"), Column(str(quantity), physical_text)]
-        yield _printed(layout, rows, "values")
+        yield _printed(Table("", "values", layout, rows))
     if len(kappa):
         yield largest_errors(kappa)
 

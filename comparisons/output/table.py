@@ -1,4 +1,4 @@
-"""The model of a table: a description of its columns, and the stored rows that every format shows by it.
+"""The model of a table: a description of its columns (``layout.toml``), and the stored rows that every format shows.
 
 A column has a heading, the text of a row that every format shows, and the name of the stored number behind it, by
 which a page sorts.  The modules `latex`, `markup` and `terminal` beside this one write the texts.
@@ -7,16 +7,17 @@ which a page sorts.  The modules `latex`, `markup` and `terminal` beside this on
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
+from importlib.resources import files
 from typing import Any
 
 import pandas as pd
 
 from comparisons.judging.summary import coverage_text
 from comparisons.numerics.number_text import error_text, exact, limits_text, percent_text, value_text
-from comparisons.problem import PARAMETERS
 from comparisons.problem.units import si_text
 from comparisons.quantities import title_of
 from comparisons.runs.frames import unit_in
@@ -113,51 +114,54 @@ def _missing(stored: object) -> bool:
     return stored is None or stored != stored
 
 
-def words(heading: str, name: str = "", kind: str = "words") -> Column:
-    """Return a column of the texts that are stored under a name, that of the heading if none is given."""
-    name = name or heading
-    return Column(heading, lambda row: "" if _missing(row.get(name)) else str(row[name]), kind=kind)
+#: Texts of a number and its bound, by the names of the forms.
+_BOUNDED: Mapping[str, Callable[[float, float], str]] = {
+    "percent": percent_text,
+    "short percent": partial(percent_text, least=SHORT_PERCENT),
+    "value": value_text,
+    "error": error_text,
+}
 
 
-def of_number(heading: str, name: str, text: Callable[[Record], str]) -> Column:
-    """Return a column of texts that show a stored number, empty where it is missing."""
-    return Column(heading, lambda row: "" if _missing(row.get(name)) else text(row), name)
+def _number_text(number: float, form: str) -> str:
+    if math.isinf(number):
+        return "∞" if number > 0.0 else "−∞"
+    return exact(number) if form == "exact" else format(number, form)
 
 
-def numbers(heading: str, name: str = "", form: str = "") -> Column:
-    """Return a column of stored numbers in a format, as ".1e"; without one every digit is shown.
+def column(heading: str, name: str = "", form: str = "", u: str = "", by: str = "", kind: str = "words") -> Column:
+    """Return a column of what is stored under a name, that of the heading if none is given; empty where it is missing.
+
+    Parameters
+    ----------
+    heading, name : str
+    form : str
+        Of a number: "exact" for every digit, a format as ".1e", or one of `_BOUNDED`; empty of a text.
+    u : str
+        Name of the bound of the number.
+    by : str
+        Name of the number by which a page sorts, if it is another.
+    kind : str
+        As of `Column`.
 
     Examples
     --------
-    >>> column = numbers("u", "u_num", ".1e")
-    >>> [column.text({"u_num": number}) for number in (1.5e-9, math.inf, math.nan, None)]
+    >>> rounded = column("u", "u_num", ".1e")
+    >>> [rounded.text({"u_num": number}) for number in (1.5e-9, math.inf, math.nan, None)]
     ['1.5e-09', '∞', '', '']
+    >>> column("error", "kappa", "percent", "u_kappa").text({"kappa": 0.066931234, "u_kappa": 1e-9})
+    '6.69312(5)'
     """
     name = name or heading
 
     def text(row: Record) -> str:
-        number = float(row[name])
-        if math.isinf(number):
-            return "∞" if number > 0.0 else "−∞"
-        return format(number, form) if form else exact(number)
+        if _missing(row.get(name)):
+            return ""
+        if u:
+            return _BOUNDED[form](row[name], row[u])
+        return _number_text(float(row[name]), form) if form else str(row[name])
 
-    return of_number(heading, name, text)
-
-
-def values(heading: str, name: str, u: str) -> Column:
-    """Return a column of values to the digits that their uncertainties leave them."""
-    return of_number(heading, name, lambda row: value_text(row[name], row[u]))
-
-
-def percents(heading: str, name: str, u: str, **least: float) -> Column:
-    """Return a column of relative errors in percent; the number behind one is the stored fraction.
-
-    Examples
-    --------
-    >>> percents("error", "kappa", "u_kappa").text({"kappa": 0.066931234, "u_kappa": 1e-9})
-    '6.69312(5)'
-    """
-    return of_number(heading, name, lambda row: percent_text(row[name], row[u], **least))
+    return Column(heading, text, (by or name) if form else "", kind)
 
 
 def physical_text(row: Record) -> str:
@@ -195,32 +199,43 @@ def _key_text(name: str, row: Record) -> str:
 #: Headings of the parameters of a case and of its problem file.
 CASE = ("n", "k", "μ", "ν", "problem")
 
+#: Columns, tables and captions of plots.
+LAYOUT: Any = tomllib.loads(files(__package__).joinpath("layout.toml").read_text(encoding="utf-8"))
+
 #: Columns of more than one table, by their headings.
-_COLUMNS = {
-    column.heading: column
-    for column in (
-        *map(words, ("model", "gate", "candidate", "reference", "problem", "unit", "status")),
-        words("version", "model_version"),
-        words("reason", kind="prose"),
-        words("verdict", kind="verdict"),
-        *(numbers(heading, name) for heading, name in zip("nkμν", PARAMETERS, strict=True)),
-        *(numbers(name, form=".0f") for name in ("asked", "answered", "failed", "cases")),
-        Column("quantity", lambda row: title_of(row["quantity"])),
-        values("value", "value", "u_num"),
-        numbers("u_num", form=".1e"),
-        values("candidate's value", "value", "u_num"),
-        values("reference's value", "reference_value", "u_reference"),
-        percents("κ (%)", "kappa", "u_kappa"),
-        of_number("largest |κ| (%)", "size", lambda row: percent_text(row["largest"], row["u_largest"])),
-        percents("rms κ (%)", "rms", "u"),
-        numbers("u of κ", "u_kappa", ".1e"),
-        Column("coverage", coverage_text),
-        Column("limits", lambda row: limits_text(row["lower"], row["upper"])),
-        of_number("E(U)", "error", lambda row: error_text(row["error"], row["uncertainty"])),
-    )
+_COLUMNS = {heading: column(heading, **described) for heading, described in LAYOUT["column"].items()} | {
+    "quantity": Column("quantity", lambda row: title_of(row["quantity"])),
+    "coverage": Column("coverage", coverage_text),
+    "limits": Column("limits", lambda row: limits_text(row["lower"], row["upper"])),
 }
 
 
 def columns(*headings: str) -> list[Column]:
     """Return columns of more than one table by their headings."""
     return [_COLUMNS[heading] for heading in headings]
+
+
+def laid_out(name: str, stored: pd.DataFrame, *made: Column, **more: Any) -> Table:
+    """Return a table that ``layout.toml`` describes.
+
+    Parameters
+    ----------
+    name : str
+        In that file, and the id of the table.
+    stored : DataFrame
+    *made : Column
+        Those of its columns that the program makes, each in the place of its heading.
+    **more
+        Other attributes of the table, or in place of those of the file.
+
+    Examples
+    --------
+    >>> rows = pd.DataFrame({"entry": ["seconds"], "content": [9.0]})
+    >>> laid_out("provenance", rows).texts
+         entry content
+    0  seconds     9.0
+    """
+    described = LAYOUT["table"][name]
+    known = _COLUMNS | {made_column.heading: made_column for made_column in made}
+    listed = [column(**entry) if isinstance(entry, dict) else known[entry] for entry in described["columns"]]
+    return Table(**({"id": name} | described | {"columns": listed, "stored": stored} | more))

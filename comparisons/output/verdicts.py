@@ -19,7 +19,7 @@ from comparisons.numerics.number_text import error_text, exact, limits_text
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
 from comparisons.output.markup import markdown
-from comparisons.output.table import CASE, Column, Record, Table, columns
+from comparisons.output.table import Column, Record, Table, laid_out
 from comparisons.problem import PARAMETERS
 from comparisons.problem.problem import split_name
 from comparisons.quantities import CURVES
@@ -31,11 +31,6 @@ _NAMES = 12
 
 #: What is stored of each gate beside its verdicts: what was required, in which unit, and on what grounds.
 GATE_COLUMNS = ("id", "requirement", "metric", "basis", "grounds")
-
-#: The worst case of each gate, as it is in LaTeX.
-_WORST_CASES = columns(
-    *("verdict", "gate", *CASE, "candidate", "candidate's value", "reference", "reference's value", "E(U)")
-)
 
 #: Suffix of a file of verdicts -> its text, made of the table of the gates and of that of their worst cases.
 FORMATS: dict[str, Callable[[Table, Table], str]] = {
@@ -168,14 +163,9 @@ def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate], specs:
     write_table(summary.assign(verdict=summary["verdict"].map(str)), folder / SUMMARY)
     write_table(pd.DataFrame(required, columns=list(GATE_COLUMNS), dtype=str), folder / GATES)
     again, requirement = partial(command, specs=specs), {gate.id: gate.requirement for gate in gates}
-    layout = [
-        *columns("verdict", "gate", "candidate", "reference", "coverage", "E(U)", "limits"),
-        Column("command", again),
-        *columns("reason"),
-        Column("requirement", lambda row: requirement.get(row["gate"], "")),
-    ]
-    by_gate = Table("verdicts", "Verdicts", layout, summary)
-    worst = Table("verdicts", "Verdicts of fscm-bench, worst first, each in its worst case", _WORST_CASES, summary)
+    requirements = Column("requirement", lambda row: requirement.get(row["gate"], ""))
+    by_gate = laid_out("by_gate", summary, Column("command", again), requirements)
+    worst = laid_out("worst_of_gates", summary, id="verdicts")
     write_file(folder / JUNIT, junit(judged, again))
     for suffix, text_of in FORMATS.items():
         write_file(folder / f"{VERDICTS}.{suffix}", text_of(by_gate, worst))

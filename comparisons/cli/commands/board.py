@@ -14,7 +14,7 @@ from comparisons.cli.screen import output
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log
 from comparisons.output.report.board import standings
-from comparisons.output.table import Table, columns, words
+from comparisons.output.table import laid_out
 from comparisons.output.terminal import rich_table
 from comparisons.pipeline.board import INDEX, make_board
 
@@ -31,7 +31,7 @@ def call(args: argparse.Namespace) -> int:
     entries = make_board(args.submissions, args.out, args.jobs)
     rows = standings(entries)
     if len(rows) and not args.quiet:
-        layout = [*columns("model"), words("version"), *columns("verdict", "quantity", "largest |κ| (%)", "coverage")]
-        output().print(rich_table(Table("board", "", layout, rows).texts, "board"))
+        board = laid_out("board_on_screen", rows)
+        output().print(rich_table(board.texts, board.caption))
     log(f"the board is {args.out / INDEX}")
     return OK if all(entry.judged for entry in entries) else FAILED

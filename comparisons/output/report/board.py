@@ -9,12 +9,10 @@ from typing import Any
 import pandas as pd
 
 from comparisons.judging.report_card import overall
-from comparisons.output import plots
 from comparisons.output.errors import error_summary
 from comparisons.output.report.leaderboard import Entry, standing
-from comparisons.output.report.page import Block, Page
-from comparisons.output.report.tables import relative_errors
-from comparisons.output.table import CASE, SHORT_PERCENT, Table, columns, percents, words
+from comparisons.output.report.page import Block, Page, errors_and_plot
+from comparisons.output.table import Table, column, columns, laid_out
 
 #: Regions of the cases, by the headings of their columns.
 _REGIONS: dict[str, Callable[[pd.DataFrame], pd.Series]] = {
@@ -27,10 +25,6 @@ _REGIONS: dict[str, Callable[[pd.DataFrame], pd.Series]] = {
     "n = 2": lambda kappa: kappa["n"] == 2.0,
     "n > 2": lambda kappa: kappa["n"] > 2.0,
 }
-
-_MODEL = words("model", kind="link")
-_ERRORS = columns("largest |κ| (%)", *CASE, "rms κ (%)", "coverage")
-_ORIGIN = [words("version"), words("date"), words("licence")]
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,17 +118,12 @@ def _results(entries: Sequence[BoardEntry], rows: pd.DataFrame) -> dict[str, Seq
     """Return the sections of what was judged."""
     newest = rows[rows["newest"]].sort_values("size", kind="stable", ignore_index=True)
     history = rows[rows.groupby("model")["version"].transform("nunique") > 1]
-    board = [_MODEL, *columns("verdict", "quantity"), *_ERRORS, *_ORIGIN]
-    versions = [_MODEL, *_ORIGIN[:2], *columns("verdict", "quantity"), *_ERRORS]
     kappa = _kappa(entries, set(newest["folder"]))
-    plot = plots.kappa(kappa) if len(kappa) else None
     return {
-        "models": [
-            Table("models", "The newest version of each model, the smallest largest error first", board, newest)
-        ],
-        "regions": [_regions(kappa, newest)] if plot else [],
-        "errors": [plot, relative_errors(kappa, plot)] if plot else [],
-        "history": [Table("history", "Largest errors by version", versions, history)],
+        "models": [laid_out("newest", newest, id="models")],
+        "regions": [_regions(kappa, newest)] if len(kappa) else [],
+        "errors": errors_and_plot(kappa),
+        "history": [laid_out("history", history)],
     }
 
 
@@ -156,7 +145,7 @@ def _regions(kappa: pd.DataFrame, newest: pd.DataFrame) -> Table:
         summary = error_summary(kappa[inside(kappa)].assign(status="ok"))
         names = {"largest": f"kappa {heading}", "u_largest": f"u {heading}"}
         table = table.merge(summary[[*keys, *names]].rename(columns=names), on=keys, how="left")
-    layout = [percents(name, f"kappa {name}", f"u {name}", least=SHORT_PERCENT) for name in _REGIONS]
+    layout = [column(name, f"kappa {name}", "short percent", f"u {name}") for name in _REGIONS]
     return Table("regions", "Largest |κ| in percent with its sign, by region", [*columns(*keys), *layout], table)
 
 
@@ -170,6 +159,4 @@ def _submissions(entries: Sequence[BoardEntry]) -> Table:
         if entry.judged and submission:
             row |= {"status": str(overall(entry.judged.stored.verdicts)), "folder": submission.folder}
         rows.append(row)
-    layout = [words("folder", "path"), _MODEL, words("status", kind="verdict"), words("reason", kind="prose")]
-    layout += [*_ORIGIN, *(words(name, kind="prose") for name in ("authors", "citation"))]
-    return Table("submissions", "Every submission", layout, pd.DataFrame(rows))
+    return laid_out("submissions", pd.DataFrame(rows))

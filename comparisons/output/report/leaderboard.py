@@ -13,16 +13,8 @@ from comparisons.judging.report_card import without_card_gates
 from comparisons.output.report.page import Page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import Stored
-from comparisons.output.table import CASE, Column, Table, columns, numbers, words
+from comparisons.output.table import Column, laid_out
 from comparisons.runs.rows import Key
-
-_BOUND = Column("bound (%)", lambda row: "" if pd.isna(row["u"]) else f"{100 * row['u']:.1e}", "u")
-_LAYOUT = (
-    *columns("model", "quantity", "verdict", "largest |κ| (%)", *CASE, "rms κ (%)"),
-    *(_BOUND, *columns("asked", "answered"), numbers("not applicable", "not_applicable", ".0f"), *columns("failed")),
-    *(numbers("cases with κ", "cases", ".0f"), *columns("reference"), *map(words, ("version", "date"))),
-    *(words("fscm-bench", "package"), words("run")),
-)
 
 #: Facts that two runs must share for their errors and verdicts to be comparable, in words for a message.
 _FACTS = ("cases", "tier", "gates", "chosen by gates")
@@ -116,9 +108,12 @@ def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:
     board_rows = board_rows.sort_values(["quantity", "case_set", "size"], kind="stable", ignore_index=True)
     facts = {letter: entry.facts for entry, letter in zip(entries, letters, strict=True)}
     sets = pd.DataFrame([[letter, *facts[letter]] for letter in sorted(facts)], columns=["set", *_FACTS])
-    differing = [words("set", "case_set")] if len(sets) > 1 else []
-    board = Table("leaderboard", "One row for each model and quantity of each run", [*differing, *_LAYOUT], board_rows)
-    described = sets if differing else sets.head(0)
-    facts_of_sets = Table("sets", "Digests of cases and gates", list(map(words, sets)), described)
+    several = len(sets) > 1
+    case_set = Column("set", lambda row: row["case_set"] if several else "")
+    bound = Column("bound (%)", lambda row: "" if pd.isna(row["u"]) else f"{100 * row['u']:.1e}", "u")
+    blocks = {
+        "sets": [laid_out("sets", sets if several else sets.head(0))],
+        "board": [laid_out("leaderboard", board_rows, case_set, bound)],
+    }
     headline = f"Models: {board_rows['model'].nunique()}, runs: {len(entries)}"
-    return render(Page("leaderboard", headline, {"sets": [facts_of_sets], "board": [board]}))
+    return render(Page("leaderboard", headline, blocks))

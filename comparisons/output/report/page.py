@@ -5,9 +5,9 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 from importlib.resources import files
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pandas as pd
 
@@ -18,10 +18,13 @@ from comparisons.output.plots import Plot
 from comparisons.output.report import tables
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.summaries import case_tables, computations_sentence
-from comparisons.output.table import Table
+from comparisons.output.table import Table, laid_out
 from comparisons.output.verdicts import gates_sentence
 from comparisons.quantities import title_of
 from comparisons.runs.rows import CASE
+
+#: The texts of a page: its end, the meaning of the verdict, and its sections.
+TEXTS = tomllib.loads(files(__package__).joinpath("assets/texts.toml").read_text(encoding="utf-8"))
 
 
 class File(NamedTuple):
@@ -33,15 +36,6 @@ class File(NamedTuple):
 
 #: What a section of a page is made of.
 Block = Table | Plot | File
-
-
-class Section(NamedTuple):
-    """A section of a page."""
-
-    id: str
-    title: str
-    text: str
-    blocks: Sequence[Block]
 
 
 @dataclass(frozen=True)
@@ -69,35 +63,24 @@ class Page:
     verdict: str = ""
 
     @cached_property
-    def sections(self) -> list[Section]:
+    def sections(self) -> dict[str, list[Block]]:
         """The sections that are not empty, in the order of the texts; a table without rows is left out."""
-        sections = []
-        for name, text in texts()["section"].items():
+        sections = {}
+        for name in TEXTS["section"]:
             blocks = self.blocks.get(name, ())
             if filled := [block for block in blocks if not isinstance(block, Table) or len(block.stored)]:
-                sections.append(Section(name, text["title"], text["text"], filled))
+                sections[name] = filled
         return sections
-
-    @property
-    def end(self) -> str:
-        """What the page was made of."""
-        return str(texts()["end"][self.kind])
 
     @cached_property
     def tables(self) -> dict[str, Table]:
         """The tables of all sections, by their ids."""
-        return {block.id: block for section in self.sections for block in section.blocks if isinstance(block, Table)}
+        return {block.id: block for blocks in self.sections.values() for block in blocks if isinstance(block, Table)}
 
     @cached_property
     def plots(self) -> dict[str, Plot]:
         """The plots of all sections, by their ids."""
-        return {block.id: block for section in self.sections for block in section.blocks if isinstance(block, Plot)}
-
-
-@cache
-def texts() -> Any:
-    """Return the texts of a page."""
-    return tomllib.loads(files(__package__).joinpath("assets/texts.toml").read_text(encoding="utf-8"))
+        return {block.id: block for blocks in self.sections.values() for block in blocks if isinstance(block, Plot)}
 
 
 def make_page(stored: Stored) -> Page:
@@ -113,26 +96,36 @@ def make_page(stored: Stored) -> Page:
     computed = f"{computations_sentence(stored.record['rows'])}."
     summary = stored.error_summary()
     headline = _largest_error(summary) or (gates or [computed])[0]
-    lines = [*gates, texts()["meaning"][verdict or "none"], computed]
+    lines = [*gates, TEXTS["meaning"][verdict or "none"], computed]
     blocks = {name: list(blocks) for name, blocks in _blocks(stored, summary).items()}
     return Page("report", headline, blocks, lines, verdict)
 
 
 def _blocks(stored: Stored, summary: pd.DataFrame) -> dict[str, Iterable[Block]]:
     over_keys, curves = plots.values_over_keys(stored.results), plots.curves(stored.curves)
-    kappa = plots.kappa(stored.kappa) if stored.kappa["kappa"].notna().any() else None
+    errors = errors_and_plot(stored.kappa)
+    ordered = summary.sort_values(["quantity", "size"], ascending=[True, False], ignore_index=True)
+    solved = stored.results[(stored.results["size"] > 0) & (stored.results["status"] == "ok")]
     return {
-        "compared": [tables.errors_of_models(summary), *case_tables(stored.comparison)],
+        "compared": [laid_out("summary", ordered), *case_tables(stored.comparison)],
         "gates": tables.gates(stored) if stored.judged else [],
         "worst": tables.worst_cases(stored) if stored.judged else [],
         "values": [block for plot, keys in over_keys for block in (plot, tables.values(stored, plot, keys))],
-        "errors": [kappa, tables.relative_errors(stored.kappa, kappa), tables.largest_errors(stored)] if kappa else [],
+        "errors": [*errors, tables.largest_errors(stored)] if errors else [],
         "shapes": [block for plot in curves for block in (plot, tables.curve_points(stored, plot))],
-        "order": [tables.convergence(stored.results)],
-        "numbers": tables.numbers_of(stored),
+        "order": [laid_out("convergence", solved)],
+        "numbers": [tables.models(stored), laid_out("results", stored.results)],
         "cases": [File(name, text) for name, text in stored.texts.items()],
         "origin": [tables.provenance(stored.record)],
     }
+
+
+def errors_and_plot(kappa: pd.DataFrame) -> list[Block]:
+    """Return the plot of relative errors and the table of its numbers; nothing where there is no error."""
+    if not kappa["kappa"].notna().any():
+        return []
+    plot = plots.kappa(kappa)
+    return [plot, laid_out("kappa", kappa, group=plot.group)]
 
 
 def _largest_error(summary: pd.DataFrame) -> str:

@@ -16,10 +16,9 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from comparisons.judging.decision import Verdict
 from comparisons.output.latex import latex_parts
 from comparisons.output.markup import badge, html_table
-from comparisons.output.report.page import Page
+from comparisons.output.report.page import TEXTS, Page
 from comparisons.output.style import model_styles
 from comparisons.output.table import Table
 from comparisons.runs.csv_format import csv_text
@@ -29,9 +28,6 @@ from comparisons.runs.csv_format import csv_text
 _BOKEH = ("server/static/js/bokeh.min.js", "server/static/js/bokeh-api.min.js")
 
 _ASSETS = "comparisons.output.report"
-
-#: Colours that a dark page has in place of those that are too dark for it; the others are used on both.
-_ON_DARK = {"#000000": "#f2f4f6", "#0072b2": "#3f9fe0", "#d55e00": "#f07a24", "#666666": "#a8afb7"}
 
 #: A record of a CSV text: a quoted line's end does not end it.
 _RECORD = re.compile(r'(?:[^"\n]|"[^"]*")+')
@@ -53,33 +49,23 @@ def render(page: Page) -> str:
         "tables": {table.id: _data(table) for table in page.tables.values()},
         "plots": [plot.data() for plot in page.plots.values()],
         "model_styles": {
-            name: [style.colour, _ON_DARK.get(style.colour, style.colour), style.dash, style.marker, style.broad]
-            for name, style in styles.items()
+            name: [style.colour, style.on_dark, style.dash, style.marker, style.broad] for name, style in styles.items()
         },
     }
-    context = {
-        "page": page,
-        "verdicts": list(map(str, Verdict)),
-        "model_styles": styles,
-        "style": Markup(_asset(_ASSETS, "assets/report.css")),
-        "scripts": scripts,
-        "policy": _policy(scripts),
-        "data": data,
-    }
-    return _environment().get_template("page.html").render(context) + "\n"
+    content = {"page": page, "texts": TEXTS, "model_styles": styles, "data": data}
+    shell = {"style": Markup(_asset(_ASSETS, "assets/report.css")), "scripts": scripts, "policy": _policy(scripts)}
+    return _environment().get_template("page.html").render(content | shell) + "\n"
 
 
 @cache
 def _environment() -> Environment:
     """The environment of the template: everything that is text is escaped."""
     loader = PackageLoader(_ASSETS, "assets")
-    environment = Environment(
-        loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
+    environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
+    environment.trim_blocks = environment.lstrip_blocks = True
     # JSON has no NaN and no infinity.
     environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
     environment.globals |= {"badge": badge, "html_table": html_table}
-    environment.filters["dark_colour"] = lambda colour: _ON_DARK.get(colour, colour)
     return environment
 
 
@@ -100,8 +86,7 @@ def _asset(package: str, name: str) -> str:
 def _script(package: str, name: str) -> Markup:
     """A script as it stands in the page; a browser would fetch a link to a map of its source over the network."""
     # HTML reads a carriage return as a line's end, and the hash of the script would then be another.
-    lines = _asset(package, name).replace("\r", "").split("\n")
-    text = "\n".join(line for line in lines if not line.startswith("//# sourceMappingURL"))
+    text = re.sub("(?m)^//# sourceMappingURL.*\n?", "", _asset(package, name).replace("\r", ""))
     return Markup(text.replace("</script", "<\\/script"))
 
 
