@@ -77,6 +77,6 @@ class Problem:
             )
         if C != 0.0 and not m * growth > LOAD_INTEGRAL:
             raise ValueError(
-                f"growth f ~ r^{growth:.3g} of the punch is outside ({LOAD_INTEGRAL / m:.3g}, inf): with "
+                f"growth f ~ r^{growth:.9g} of the punch is outside ({LOAD_INTEGRAL:g}/{m:g}, inf): with "
                 f"p ~ H^-{m:g} far away, the load integral of p r dr diverges"
             )

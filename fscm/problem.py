@@ -148,15 +148,14 @@ class Problem:
             closed_high=True,
         )
         mu = real_number("Tabor number mu", mu, low=0.0, high=inf, reason="it is a positive ratio of lengths")
-        if 2.0 * n + k <= 1.0:
-            raise ValueError(
-                f"shape index n = {n:g} is outside ({(1.0 - k) / 2.0:g}, inf) for k = {k:g}: "
-                "the Tabor number of Eq. 29 is a power 1 / (2n + k - 1)"
-            )
         if n > _LARGEST_N:
             raise ValueError(
                 f"shape index n = {n:g} is outside (0, {_LARGEST_N:g}]: f = r^n / n overflows near the contact"
             )
+        punch = PowerPunch(n) if punch is None else punch
+        law = LennardJones() if law is None else law
+        _check_parts(punch, law)
+        _check_exponents(n, k, punch, law)
         # By logarithms: the power itself may overflow.
         log_M = math.log(2.0) + (2.0 * n + k - 1.0) / n * math.log(mu)
         if not math.log(_LEAST_M) <= log_M <= math.log(_LARGEST_M):
@@ -171,9 +170,6 @@ class Problem:
                 )
             if k != 0.0:
                 raise ValueError(f"gradient exponent k = {k} is outside [0, 0]: the modulus at the surface is finite")
-        punch = PowerPunch(n) if punch is None else punch
-        law = LennardJones() if law is None else law
-        _check_parts(punch, law)
         if isinstance(punch, PowerPunch) and punch != PowerPunch(n):
             raise ValueError(
                 f"punch = {punch!r} does not fit n = {n:g}: a dimensionless power-law punch is r^n / n, with "
@@ -185,7 +181,6 @@ class Problem:
                 "a physical one is Problem(solid, punch, law)"
             )
         law = dimensionless_law(law)
-        _check_load_integral(punch, law)
         self._set(n, k, mu, punch, law, graded, None, None, DIMENSIONLESS)
 
     def _pose_physical(self, solid: Any, punch: Any, law: Any) -> None:
@@ -206,11 +201,7 @@ class Problem:
             power_law = PowerLaw(float(solid.modulus(surface)[0]), 1.0, 0.0, float(solid.poisson(surface)[0]))
             graded = ScaledSolid(solid, units["radius"])
         k = power_law.k
-        if 2.0 * n + k <= 1.0:
-            raise ValueError(
-                f"n = {n:g} is outside ({(1.0 - k) / 2.0:g}, inf) for k = {k:g}: "
-                "the Tabor number of Eq. 29 is a power 1 / (2n + k - 1)"
-            )
+        _check_exponents(n, k, punch, law)
         mu = number_from_log("Tabor number", log_tabor_number(power_law, n, Q, w, z0))
         shape = PowerPunch(n) if type(punch) is PowerPunch else scaled_punch(punch, units["radius"], z0)
         core = Problem(n, k, mu, shape, dimensionless_law(law), graded)
@@ -333,10 +324,16 @@ def _check_parts(punch: Any, law: Any) -> None:
         )
 
 
-def _check_load_integral(punch: PunchShape, law: SurfaceLaw) -> None:
+def _check_exponents(n: float, k: float, punch: PunchShape, law: SurfaceLaw) -> None:
+    """Refuse a punch that is too slender for the law, whose limit is the stricter one, or for the Tabor number."""
     C, m = law.decay
     if C != 0.0 and not m * punch.growth > _LOAD_INTEGRAL:
         raise ValueError(
-            f"growth f ~ r^{punch.growth:g} of the punch is outside ({_LOAD_INTEGRAL / m:g}, inf): "
+            f"growth f ~ r^{punch.growth} of the punch is outside ({_LOAD_INTEGRAL:g}/{m:g}, inf): "
             f"with p ~ H^-{m:g} far away, the load integral of p r dr diverges at infinity"
+        )
+    if 2.0 * n + k <= 1.0:
+        raise ValueError(
+            f"shape index n = {n} is outside ({(1.0 - k) / 2.0:.12g}, inf) for k = {k}: "
+            "the Tabor number of Eq. 29 is a power 1 / (2n + k - 1)"
         )

@@ -66,8 +66,8 @@ def short(value: float, uncertainty: float | None) -> str:
 
     Examples
     --------
-    >>> short(1.7884817, 2.6e-6), short(-0.4123, 0.0101), short(123456.0, 2300.0), short(1.5, 0.0)
-    ('1.788482(3)', '-0.412(11)', '123(3)e3', '1.5')
+    >>> short(1.7884817, 2.6e-6), short(-0.4123, 0.0101), short(123456.0, 2300.0), short(1.5, 0.0), short(-1e-4, 5e-3)
+    ('1.788482(3)', '-0.412(11)', '123(3)e3', '1.5', '0.000(5)')
     """
     if not math.isfinite(value):
         return str(value)
@@ -88,7 +88,8 @@ def short(value: float, uncertainty: float | None) -> str:
     number = Decimal(repr(float(value)))
     if number.adjusted() - digit > _MOST_DIGITS:
         return f"{float(value)!r}({int(u.scaleb(-digit))}e{digit})"
-    rounded = number.quantize(step, ROUND_HALF_EVEN)
+    # The sum has no sign where it is zero: -0.0002(5) is 0.000(5).
+    rounded = number.quantize(step, ROUND_HALF_EVEN) + 0
     if digit <= 0:
         return f"{rounded:f}({int(u.scaleb(-digit))})"
     return f"{int(rounded.scaleb(-digit))}({int(u.scaleb(-digit))})e{digit}"

@@ -19,7 +19,7 @@ from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judging.selection import cases_of, load_user_gates, needed_keys
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import REFERENCES
-from comparisons.problem.variation import parse_variations
+from comparisons.problem.variation import parse_variations, require_units
 from comparisons.registry import MODELS, ExternalIdentity, create
 from comparisons.runs.cases import TIERS, VERIFICATION, Grid, cases_text, grids, grids_for, load_grids
 from comparisons.runs.tasks import Task, plan
@@ -210,7 +210,6 @@ def cases_of_problem(
     ValueError
         One sentence, if a quantity is unknown, or a text or one of the problems is not admissible.
     """
-    Problem.load(problem)
     texts: dict[str, Any] = {
         "id": problem.stem,
         "title": problem.name,
@@ -221,6 +220,7 @@ def cases_of_problem(
         "problem": problem.name,
     }
     variations = parse_variations(vary)
+    require_units(Problem.load(problem), variations)
     values = ", ".join(f"{json.dumps(key.name)} = {json.dumps(key.values)}" for key in variations)
     cases = load_cases(grid_text(texts, vary=f"{{ {values} }}"), None, problem.parent)
     return replace(cases, source=str(problem))

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.data.validation import known_name, shown
-from comparisons.problem.kinds import SECTIONS
+from comparisons.problem.kinds import KINDS, SECTIONS
 from comparisons.problem.problem import BETWEEN, Problem
 from comparisons.problem.reading import document_of, problem_of
 from comparisons.problem.units import NUMBER
@@ -154,6 +154,24 @@ def parse_variations(texts: Sequence[str]) -> list[Variation]:
     if len(variations) < len(texts):
         raise ValueError(f"--vary {', '.join(variations)}: a key is there twice; give all its values in one --vary")
     return list(variations.values())
+
+
+def require_units(problem: Problem, variations: Sequence[Variation]) -> None:
+    """Refuse a value without a unit of a key that has one: in a problem file, such a text is refused as well.
+
+    Raises
+    ------
+    ValueError
+        One sentence.
+    """
+    for variation in variations:
+        section = getattr(problem, variation.section)
+        form = KINDS[variation.section][section.kind].keys.get(variation.key.partition(".")[0])
+        # The slope Q of a cone has no unit.
+        unit = "" if form is None or (form.unit == "m^(n-1)" and section["n"] == 1.0) else form.unit
+        for value in variation.values:
+            if unit and not isinstance(value, str):
+                raise ValueError(f"--vary {variation.name}: the value {value:g} has no unit; it is one of {unit}")
 
 
 def problems_of(path: Path, variations: Sequence[Variation], name: str = "") -> Iterator[Problem]:

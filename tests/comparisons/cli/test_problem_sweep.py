@@ -50,6 +50,8 @@ def test_every_combination_by_every_model(tmp_path, capsys):
         ("solid.E0", "names no key with values"),
         ("solid.E0=1:2:1 GPa", "1 values are outside 2 to 100000"),
         ("solid.k=0.2, 1.5", "solid.k = 1.5"),
+        ("solid.E0=1:2:3", "the value 1 has no unit; it is one of Pa"),
+        ("punch.R=1 um, 2 um, 3", "the value 3 has no unit; it is one of m"),
         ("solid.kind=coating", "a kind is not varied"),
     ],
 )
