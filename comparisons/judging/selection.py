@@ -9,7 +9,7 @@ from comparisons.console.progress import log
 from comparisons.domain import Domain
 from comparisons.judging.gates import GIVEN, Gate, load_gates, of_tier
 from comparisons.problem import Problem
-from comparisons.runs.cases import Grid
+from comparisons.runs.cases import FOR_GIVEN_MODELS, Grid
 from comparisons.runs.rows import Key
 from comparisons.runs.tasks import plan, problem_for
 
@@ -73,8 +73,8 @@ def promised(domain: Domain | None, quantity: str, case: Problem) -> bool | None
 def needed_keys(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> set[Key]:
     """Return the keys of the results that gates need: of candidates, references and rivals in the cases of the gates.
 
-    A given model that no gate compares in any case is in the tables of errors alone: it needs all its results, with the
-    reference of each grid.
+    The tables of errors also show the grids that are for given models, and of a given model that no gate compares in
+    any case all grids, with the reference of each.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def needed_keys(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[s
     --------
     >>> from comparisons.judging.gates import gates_text
     >>> from comparisons.runs.cases import grids
-    >>> sorted(key[0] for key in needed_keys(load_gates(gates_text()), grids("quick"), ["dmt"]))[191:193]
+    >>> sorted({key[0] for key in needed_keys(load_gates(gates_text()), grids("quick"), ["dmt"])})
     ['dmt', 'fscm']
     """
     needed: set[Key] = set()
@@ -94,6 +94,8 @@ def needed_keys(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[s
         for case in cases_of(gate, grids, models):
             compared |= set(gate.models.values())
             needed |= {key_of(gate, role, case) for role in gate.models}
+    if models:
+        needed |= {task.key for task in plan([grid for grid in grids if FOR_GIVEN_MODELS in grid.tags], models)}
     if unjudged := [model for model in models or () if model not in compared]:
         needed |= {task.key for task in plan(grids, unjudged)}
     return needed

@@ -41,6 +41,9 @@ TIERS = ("quick", "full")
 #: its tables of errors.
 VERIFICATION = "verification"
 
+#: Grids with this tag are computed by a run with --model alone: no gate is about them, but reports and board show them.
+FOR_GIVEN_MODELS = "given"
+
 
 @dataclass(frozen=True, slots=True)
 class Grid:
@@ -213,14 +216,16 @@ def cases_text() -> str:
 
 
 def grids_for(standing: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
-    """Return the grids that a run computes: without those of verification if it has models of its own.
+    """Return the grids that a run computes: those of verification only without, and others only with given models.
 
     Examples
     --------
-    >>> all(VERIFICATION not in grid.tags for grid in grids_for(grids("quick"), ["jkr"]))
-    True
+    >>> with_models, without = grids_for(grids("quick"), ["jkr"]), grids_for(grids("quick"), None)
+    >>> [grid.id for grid in with_models if grid not in without]
+    ['displacements']
     """
-    return [grid for grid in standing if models is None or VERIFICATION not in grid.tags]
+    excluded = FOR_GIVEN_MODELS if models is None else VERIFICATION
+    return [grid for grid in standing if excluded not in grid.tags]
 
 
 @lru_cache(maxsize=len(TIERS))

@@ -13,6 +13,7 @@ from comparisons.output.errors import error_summary
 from comparisons.output.report.leaderboard import Entry, standing
 from comparisons.output.report.page import Block, Page, errors_and_plot
 from comparisons.output.table import Table, column, columns, laid_out
+from comparisons.quantities import ALL_QUANTITIES
 
 #: Regions of the cases, by the headings of their columns.
 _REGIONS: dict[str, Callable[[pd.DataFrame], pd.Series]] = {
@@ -85,7 +86,8 @@ def standings(entries: Sequence[BoardEntry]) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        As of `comparisons.output.report.leaderboard.standing`, one row a quantity, by model and date.
+        As of `comparisons.output.report.leaderboard.standing`, one row a quantity, by model and date; `order` sorts the
+        quantities, of which the judged one is the first.
     """
     tables = []
     for entry in entries:
@@ -95,7 +97,9 @@ def standings(entries: Sequence[BoardEntry]) -> pd.DataFrame:
             tables.append(errors[errors["model"] == submission.name])
     if not tables:
         return pd.DataFrame()
-    rows = pd.concat(tables, ignore_index=True).sort_values(["model", "date", "version"], ignore_index=True)
+    rows = pd.concat(tables, ignore_index=True)
+    rows = rows.assign(order=rows["quantity"].map(list(ALL_QUANTITIES).index))
+    rows = rows.sort_values(["model", "date", "version", "order"], ignore_index=True)
     return rows.assign(newest=rows["folder"] == rows.groupby("model")["folder"].transform("last"))
 
 
@@ -116,7 +120,7 @@ def board_page(entries: Sequence[BoardEntry]) -> Page:
 
 def _results(entries: Sequence[BoardEntry], rows: pd.DataFrame) -> dict[str, Sequence[Block]]:
     """Return the sections of what was judged."""
-    newest = rows[rows["newest"]].sort_values("size", kind="stable", ignore_index=True)
+    newest = rows[rows["newest"]].sort_values(["order", "size"], kind="stable", ignore_index=True)
     history = rows[rows.groupby("model")["version"].transform("nunique") > 1]
     kappa = _kappa(entries, set(newest["folder"]))
     return {

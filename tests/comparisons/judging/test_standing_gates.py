@@ -7,6 +7,7 @@ row lost, a NaN.
 """
 
 import math
+from collections import Counter
 from functools import cache
 from itertools import product
 from pathlib import Path
@@ -19,16 +20,16 @@ from comparisons.baseline import BASELINE, drift, read_baseline
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, gates_text, load_gates
 from comparisons.judging.judge import judge
-from comparisons.judging.selection import cases_of, key_of, relevant
+from comparisons.judging.selection import cases_of, key_of, needed_keys, relevant
 from comparisons.quantities import CURVES
-from comparisons.runs.cases import VERIFICATION, grids
+from comparisons.runs.cases import VERIFICATION, grids, grids_for
 from comparisons.runs.frames import curve_frame, frame, keys_in
 from comparisons.runs.tasks import evaluate_task, plan
 from tests.comparisons.rows import row
 
 FOLDER = Path(__file__).parents[3] / BASELINE
 GRIDS = {
-    "quick": grids("quick"),
+    "quick": grids_for(grids("quick"), None),
     "full": [grid for grid in grids("full") if grid.tier == "full" and VERIFICATION in grid.tags],
 }
 EVERY = load_gates(gates_text())
@@ -245,6 +246,15 @@ def test_the_gate_for_given_models_judges_them_and_counts_what_they_leave_out():
     assert len(relevant([OF_GIVEN], grid, models)) == 2
     table = judge([OF_GIVEN], grid, rows[rows["model"].isin(["fscm", *models])], None, models)
     assert table.groupby("candidate")["verdict"].agg(roll_up).to_dict() == {"bradley": "FAIL", "md-improved": "PASS"}
+
+
+def test_other_quantities_of_a_given_model_are_computed_with_their_reference():
+    standing = grids_for(grids("quick"), ["dmt"])
+    keys = needed_keys([OF_GIVEN], standing, ["dmt"])
+    counts = Counter(key[:2] for key in keys if key[1] != OF_GIVEN.quantity)
+    assert len(counts) == 6
+    assert set(counts.values()) == {18}
+    assert {grid.id for grid in standing} - {grid.id for grid in grids_for(grids("quick"), None)} == {"displacements"}
 
 
 def test_the_code_computes_what_is_committed():
