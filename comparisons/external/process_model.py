@@ -47,11 +47,12 @@ class ExternalModel:
     limits: tuple[str, ...]
     applies_to: Domain | None
 
-    def __init__(self, source: dict[str, Any], child: Child, stated: dict[str, Any]) -> None:
+    def __init__(self, source: dict[str, Any]) -> None:
+        self._source = source
+        self._child, stated = _started(source)
         if stated.pop("has_curve"):
             self.curve = self._curve
         vars(self).update(stated)
-        self._source, self._child = source, child
         self._refusal, self._overdue = "", 0
         self.is_program = source["kind"] == "program"
 
@@ -112,7 +113,7 @@ def connect(source: dict[str, Any], spec: str) -> ExternalModel:
     if os.name != "posix":
         raise ValueError("models that are code are run on Linux and macOS only; predictions as data everywhere")
     try:
-        return ExternalModel(source, *_started(source))
+        return ExternalModel(source)
     except (ComputationFailed, NotApplicable) as failure:
         raise ValueError(f"the model {one_line(spec, 200)} cannot be loaded: {one_line(str(failure))}") from None
 

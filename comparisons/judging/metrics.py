@@ -88,10 +88,10 @@ class GateResults:
         return table["x"].to_numpy(float), table["y"].to_numpy(float), u
 
     def _usable(self, role: str, case: Problem) -> tuple[str, list[dict[str, Any]]]:
-        model, rows = self.gate.models[role], self.rows.get(key_of(self.gate, role, case), [])
-        status, reason = (rows[0]["status"], rows[0]["reason"]) if rows else ("missing", "")
-        if status == "missing":
+        model, rows = self.gate.models[role], self.rows.get(key_of(self.gate, role, case))
+        if not rows:
             raise UnusableResult(Verdict.ERROR, f"{model} has no row")
+        status, reason = rows[0]["status"], rows[0]["reason"]
         if status == "not-applicable":
             raise UnusableResult(Verdict.NOT_APPLICABLE, f"{model}: {reason}")
         if status != "ok":

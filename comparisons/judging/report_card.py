@@ -108,18 +108,18 @@ def judge_digits(verdicts: pd.DataFrame, models: Iterable[str]) -> pd.DataFrame:
 
 
 def _digits(name: str, compared: pd.DataFrame) -> Judged:
-    copied = [(id, rows) for id, rows in compared.groupby("gate", sort=False) if 2 * rows["same"].sum() > len(rows)]
-    for id, rows in copied:
+    verdict, reason = Verdict.PASS, ""
+    for id, rows in compared.groupby("gate", sort=False):
         same = rows[rows["same"]]
+        if 2 * rows["same"].sum() <= len(rows):
+            continue
+        stated = f"{len(same)} of {len(rows)} values are those of {rows['reference'].iloc[0]} in every digit ({id})"
         if (same["reference"].isin(_NUMERICAL) & ~(same["k"] >= 1.0)).any():
-            reason = f"{_same_digits(id, rows)}: computed with it or copied from it, they show nothing of the model"
-            return verdict_on_model(DIFFERS, name, Verdict.INCONCLUSIVE, reason)
-    reason = f"{_same_digits(*copied[0])}, as those of a closed form may be" if copied else ""
-    return verdict_on_model(DIFFERS, name, Verdict.PASS, reason)
-
-
-def _same_digits(id: object, rows: pd.DataFrame) -> str:
-    return f"{rows['same'].sum()} of {len(rows)} values are those of {rows['reference'].iloc[0]} in every digit ({id})"
+            verdict = Verdict.INCONCLUSIVE
+            reason = f"{stated}: computed with it or copied from it, they show nothing of the model"
+            break
+        reason = reason or f"{stated}, as those of a closed form may be"
+    return verdict_on_model(DIFFERS, name, verdict, reason)
 
 
 def verdict_on_model(id: str, name: str, verdict: Verdict, reason: str, **facts: Any) -> Judged:
@@ -166,18 +166,12 @@ def _checks(card: Mapping[str, Any], rows_of_model: pd.DataFrame) -> list[tuple[
         same = f"{len(repeated['cases'])} results are the same in a new process and in another order"
         again = repeated["cause"] or same
     reasons = [*rows_of_model.loc[rows_of_model["gate"] == DIFFERS, "reason"], "compared with no reference"]
-    statuses = [finding["status"] for finding in card["check_model"]]
-    wrong = [
-        f"{finding['check']}: {finding['text']}"
-        for finding in card["check_model"]
-        if finding["status"] in ("wrong", "failed")
-    ]
-    checks = f"kept: {statuses.count('ok')} of {statuses.count('ok') + len(wrong)} checks"
-    return [
-        ("evaluated again", again),
-        ("digits", reasons[0] or "not those of the reference"),
-        ("check-model", "; not kept: ".join([checks, *(["; ".join(wrong)] if wrong else [])])),
-    ]
+    findings = [finding for finding in card["check_model"] if finding["status"] != "not checked"]
+    wrong = "; ".join(f"{finding['check']}: {finding['text']}" for finding in findings if finding["status"] != "ok")
+    kept = sum(finding["status"] == "ok" for finding in findings)
+    checks = f"kept: {kept} of {len(findings)} checks" + (f"; not kept: {wrong}" if wrong else "")
+    digits = reasons[0] or "not those of the reference"
+    return [("evaluated again", again), ("digits", digits), ("check-model", checks)]
 
 
 def verdict_sentence(name: str, verdicts: pd.DataFrame) -> str:

@@ -6,7 +6,6 @@ has, and it imports nothing of fscm-bench before a gates file is collected.
 
 from __future__ import annotations
 
-import shutil
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -81,8 +80,11 @@ class _Collection:
         cases = _path_of(config, _CASES) or config.getoption(_TIER) or "quick"
         self.inputs, self.jobs = (cases, path, models), config.getoption(_JOBS)
         folder = getattr(config, "workerinput", {}).get(_OUT) or config.getoption(_OUT)
-        self._temporary = None if folder else tempfile.mkdtemp(prefix="fscm-bench-")
-        self.folder = Path(folder or str(self._temporary)).absolute()
+        if not folder:
+            temporary = tempfile.TemporaryDirectory(prefix="fscm-bench-", ignore_cleanup_errors=True)
+            config.add_cleanup(temporary.cleanup)
+            folder = temporary.name
+        self.folder = Path(folder).absolute()
 
     def pytest_collect_file(self, file_path: Path, parent: pytest.Collector) -> GatesFile | None:
         """Collect the gates file and no other."""
@@ -93,11 +95,6 @@ class _Collection:
     def pytest_configure_node(self, node: Any) -> None:
         """Tell a worker of pytest-xdist the folder."""
         node.workerinput[_OUT] = str(self.folder)
-
-    def pytest_unconfigure(self) -> None:
-        """Remove a temporary folder."""
-        if self._temporary:
-            shutil.rmtree(self._temporary, ignore_errors=True)
 
 
 class GatesFile(pytest.File):

@@ -1,25 +1,44 @@
 """The contract of a model: `check-model` finds every defect, and the template of `new-model` keeps it."""
 
+import math
 import re
 import runpy
 import tomllib
 
 import pytest
 
+from comparisons.cli.commands import check_model
 from comparisons.cli.main import main
 from comparisons.external.contract_checks import examine
 from comparisons.external.model_source import GROUP
 from comparisons.judging.gates import load_gates
-from comparisons.registry import create
+from comparisons.model import ComputationFailed, NotApplicable, Result
 
 from .conftest import EXAMPLE
 
-#: JKR, so that everything else about the models below is in order.
-JKR = """if problem.n != 2 or quantity != "pull_off_force":
-    raise NotApplicable("n = 2 and the pull-off force only")
-value = (3 + problem.k) / 2
-"""
-RIGHT = JKR + "return Result(value, 0.0)"
+
+class Stranger:
+    """JKR for n = 2, whose force is changed; it knows its calls and how often its process was started."""
+
+    name = version = citation = domain = hashed = "stranger"
+    limits = ()
+
+    def __init__(self, change, **stated):
+        self._change = change
+        self.starts, self.calls = 1, 0
+        vars(self).update(stated)
+
+    def close(self):
+        self.starts, self.calls = self.starts + 1, 0
+
+    def evaluate(self, problem, quantity):
+        self.calls += 1
+        if problem.n != 2 or quantity != "pull_off_force":
+            raise NotApplicable("n = 2 and the pull-off force only")
+        value = self._change((3 + problem.k) / 2, problem.mu, self)
+        if isinstance(value, Exception):
+            raise value
+        return Result(value, 0.0)
 
 
 def test_a_right_model_passes(capsys):
@@ -30,34 +49,42 @@ def test_a_right_model_passes(capsys):
     assert "3 of 3 calibration values" in printed
 
 
-COUNTS = "setattr(self, 'calls', getattr(self, 'calls', 0) + 1) or value / 2 + 1e-9 * self.calls"
+def negative(value, mu, model):
+    return -value
+
+
+LIMITS = {"limits": ("rigid", "jkr")}
 
 
 @pytest.mark.parametrize(
-    ("value", "more", "wrong"),
+    ("change", "stated", "wrong"),
     [
-        ("-value", 'citation = " "\nlimits = ("dmt",)', "is empty|positive|known are rigid, jkr|the positive number"),
-        ("value * math.pi + 1e-9 * os.getpid()", "", "a new process|2.99 times the accurate one"),
-        (COUNTS, "", "the opposite order|0.381 times the accurate one"),
-        ("value + 1e-4 * problem.mu", 'limits = ("rigid", "jkr")', "-25 % off Bradley|it must come nearer"),
+        (
+            negative,
+            {"citation": " ", "limits": ("dmt",)},
+            ("is empty", "positive", "known are rigid, jkr", "the positive number"),
+        ),
+        (lambda value, mu, model: value * math.pi + 1e-9 * model.starts, {}, ("a new process", "2.99 times")),
+        (lambda value, mu, model: value / 2 + 1e-9 * model.calls, {}, ("the opposite order", "0.381 times")),
+        (lambda value, mu, model: value + 1e-4 * mu, LIMITS, ("-25 % off Bradley", "it must come nearer")),
     ],
 )
-def test_what_is_wrong_is_named(write_model, value, more, wrong):
-    findings = examine(create(write_model(f"{JKR}return Result({value}, 0.0)", more=more)))
-    texts = [finding.text for finding in findings if finding.status == "wrong"]
-    sentences = wrong.split("|")
-    assert [sentence in text for sentence, text in zip(sentences, texts, strict=True)] == [True] * len(sentences), texts
+def test_what_is_wrong_is_named(change, stated, wrong):
+    texts = [finding.text for finding in examine(Stranger(change, **stated)) if finding.status == "wrong"]
+    assert [words in text for words, text in zip(wrong, texts, strict=True)] == [True] * len(wrong), texts
 
 
 @pytest.mark.parametrize(
-    ("body", "sentence"),
+    ("change", "status", "sentence"),
     [
-        ("raise NotApplicable('nothing')", "none of 25 evaluations gave a value"),
-        ("if problem.k:\n    raise ComputationFailed('no root')\n" + RIGHT, "no root"),
+        (lambda *given: NotApplicable("nothing"), 4, "none of 25 evaluations gave a value"),
+        (lambda *given: ComputationFailed("no root"), 4, "no root"),
+        (negative, 1, "positive"),
     ],
 )
-def test_a_failed_computation_has_status_4(write_model, capsys, body, sentence):
-    assert main(["check-model", write_model(body)]) == 4
+def test_the_status_is_that_of_the_worst_finding(monkeypatch, capsys, change, status, sentence):
+    monkeypatch.setattr(check_model, "external_model", lambda spec: Stranger(change))
+    assert main(["check-model", "stranger"]) == status
     assert sentence in " ".join(capsys.readouterr().out.split())
 
 

@@ -30,16 +30,13 @@ def rows_of(spec):
     return [replace(row, model_version="", seconds=0.0) for row in rows]
 
 
-def test_all_sources_give_the_same_rows(installed_example, write_data):
+def test_all_sources_give_the_same_rows_and_the_installed_one_has_a_curve(installed_example, write_data, capsys):
     """Those of data were written as by an author who cannot give the code away."""
     rows = rows_of(FILE_SOURCE)
     assert {row.status for row in rows} == {"ok"}
     assert rows_of(installed_example) == rows
     cells = [f"{line.rpartition(',1.')[0]},{row.value!r},{row.u_num!r}" for line, row in zip(ROWS, rows, strict=True)]
     assert rows_of(write_data(cells, change={'"measured"': '"double-hertz"'})) == rows
-
-
-def test_the_installed_example_keeps_the_contract_is_listed_and_has_a_curve(installed_example, capsys):
     model = create(installed_example)
     assert isinstance(model, Model)
     assert isinstance(model, HasCurve)
