@@ -5,9 +5,9 @@ fails, 2 wrong input, 3 a gate is inconclusive, 4 a computation or an output fai
 error, or there was nothing to judge (and, as shells have it, 130 after Ctrl-C, 141 when the reader of a pipe went
 away, and 143 after SIGTERM).
 
-A command is a module in `comparisons.cli.commands` with the examples of its help in its text, its `OPTIONS`, and a
-function `call` that returns the exit status.  A library such as click would not shorten it: none has options with
-several values (``--model jkr dmt``), and the help must not import what a command needs.
+A command ``NAME`` is a function ``NAME_command`` in a module of `comparisons.cli.commands`, with its options, and with
+the examples of its help in its text; it returns the exit status.  A library such as click would not shorten it: none
+has options with several values (``--model jkr dmt``), and the help must not import what a command needs.
 
 For example::
 
@@ -26,31 +26,41 @@ import textwrap
 from collections.abc import Collection, Sequence
 from contextlib import nullcontext
 from importlib import import_module
-from typing import Any, NoReturn
+from inspect import getdoc
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from comparisons.console.exit_status import FAILED, guarded
 
-#: Command -> its line of the help.  Its module is imported when it is called.
+if TYPE_CHECKING:
+    from comparisons.cli.options import Command
+
+#: Command -> its module, which is imported when it is called, and its line of the help.
 _COMMANDS = {
-    "run": "compute the standing cases and judge them",
-    "judge": "judge stored results again, by the same gates or others, without computing",
-    "report": "write one HTML page of a run",
-    "leaderboard": "write any number of runs as one sortable HTML table",
-    "board": "judge a folder of submitted models and write a web site: errors, verdicts, report cards, history",
-    "paper": "compute the figures and numbers of the paper again",
-    "sweep": "compute any number of your own cases, without gates",
-    "compare": "compare models with a reference in your own cases: one table, one figure",
-    "merge": "put the shards of a sweep into one folder",
-    "solve": "compute one quantity of one problem by one model",
-    "curve": "compute force-displacement curves, or pressure or gap at pull-off, as CSV and as a plot",
-    "describe": "print pull-off force, Tabor number and recommended models of a problem file",
-    "fit": "fit work of adhesion, modulus and other values to measured force-displacement curves",
-    "fem": "write fields of the finite elements (vtu, picture); print their verification and the study of the solvers",
-    "list": "list the models, quantities, cases, gates, or the kinds of a problem file",
-    "check-model": "check that an external model keeps the contract",
-    "new-model": "write a template for your own model: a package with a test and a CI workflow",
-    "cite": "print how to cite fscm-bench and what a run used, as text or BibTeX",
-    "bench": "measure error, time and memory of the solvers on this machine, as ratios",
+    "run": ("runs", "compute the standing cases and judge them"),
+    "judge": ("runs", "judge stored results again, by the same gates or others, without computing"),
+    "report": ("pages", "write one HTML page of a run"),
+    "leaderboard": ("pages", "write any number of runs as one sortable HTML table"),
+    "board": (
+        "pages",
+        "judge a folder of submitted models and write a web site: errors, verdicts, report cards, history",
+    ),
+    "paper": ("evidence", "compute the figures and numbers of the paper again"),
+    "sweep": ("sweeps", "compute any number of your own cases, without gates"),
+    "compare": ("sweeps", "compare models with a reference in your own cases: one table, one figure"),
+    "merge": ("sweeps", "put the shards of a sweep into one folder"),
+    "solve": ("solve", "compute one quantity of one problem by one model"),
+    "curve": ("curve", "compute force-displacement curves, or pressure or gap at pull-off, as CSV and as a plot"),
+    "describe": ("describe", "print pull-off force, Tabor number and recommended models of a problem file"),
+    "fit": ("fit", "fit work of adhesion, modulus and other values to measured force-displacement curves"),
+    "fem": (
+        "fem",
+        "write fields of the finite elements (vtu, picture); print their verification and the study of the solvers",
+    ),
+    "list": ("models", "list the models, quantities, cases, gates, or the kinds of a problem file"),
+    "check-model": ("models", "check that an external model keeps the contract"),
+    "new-model": ("models", "write a template for your own model: a package with a test and a CI workflow"),
+    "cite": ("pages", "print how to cite fscm-bench and what a run used, as text or BibTeX"),
+    "bench": ("evidence", "measure error, time and memory of the solvers on this machine, as ratios"),
 }
 
 _EXIT_STATUS = """
@@ -100,16 +110,15 @@ def _parser(called: Collection[str], program: str = "fscm-bench") -> argparse.Ar
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and, if known, the commit")
     parsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for name, text in _COMMANDS.items():
-        command = parsers.add_parser(name, help=text, description=textwrap.fill(f"{text[0].upper()}{text[1:]}."))
+    for name, (module, text) in _COMMANDS.items():
+        subparser = parsers.add_parser(name, help=text, description=textwrap.fill(f"{text[0].upper()}{text[1:]}."))
         if name in called:
-            # `list` would hide the type of Python.
-            module_name = "listing" if name == "list" else name.replace("-", "_")
-            module = import_module(f"comparisons.cli.commands.{module_name}")
-            command.epilog = _examples(module.__doc__ or "")
-            command.set_defaults(call=module.call)
-            for names, settings in module.OPTIONS:
-                command.add_argument(*names, **settings)
+            commands = import_module(f"comparisons.cli.commands.{module}")
+            command: Command = getattr(commands, f"{name.replace('-', '_')}_command")
+            subparser.epilog = _examples(getdoc(command.call) or "")
+            subparser.set_defaults(call=command.call)
+            for names, settings in command.options:
+                subparser.add_argument(*names, **settings)
     return parser
 
 

@@ -1,12 +1,13 @@
-"""Options of the commands: how one is declared, and those that several commands share."""
+"""Commands and their options: how they are declared, and the options that several commands share."""
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from functools import partial
 from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from comparisons.problem import PARAMETERS, Problem
 from comparisons.problem.variation import RANGE, spaced
@@ -14,6 +15,18 @@ from comparisons.runs.workers import usable_cores
 
 #: An option of a command: names and settings as of `argparse.ArgumentParser.add_argument`.
 Option = tuple[tuple[str, ...], dict[str, Any]]
+
+
+class Command(NamedTuple):
+    """A command: its options, and the function that returns the exit status, with examples in its text."""
+
+    call: Callable[[argparse.Namespace], int]
+    options: tuple[Option, ...]
+
+
+def command(*options: Option) -> Callable[[Callable[[argparse.Namespace], int]], Command]:
+    """Declare a command with its options."""
+    return lambda call: Command(call, options)
 
 
 def option(*names: str, **settings: Any) -> Option:

@@ -1,4 +1,4 @@
-"""Output of the commands: lines, tables and pages, and the end of a command that computes rows."""
+"""Output of the commands: lines and tables, and the end of a command that computes rows."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from comparisons.console.exit_status import FAILED, OK, writing_stdout
 from comparisons.console.printable import printable
 from comparisons.console.progress import log, note
 from comparisons.console.safe_console import SafeConsole
-from comparisons.runs.atomic_files import write_file
 from comparisons.runs.rows import Row
 
 #: Columns of a table when stdout is not a terminal: the same text in every log and file.
@@ -33,12 +32,6 @@ def output() -> SafeConsole:
 def print_lines(lines: Iterable[str]) -> None:
     """Print whole lines, so that a command in them can be copied."""
     print(printable("\n".join(lines)))
-
-
-def write_page(text: str, path: Path, name: str) -> None:
-    """Write a page and say where it is."""
-    write_file(path, text)
-    log(f"the {name} is {path}")
 
 
 def print_end(failures: Sequence[Row], folder: Path, files: str = "results are") -> int:

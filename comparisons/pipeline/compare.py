@@ -169,7 +169,14 @@ def _cases(
     if grid is None:
         if missing := [name for name in ("n", "k", "mu") if numbers[name] is None or not len(numbers[name] or ())]:
             raise ValueError(f"the cases need --{' and --'.join(missing)}, or --grid FILE, or --problem FILE")
-        grid = _grid_text(numbers, quantities, reference or REFERENCES[0])
+        grid = grid_text(
+            id="comparison",
+            title=f"Comparison with {reference or REFERENCES[0]}",
+            reference=reference or REFERENCES[0],
+            models=[reference or REFERENCES[0]],
+            quantities=quantities,
+            **{name: [float(value) for value in values or ()] for name, values in numbers.items()},
+        )
     elif reference is not None or any(values is not None for values in numbers.values()):
         raise ValueError("--grid states the cases and the references; leave out --n, --k, --mu, --nu and --reference")
     return load_cases(grid, None)
@@ -180,20 +187,6 @@ def _of_applicable(table: pd.DataFrame, named: Sequence[str]) -> pd.DataFrame:
     applicable = table.loc[table["status"] != "not-applicable", "model"]
     kept = table["model"].isin([*applicable, *named]) | ~table["model"].isin(COMPARABLE)
     return table[kept].reset_index(drop=True)
-
-
-def _grid_text(numbers: Mapping[str, Sequence[float] | None], quantities: Sequence[str], reference: str) -> str:
-    """Return a [[grid]] table, which the folder keeps."""
-    texts = {
-        "id": "comparison",
-        "title": f"Comparison with {reference}",
-        "reference": reference,
-        "models": [reference],
-        "quantities": list(quantities),
-    }
-    # The text of a number is that of TOML, also of one that is refused.
-    lists = {name: str([float(value) for value in values]) for name, values in numbers.items() if values is not None}
-    return grid_text(texts, **lists)
 
 
 def _check(cases: Cases, specs: Sequence[str]) -> None:

@@ -72,13 +72,8 @@ def make_figures(names: Iterable[str] | None, folder: Path, *, jobs: int = 1) ->
         {"figure": wanted},
         started=started,
         parts=computed.parts,
-        rows={
-            "all": len(calls),
-            "resumed": len(calls) - computed.made,
-            "ok": len(calls) - failed,
-            "failed": failed,
-        },
         seconds={},
+        rows={"all": len(calls), "resumed": len(calls) - computed.made, "ok": len(calls) - failed, "failed": failed},
     )
     write_record(record, folder / RECORD, [path.name for figure in finished for path in figure.files])
     return finished

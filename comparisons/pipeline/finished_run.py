@@ -78,13 +78,15 @@ def write_run(folder: Path, inputs: RunInputs, completed: Completed, started: st
         path.parent.mkdir(parents=True, exist_ok=True)
         write_file(path, content)
     tasks = inputs.plan()
+    entries: dict[str, Any] = {}
     judgement: Judgement | None = None
     if gates is not None:
         cards = make_cards(inputs.external, rows, completed.parts, {task.key: task.problem for task in tasks})
         judgement = judge_and_write(folder, inputs, tables.results, tables.curves, cards)
+        entries = {"gates_sha256": gates.sha256, "cards": cards or None, **judgement.as_json()}
     _remove_stale(folder, texts, judged=judgement is not None)
     counts = {"all": len(rows), "resumed": completed.resumed, **Counter(row.status for row in rows)}
-    seconds = {name: sum(row.seconds for row in rows if row.model == name) for name in {row.model for row in rows}}
+    models = sorted({row.model for row in rows})
     record = record_content(
         "sweep" if gates is None else "run",
         {
@@ -97,22 +99,15 @@ def write_run(folder: Path, inputs: RunInputs, completed: Completed, started: st
         },
         started=started,
         parts=completed.parts,
+        seconds={name: sum(row.seconds for row in rows if row.model == name) for name in models},
         rows=counts,
-        seconds=dict(sorted(seconds.items())),
+        cases_sha256=cases.sha256,
+        models=described({task.model for task in tasks}, inputs.external),
+        domains={name: domain.as_json() for name, domain in inputs.domains.items()},
+        evaluated_again=completed.evaluated_again,
+        fresh=inputs.fresh and inputs.fresh.as_json(),
+        **entries,
     )
-    record |= {
-        "cases_sha256": cases.sha256,
-        "models": described({task.model for task in tasks}, inputs.external),
-        "domains": {name: domain.as_json() for name, domain in inputs.domains.items()},
-    }
-    if gates is not None and judgement is not None:
-        record |= {"gates_sha256": gates.sha256, **judgement.as_json()}
-    optional = {
-        "evaluated_again": completed.evaluated_again,
-        "cards": judgement and judgement.cards,
-        "fresh": inputs.fresh and inputs.fresh.as_json(),
-    }
-    record |= {name: value for name, value in optional.items() if value}
     write_record(record, folder / RECORD)
     failures = tuple(row for row in rows if row.status == "failed")
     return FinishedRun(folder, inputs, tables, counts, failures, judgement)
@@ -147,12 +142,10 @@ def _remove_stale(folder: Path, present: Collection[Path], *, judged: bool) -> N
 
 def described(names: set[str], external: Mapping[str, ExternalIdentity]) -> dict[str, dict[str, str]]:
     """Return version, citation and domain of each model, and which files the version of an external one covers."""
-    models = {name: external.get(name) or create(name) for name in sorted(names)}
-    texts = {
-        name: {"version": model.version, "citation": model.citation, "domain": model.domain}
-        for name, model in models.items()
-    }
-    for name, identity in external.items():
-        if identity.hashed:
-            texts[name]["hashed"] = identity.hashed
+    texts = {}
+    for name in sorted(names):
+        model = external.get(name) or create(name)
+        texts[name] = {"version": model.version, "citation": model.citation, "domain": model.domain}
+        if isinstance(model, ExternalIdentity) and model.hashed:
+            texts[name]["hashed"] = model.hashed
     return texts

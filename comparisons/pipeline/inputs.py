@@ -13,14 +13,14 @@ from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import GRID_TEXT, INPUTS, RECORD
 from comparisons.data.input_files import LARGEST_TABLE, LARGEST_TEXT, read_bytes, read_text
 from comparisons.data.validation import known_name
-from comparisons.domain import Domain, declared_domain
+from comparisons.domain import Domain
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judging.selection import cases_of, load_user_gates, needed_keys
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import REFERENCES
 from comparisons.problem.variation import parse_variations, require_units
-from comparisons.registry import MODELS, ExternalIdentity, create
+from comparisons.registry import MODELS, ExternalIdentity
 from comparisons.runs.cases import TIERS, VERIFICATION, Grid, cases_text, grids, grids_for, load_grids
 from comparisons.runs.tasks import Task, plan
 
@@ -131,25 +131,6 @@ class RunInputs:
         return [task for task in self.plan() if task.key in needed]
 
 
-def domains_of(models: Iterable[str], external: Mapping[str, ExternalIdentity]) -> dict[str, Domain]:
-    """Return the domains that models declare.
-
-    Parameters
-    ----------
-    models : iterable of str
-        Names.
-    external : mapping of str to ExternalIdentity
-        Those of them that are external.
-
-    Examples
-    --------
-    >>> [f"{name}: {domain}" for name, domain in domains_of(["dmt", "semi-rigid"], {}).items()]
-    ['dmt: pull_off_force, pull_off_displacement, zero_load_displacement, force_curve for n >= 0.667']
-    """
-    declared = {name: declared_domain(external.get(name) or create(name)) for name in sorted(set(models))}
-    return {name: domain for name, domain in declared.items() if domain is not None}
-
-
 def load_cases(cases: str | Path, models: Sequence[str] | None, folder: Path | None = None) -> Cases:
     """Return the grids of a run.
 
@@ -210,43 +191,43 @@ def cases_of_problem(
     ValueError
         One sentence, if a quantity is unknown, or a text or one of the problems is not admissible.
     """
-    texts: dict[str, Any] = {
-        "id": problem.stem,
-        "title": problem.name,
-        "reference": reference or next((name for name in REFERENCES if name in models), ""),
-        # Models from outside are given beside the grid, as for every other.
-        "models": [name for name in models if name in MODELS] or [REFERENCES[0]],
-        "quantities": list(quantities),
-        "problem": problem.name,
-    }
     variations = parse_variations(vary)
     require_units(Problem.load(problem), variations)
-    values = ", ".join(f"{json.dumps(key.name)} = {json.dumps(key.values)}" for key in variations)
-    cases = load_cases(grid_text(texts, vary=f"{{ {values} }}"), None, problem.parent)
-    return replace(cases, source=str(problem))
+    text = grid_text(
+        id=problem.stem,
+        title=problem.name,
+        reference=reference or next((name for name in REFERENCES if name in models), ""),
+        # Models from outside are given beside the grid, as for every other.
+        models=[name for name in models if name in MODELS] or [REFERENCES[0]],
+        quantities=quantities,
+        problem=problem.name,
+        vary={variation.name: variation.values for variation in variations},
+    )
+    return replace(load_cases(text, None, problem.parent), source=str(problem))
 
 
-def grid_text(texts: Mapping[str, Any], **entries: str) -> str:
-    """Return a [[grid]] table, which a folder keeps.
-
-    Parameters
-    ----------
-    texts : mapping of str to str or sequence of str
-        Without those that are empty.
-    **entries : str
-        Others, as TOML.
+def grid_text(**entries: Any) -> str:
+    """Return a [[grid]] table, which a folder keeps, of the entries that are not empty.
 
     Examples
     --------
-    >>> print(grid_text({"id": "mine", "models": ["jkr"], "reference": ""}, n="[2.0]"), end="")
+    >>> print(grid_text(id="mine", models=["jkr"], reference="", n=[2.0], vary={"punch.R": ("1 um",)}), end="")
     [[grid]]
     id = "mine"
     models = ["jkr"]
     n = [2.0]
+    vary = { "punch.R" = ["1 um"] }
     """
-    # A text and a list of texts have the same form in JSON and in TOML.
-    toml = {name: json.dumps(value) for name, value in texts.items() if value} | entries
-    return "".join(["[[grid]]\n", *(f"{name} = {value}\n" for name, value in toml.items())])
+    return "".join(["[[grid]]\n", *(f"{name} = {_toml(value)}\n" for name, value in entries.items() if value)])
+
+
+def _toml(value: Any) -> str:
+    """Return a value as TOML; the text of a number is that of Python, also of one that is refused."""
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(f'{json.dumps(key)} = {_toml(inner)}' for key, inner in value.items())} }}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_toml, value))}]"
+    return json.dumps(value) if isinstance(value, str) else str(value)
 
 
 def stored_inputs(folder: Path, record: Mapping[str, Any]) -> RunInputs:

@@ -12,14 +12,15 @@ from filelock import FileLock
 from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import note
+from comparisons.domain import declared_domain
 from comparisons.judging.fresh_cases import FreshCases, draw
 from comparisons.numerics.number_text import exact
 from comparisons.output.junit import numbers_text
 from comparisons.output.verdicts import command
 from comparisons.pipeline.finished_run import FinishedRun, kept_texts, write_run
-from comparisons.pipeline.inputs import Cases, RunInputs, domains_of, load_cases, read_gates
+from comparisons.pipeline.inputs import Cases, RunInputs, load_cases, read_gates
 from comparisons.problem import PARAMETERS
-from comparisons.registry import identify
+from comparisons.registry import create, identify
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import checked_jobs, complete, folder_for, parse_shard, tasks_of_shard
 from comparisons.runs.record import now
@@ -117,7 +118,9 @@ def _inputs(
     names = None if models is None else identified
     loaded = cases if isinstance(cases, Cases) else load_cases(cases, names)
     rules = None if loaded.tier is None and gates is None else read_gates(gates, loaded, names)
-    domains = domains_of(names or {name for grid in loaded.grids for name in grid.models}, external)
+    computed = names or {name for grid in loaded.grids for name in grid.models}
+    declared = {name: declared_domain(external.get(name) or create(name)) for name in sorted(computed)}
+    domains = {name: domain for name, domain in declared.items() if domain is not None}
     inputs = RunInputs(loaded, rules, names, external, domains)
     return replace(inputs, fresh=_fresh(random, seed, inputs))
 

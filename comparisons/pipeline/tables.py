@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import pandas as pd
 
@@ -23,8 +23,7 @@ from comparisons.runs.tasks import plan
 REFERENCE, SECOND_REFERENCE = "fscm", "fem"
 
 
-@dataclass(frozen=True, slots=True)
-class RunTables:
+class RunTables(NamedTuple):
     """Tables of a run.
 
     Attributes
@@ -89,12 +88,9 @@ def _with_keys_of_files(kappa: pd.DataFrame, results: pd.DataFrame) -> pd.DataFr
 
 def write_tables(tables: RunTables, folder: Path) -> None:
     """Write the tables as CSV."""
-    write_table(tables.results, folder / RESULTS)
-    write_table(tables.curves, folder / CURVES)
-    write_table(tables.kappa, folder / KAPPA)
-    write_table(tables.largest, folder / LARGEST_KAPPA)
-    if not tables.agreement.empty:
-        write_table(tables.agreement, folder / AGREEMENT)
+    for name, table in zip((RESULTS, CURVES, KAPPA, LARGEST_KAPPA, AGREEMENT), tables, strict=True):
+        if name != AGREEMENT or len(table):
+            write_table(table, folder / name)
 
 
 def write_pictures(tables: RunTables, folder: Path) -> None:

@@ -45,10 +45,10 @@ def record_content(
     *,
     started: str,
     parts: Sequence[Mapping[str, Any]],
-    rows: Mapping[str, int],
     seconds: Mapping[str, float],
+    **entries: Any,
 ) -> dict[str, Any]:
-    """Return the entries that the records of a run, of a sweep and of the paper have in common, without verdicts.
+    """Return the record of a run, of a sweep or of the paper, without checksums.
 
     Parameters
     ----------
@@ -60,10 +60,10 @@ def record_content(
         When this command began; a resumed one began with the first of its parts.
     parts : sequence of mapping
         The commands that computed the rows (`comparisons.runs.store.Store.parts`).
-    rows : mapping of str to int
-        Numbers of rows: all, resumed, and by status.
     seconds : mapping of str to float
         Computing time by model.
+    **entries
+        Others of the schema, as rows; those that are None are left out.
     """
     return {
         "format": FORMAT,
@@ -74,9 +74,9 @@ def record_content(
         "finished": now(),
         "seconds": {"run": sum(part["seconds"] for part in parts), "by_model": dict(seconds)},
         "parts": list(parts),
-        "rows": dict(rows),
         "verdicts": {},
         **environment(),
+        **{name: value for name, value in entries.items() if value is not None},
     }
 
 

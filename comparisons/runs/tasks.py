@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from itertools import groupby
 from traceback import extract_tb
@@ -57,7 +57,7 @@ def problem_for(model: str, problem: Problem) -> Problem:
 
 
 def plan(
-    grids: Iterable[Grid], models: list[str] | None = None, external: Mapping[str, ExternalIdentity] | None = None
+    grids: Iterable[Grid], models: Sequence[str] | None = None, external: Mapping[str, ExternalIdentity] | None = None
 ) -> list[Task]:
     """Return every task once: the reference and the candidates of each grid, in all its cases.
 
@@ -65,7 +65,7 @@ def plan(
     ----------
     grids : iterable of Grid
         What to compute.
-    models : list of str, optional
+    models : sequence of str, optional
         Names of candidates that take the place of those each grid names; the reference is always computed.
     external : dict of str to ExternalIdentity, optional
         Those of them that are external (see `comparisons.registry.identify`).

@@ -1,10 +1,4 @@
-"""``fscm-bench curve``: a force-displacement curve, or a surface at pull-off, by one model or several.
-
-For example::
-
-    fscm-bench curve --model fscm jkr --n 2 --k 0.4 --mu 3 --plot curve.png --csv curve.csv
-    fscm-bench curve --model fscm fem --problem pad.toml --plot pad.png
-"""
+"""``fscm-bench curve``: a force-displacement curve, or a surface at pull-off, by one model or several."""
 
 from __future__ import annotations
 
@@ -14,7 +8,7 @@ from typing import cast
 
 import pandas as pd
 
-from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, file, option, problem_of, several
+from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, command, file, option, problem_of, several
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note, waiting
 from comparisons.model import ComputationFailed, Model, NotApplicable
@@ -30,17 +24,22 @@ from comparisons.runs.csv_format import csv_text
 
 _QUANTITY = f"what to draw: {', '.join(CURVES)} (default: force_curve)"
 
-OPTIONS = (
+
+@command(
     several("--model", metavar="SPEC", required=True, help=MODEL_SPEC),
     option("--quantity", metavar="NAME", choices=tuple(CURVES), default="force_curve", help=_QUANTITY),
     *CASE_OR_FILE,
     file("--csv", help="write the points to this file (default, and with -: stdout)"),
     file("--plot", help="draw the curves into this file (.png, .pdf or .svg)"),
 )
+def curve_command(args: argparse.Namespace) -> int:
+    """Trace, write, draw; return the exit status.
 
+    For example::
 
-def call(args: argparse.Namespace) -> int:
-    """Trace, write, draw; return the exit status."""
+        fscm-bench curve --model fscm jkr --n 2 --k 0.4 --mu 3 --plot curve.png --csv curve.csv
+        fscm-bench curve --model fscm fem --problem pad.toml --plot pad.png
+    """
     problem = problem_of(args)
     # All that can be wrong with the request is found out before anything is computed.
     names, external = identify(args.model)

@@ -1,17 +1,11 @@
-"""``fscm-bench describe``: what a problem file states, and which models may be used for it.
-
-For example::
-
-    fscm-bench describe pad.toml
-    fscm-bench describe pad.toml --uncertain
-"""
+"""``fscm-bench describe``: what a problem file states, and which models may be used for it."""
 
 from __future__ import annotations
 
 import argparse
 import json
 
-from comparisons.cli.options import file, option, output_format
+from comparisons.cli.options import command, file, option, output_format
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
@@ -25,7 +19,8 @@ from comparisons.problem import Problem
 
 _UNCERTAIN = "also print the uncertainty of the pull-off force from the uncertain values of the file"
 
-OPTIONS = (
+
+@command(
     file("file", help="a problem file, see docs/problem_files.md"),
     option("--uncertain", action="store_true", help=_UNCERTAIN),
     option(
@@ -36,10 +31,14 @@ OPTIONS = (
     option("--quantity", metavar="NAME", help="another quantity than the pull-off force, with --uncertain"),
     output_format("json"),
 )
+def describe_command(args: argparse.Namespace) -> int:
+    """Compute and print; return the exit status.
 
+    For example::
 
-def call(args: argparse.Namespace) -> int:
-    """Compute and print; return the exit status."""
+        fscm-bench describe pad.toml
+        fscm-bench describe pad.toml --uncertain
+    """
     if args.quantity is not None and not args.uncertain:
         raise ValueError("--quantity is that of --uncertain; give both, or take solve for the value")
     problem = Problem.load(args.file)

@@ -1,10 +1,4 @@
-"""``fscm-bench fem``: fields, a picture, verification and the linear solver of the finite elements.
-
-For example::
-
-    fscm-bench fem --n 2 --k 0.4 --mu 1 --vtu body.vtu --plot body.png
-    fscm-bench fem --verify
-"""
+"""``fscm-bench fem``: fields, a picture, verification and the linear solver of the finite elements."""
 
 from __future__ import annotations
 
@@ -14,7 +8,7 @@ from dataclasses import asdict
 import pandas as pd
 
 import fem_reference
-from comparisons.cli.options import CASE, file, option, problem_of
+from comparisons.cli.options import CASE, command, file, option, problem_of
 from comparisons.cli.screen import output
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, waiting
@@ -28,16 +22,6 @@ from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, 
 
 _EVENT = f"the event whose state is shown: {', '.join(fem_reference.EVENTS)} (default: %(default)s)"
 
-OPTIONS = (
-    *CASE,
-    option("--nu", type=float, default=0.3, help="Poisson's ratio, in [0, 0.5) (default: %(default)s)"),
-    option("--event", default="pull_off", metavar="EVENT", choices=fem_reference.EVENTS, help=_EVENT),
-    file("--vtu", help="write mesh, displacement and stresses to this file"),
-    file("--plot", help="draw the deformed body into this file"),
-    option("--verify", action="store_true", help="print the checks against exact solutions"),
-    option("--solver", action="store_true", help="print the study of the linear solvers"),
-    option("--full", action="store_true", help="all checks and sizes (long)"),
-)
 
 _FORMATS = {"error": ".1e", "limit": ".2g", "residual": ".0e", "agreement": ".0e"} | {
     **dict.fromkeys(("setup_seconds", "solve_seconds", "direct_seconds"), ".2f"),
@@ -47,8 +31,24 @@ _FORMATS = {"error": ".1e", "limit": ".2g", "residual": ".0e", "agreement": ".0e
 _EXTENT, _SHARE = 2.0, 0.15
 
 
-def call(args: argparse.Namespace) -> int:
-    """Compute, write and print; return the exit status."""
+@command(
+    *CASE,
+    option("--nu", type=float, default=0.3, help="Poisson's ratio, in [0, 0.5) (default: %(default)s)"),
+    option("--event", default="pull_off", metavar="EVENT", choices=fem_reference.EVENTS, help=_EVENT),
+    file("--vtu", help="write mesh, displacement and stresses to this file"),
+    file("--plot", help="draw the deformed body into this file"),
+    option("--verify", action="store_true", help="print the checks against exact solutions"),
+    option("--solver", action="store_true", help="print the study of the linear solvers"),
+    option("--full", action="store_true", help="all checks and sizes (long)"),
+)
+def fem_command(args: argparse.Namespace) -> int:
+    """Compute, write and print; return the exit status.
+
+    For example::
+
+        fscm-bench fem --n 2 --k 0.4 --mu 1 --vtu body.vtu --plot body.png
+        fscm-bench fem --verify
+    """
     if not (args.vtu or args.plot or args.verify or args.solver):
         raise ValueError("nothing to do: give --vtu FILE, --plot FILE, --verify or --solver")
     status = _fields(args) if args.vtu or args.plot else OK

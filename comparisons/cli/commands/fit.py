@@ -1,10 +1,4 @@
-"""``fscm-bench fit``: work of adhesion, modulus and other values of a problem file, from measured curves.
-
-For example::
-
-    fscm-bench fit curve.csv --problem probe.toml --free law.work_of_adhesion solid.E
-    fscm-bench fit *.jpk-force --problem probe.toml --free solid.E --stiffness '0.2 N/m' --out fits
-"""
+"""``fscm-bench fit``: work of adhesion, modulus and other values of a problem file, from measured curves."""
 
 from __future__ import annotations
 
@@ -12,7 +6,7 @@ import argparse
 import json
 from typing import Any
 
-from comparisons.cli.options import JOBS, file, option, output_format, several
+from comparisons.cli.options import JOBS, command, file, option, output_format, several
 from comparisons.cli.screen import output, print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note, waiting
@@ -21,7 +15,8 @@ from comparisons.output.terminal import rich_table
 from comparisons.problem import Problem
 from comparisons.problem.units import NotAValue, in_si
 
-OPTIONS = (
+
+@command(
     file("curves", metavar="CURVE", nargs="+", help="CSV with displacement [nm] and load [nN], or an AFM file"),
     file("--problem", required=True, help="a problem file; the fit starts from its values"),
     several("--free", metavar="KEY", required=True, help="keys of the problem file to fit, as solid.E"),
@@ -33,10 +28,14 @@ OPTIONS = (
     JOBS,
     output_format("json"),
 )
+def fit_command(args: argparse.Namespace) -> int:
+    """Fit and print; return the exit status.
 
+    For example::
 
-def call(args: argparse.Namespace) -> int:
-    """Fit and print; return the exit status."""
+        fscm-bench fit curve.csv --problem probe.toml --free law.work_of_adhesion solid.E
+        fscm-bench fit *.jpk-force --problem probe.toml --free solid.E --stiffness '0.2 N/m' --out fits
+    """
     problem = Problem.load(args.problem)
     if missing := [path for path in args.curves if not path.exists()]:
         raise ValueError(f"there is no file {missing[0]}; check the name")

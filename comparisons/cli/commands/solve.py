@@ -1,11 +1,4 @@
-"""``fscm-bench solve``: one quantity of one problem by one model.
-
-For example::
-
-    fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1
-    fscm-bench solve --model jkr --quantity jump_out_gap --n 2 --k 0 --mu 2 --format json
-    fscm-bench solve --model fscm --quantity pull_off_force --problem pad.toml
-"""
+"""``fscm-bench solve``: one quantity of one problem by one model."""
 
 from __future__ import annotations
 
@@ -13,7 +6,7 @@ import argparse
 import json
 from typing import Any
 
-from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, option, output_format, problem_of
+from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, command, option, output_format, problem_of
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
@@ -24,16 +17,22 @@ from comparisons.quantities import QUANTITIES
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
-OPTIONS = (
+
+@command(
     option("--model", metavar="SPEC", required=True, help=MODEL_SPEC),
     option("--quantity", metavar="NAME", required=True, help="see: fscm-bench list quantities"),
     *CASE_OR_FILE,
     output_format("json", "csv", help="json and csv have every digit (default: text)"),
 )
+def solve_command(args: argparse.Namespace) -> int:
+    """Compute and print; return the exit status.
 
+    For example::
 
-def call(args: argparse.Namespace) -> int:
-    """Compute and print; return the exit status."""
+        fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1
+        fscm-bench solve --model jkr --quantity jump_out_gap --n 2 --k 0 --mu 2 --format json
+        fscm-bench solve --model fscm --quantity pull_off_force --problem pad.toml
+    """
     if args.quantity not in QUANTITIES:
         raise ValueError(f"unknown quantity {args.quantity!r}; the quantities are {', '.join(QUANTITIES)}")
     problem = problem_of(args)

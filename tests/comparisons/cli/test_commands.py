@@ -11,18 +11,18 @@ import numpy as np
 import pytest
 
 import fem_reference
-from comparisons import compare
 from comparisons.cli.main import _COMMANDS, _parser, main
+from comparisons.pipeline.run import run
+from tests.comparisons.grid_text import grid_text
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    path = tmp_path_factory.mktemp("cite") / "comparison"
-    compare(["jkr", "bradley"], n=[2], k=[0.0], mu=[1.0], reference="atlas", folder=path, jobs=1)
-    return path
+    grid = grid_text(["jkr", "bradley"], "atlas", n=[2], k=[0], mu=[1])
+    return run(grid, folder=tmp_path_factory.mktemp("cite") / "sweep").folder
 
 
-def test_a_comparison_is_cited_with_its_models_and_its_reference(folder, capsys):
+def test_a_sweep_is_cited_with_its_models_and_its_reference(folder, capsys):
     assert main(["cite", str(folder)]) == 0
     paragraph = capsys.readouterr().out.splitlines()[0]
     assert all(name in paragraph for name in ("bradley (version 1)", "jkr (version 1)", "atlas (version "))

@@ -1,6 +1,5 @@
 """Verdicts of a run and of a folder that is judged again: exit statuses and files."""
 
-import json
 import random
 import re
 import shutil
@@ -81,19 +80,15 @@ def declared(worst, low, high):
         ([declared(0.2, 0.15, 0.25)], 1, "XPASS"),
     ],
 )
-@pytest.mark.parametrize("command", ["run", "judge"])
-def test_the_exit_status_is_the_verdict(small_grid, request, tmp_path, capsys, changes, status, verdict, command):
-    if command == "judge":
-        arguments = ["judge", str(request.getfixturevalue("folder"))]
-    else:
-        arguments = ["run", "--jobs", "1", "--out", str(tmp_path / "run")]
-    assert main([*arguments, *gates(small_grid, tmp_path, *changes)]) == status
-    captured = capsys.readouterr()
-    assert verdict in captured.out or "no gate was evaluated" in captured.err
-    # Status 4 is explained on stderr.
-    assert ("a gate is in error" in captured.err or "no gate was" in captured.err) == (verdict == "ERROR")
-    if command == "run":
-        assert json.loads((tmp_path / "run" / "run.json").read_text())["verdicts"]["all"] == verdict
+def test_the_exit_status_is_the_verdict(small_grid, folder, tmp_path, capsys, changes, status, verdict):
+    rules = gates(small_grid, tmp_path, *changes)
+    for command in (["run", "--jobs", "1", "--out", str(tmp_path / "out")], ["judge", str(folder)]):
+        assert main([*command, *rules]) == status
+        captured = capsys.readouterr()
+        assert verdict in captured.out or "no gate was evaluated" in captured.err
+        # Status 4 is explained on stderr.
+        assert ("a gate is in error" in captured.err or "no gate was" in captured.err) == (verdict == "ERROR")
+    assert read_record(tmp_path / "out" / "run.json")["verdicts"]["all"] == verdict
 
 
 def provenance(folder):
@@ -203,9 +198,9 @@ def test_a_folder_that_is_no_finished_run_is_wrong_input(folder, lost, refused):
     refused(["judge", folder], "not the folder of a finished run")
 
 
-@pytest.mark.parametrize("name", ["run.json", "store.sqlite", "results.csv", "gates.toml", "link.html"])
-def test_a_report_replaces_no_file_of_the_run(folder, refused, name):
+def test_a_report_replaces_no_file_of_the_run(folder, refused):
     (folder / "link.html").symlink_to("run.json")
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
-    refused(["report", folder, "--out", folder / name], f"--out {folder / name} is a file of the run")
+    for name in ("run.json", "store.sqlite", "results.csv", "gates.toml", "link.html"):
+        refused(["report", folder, "--out", folder / name], f"--out {folder / name} is a file of the run")
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == before

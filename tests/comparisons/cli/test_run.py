@@ -1,6 +1,5 @@
 """A run: complete, repeatable, not lost when it is interrupted, and resumed with what is stored."""
 
-import json
 from concurrent.futures.process import BrokenProcessPool
 
 import pandas as pd
@@ -8,10 +7,10 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.data.file_names import VERDICT_FILES
+from comparisons.pipeline.run import run as run_cases
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import load_grids
 from comparisons.runs.computation import compute
-from comparisons.runs.csv_format import read_table
 from comparisons.runs.environment import computing_environment
 from comparisons.runs.record import read_record
 from tests.comparisons.grid_text import grid_text
@@ -33,15 +32,20 @@ def read(folder, name="results.csv"):
     return (folder / name).read_bytes()
 
 
-def test_a_run_leaves_its_tables_and_record(small_grid, tmp_path, capsys):
+def test_the_function_and_the_command_leave_the_same_tables_and_record(small_grid, tmp_path, capsys):
+    finished = run_cases("quick", folder=tmp_path / "function")
+    assert str(finished.verdict) == "PASS"
+    assert finished.counts == {"all": 12, "resumed": 0, "ok": 8, "not-applicable": 4}
+    assert finished.failures == ()
+    capsys.readouterr()
     assert run(tmp_path / "out") == 0
-    assert {path.name for path in (tmp_path / "out").iterdir()} == FILES
+    for folder in ("function", "out"):
+        assert {path.name for path in (tmp_path / folder).iterdir()} == FILES
+    for name in FILES - {"run.json", "store.sqlite"}:
+        assert read(tmp_path / "function", name) == read(tmp_path / "out", name), name
     captured = capsys.readouterr()
-    assert "ten-percent" in captured.out
-    assert "10.000(5)" in captured.out
+    assert [word for word in ("ten-percent", "10.000(5)") if word not in captured.out] == []
     assert "results are in" in captured.err
-    table = read_table(tmp_path / "out" / "results.csv")
-    assert table.groupby("status").size().to_dict() == {"not-applicable": 4, "ok": 8}
     kappa = pd.read_csv(tmp_path / "out" / "kappa.csv")
     assert kappa["kappa"].tolist() == pytest.approx([0.1] * 4)
     assert kappa["u_kappa"].tolist() == pytest.approx([(1e-9 + 1.1e-9) / 2] * 4)
@@ -64,16 +68,31 @@ def interrupt_after(count, error=KeyboardInterrupt):
     return interrupted
 
 
-def test_an_interrupted_run_goes_on_where_it_was(small_grid, tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize(("error", "status"), [(KeyboardInterrupt, 130), (BrokenProcessPool, 4)])
+def test_an_interrupted_run_goes_on_where_it_was(small_grid, tmp_path, monkeypatch, capsys, error, status):
+    """On another machine: the record has every part with its own environment."""
+    this_machine = computing_environment()
+    other_machine = this_machine | {"python": "3.99.0", "cpu": "another"}
     run(tmp_path / "whole")
     with monkeypatch.context() as patch:
-        patch.setattr(computing, "compute", interrupt_after(5))
-        assert run(tmp_path / "cut") == 130
+        patch.setattr(computing, "compute", interrupt_after(5, error))
+        patch.setattr("comparisons.runs.store.computing_environment", lambda: other_machine)
+        assert run(tmp_path / "cut") == status
     assert "5 finished computations are safe" in capsys.readouterr().err
     assert run(tmp_path / "cut") == 0
     assert "7 computations on 1 processes, 5 are stored" in capsys.readouterr().err
     assert read(tmp_path / "cut") == read(tmp_path / "whole")
-    assert json.loads(read(tmp_path / "cut", "run.json"))["rows"]["resumed"] == 5
+    record = read_record(tmp_path / "cut" / "run.json")
+    assert record["rows"]["resumed"] == 5
+    interrupted, resumed = sorted(record["parts"], key=lambda segment: segment["computations"])
+    assert (interrupted["computations"], resumed["computations"]) == (5, 7)
+    assert {name: interrupted[name] for name in other_machine} == other_machine
+    assert {name: resumed[name] for name in this_machine} == this_machine
+    assert record["started"] == min(interrupted["started"], resumed["started"])
+    assert record["seconds"]["run"] == pytest.approx(interrupted["seconds"] + resumed["seconds"])
+    # A command that computes nothing is not a part, and changes none.
+    assert run(tmp_path / "cut") == 0
+    assert read_record(tmp_path / "cut" / "run.json")["parts"] == record["parts"]
 
 
 def test_a_failed_computation_costs_its_own_rows_and_the_exit_status(small_grid, tmp_path, capsys):
@@ -104,24 +123,3 @@ def test_quiet_prints_what_does_not_pass_and_nothing_else(small_grid, tmp_path, 
     assert captured.err.startswith("FAIL TEN-PERCENT of ten-percent against exact: E = 0.100000(5)")
     assert main(["judge", str(tmp_path / "wrong"), "--quiet"]) == 1
     assert capsys.readouterr().err.startswith("FAIL TEN-PERCENT")
-
-
-def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):
-    this_machine = computing_environment()
-    other_machine = this_machine | {"python": "3.99.0", "cpu": "another"}
-    with monkeypatch.context() as patch:
-        patch.setattr(computing, "compute", interrupt_after(5, BrokenProcessPool))
-        patch.setattr("comparisons.runs.store.computing_environment", lambda: other_machine)
-        assert run(tmp_path) == 4
-    assert run(tmp_path) == 0
-    record = read_record(tmp_path / "run.json")
-    interrupted, resumed = sorted(record["parts"], key=lambda segment: segment["computations"])
-    assert (interrupted["computations"], resumed["computations"]) == (5, 7)
-    assert {name: interrupted[name] for name in other_machine} == other_machine
-    assert {name: resumed[name] for name in this_machine} == this_machine
-    assert record["rows"]["resumed"] == 5
-    assert record["started"] == min(interrupted["started"], resumed["started"])
-    assert record["seconds"]["run"] == pytest.approx(interrupted["seconds"] + resumed["seconds"])
-    # A command that computes nothing is not a part, and changes none.
-    assert run(tmp_path) == 0
-    assert read_record(tmp_path / "run.json")["parts"] == record["parts"]

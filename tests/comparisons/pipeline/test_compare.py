@@ -22,12 +22,18 @@ QUANTITIES = ["pull_off_force", "zero_load_displacement"]
 GRID = grid_text(["ten-percent"], "exact", QUANTITIES, n=[2], k=[0, 0.4], mu=[0.1, 1])
 
 
+@pytest.fixture(autouse=True)
+def without_pictures(request, monkeypatch):
+    if "with_pictures" not in request.fixturenames:
+        monkeypatch.setattr("comparisons.pipeline.compare.Comparison.figure", lambda compared: None)
+        monkeypatch.setattr("comparisons.pipeline.compare.save", lambda figure, *paths: None)
+
+
 @pytest.fixture
-def without_pictures(monkeypatch):
-    monkeypatch.setattr("comparisons.pipeline.compare.save", lambda figure, *paths: None)
+def with_pictures():
+    """The pictures are drawn."""
 
 
-@pytest.mark.usefixtures("without_pictures")
 def test_every_case_and_model_has_a_row(toys, tmp_path):
     compared = comparisons.compare(["ten-percent", "refuses", "fails"], GRID, folder=tmp_path / "out")
     assert len(compared.table) == 2 * 4 * 3
@@ -50,7 +56,7 @@ def test_every_case_and_model_has_a_row(toys, tmp_path):
     assert f'<data value="{float(compared.table["kappa"].max())!r}">' in html
 
 
-def test_the_folder_is_a_run_folder_that_is_resumed(toys, tmp_path, capsys):
+def test_the_folder_is_a_run_folder_that_is_resumed(toys, with_pictures, tmp_path, capsys):
     compared = comparisons.compare(["ten-percent"], GRID, folder=tmp_path)
     record = read_record(tmp_path / "run.json")
     check_files(record, tmp_path)
@@ -67,7 +73,6 @@ def test_the_folder_is_a_run_folder_that_is_resumed(toys, tmp_path, capsys):
     assert not list(tmp_path.glob("comparison.*"))
 
 
-@pytest.mark.usefixtures("without_pictures")
 def test_the_command_fits_80_columns_and_states_reference_and_coverage(tmp_path, capsys):
     models = ["jkr", "md-improved", "md-original", "dmt", "bradley", "semi-rigid"]
     case = ["--n", "1", "2", "--k", "0.4", "--mu", "0.01", "0.123", "20"]
@@ -85,7 +90,6 @@ def test_the_command_fits_80_columns_and_states_reference_and_coverage(tmp_path,
     assert (grid.reference, len(grid.cases)) == ("atlas", 6)
 
 
-@pytest.mark.usefixtures("without_pictures")
 def test_all_models_at_equal_ratios_as_latex(tmp_path, capsys, monkeypatch, typeset):
     """Models that are applicable in no case are left out, but for those that are named."""
     models = ("jkr", "jkr-sphere", "semi-rigid", "md-improved", "carpick-ogletree-salmeron", "pietrement-troyon")

@@ -56,10 +56,13 @@ def test_every_task_is_in_one_shard_and_the_expensive_models_are_shared(toys, to
         assert max(counts) - min(counts) <= 1
 
 
-def test_merged_shards_are_the_whole_sweep(sweep, tmp_path, capsys):
+def test_merged_shards_are_the_whole_sweep(sweep, tmp_path, monkeypatch, capsys):
     assert sweep("whole") == 4
     assert "fails: pull_off_force" in capsys.readouterr().err
+    environment = computing_environment()
     for number in (1, 2, 3):
+        machine = environment | {"host": f"host{number}"}
+        monkeypatch.setattr("comparisons.runs.store.computing_environment", lambda machine=machine: machine)
         sweep(f"part{number}", "--shard", f"{number}/3")
     assert read_record(tmp_path / "part2" / "run.json")["arguments"]["shard"] == "2/3"
     assert main(["merge", "part3", "part1", "part2", "--out", "merged"]) == 4
@@ -67,7 +70,9 @@ def test_merged_shards_are_the_whole_sweep(sweep, tmp_path, capsys):
     record = read_record(tmp_path / "merged" / "run.json")
     assert record["arguments"]["merged"] == ["part3", "part1", "part2"]
     assert record["arguments"]["grid"] == "mine.toml"
-    assert sum(part["computations"] for part in record["parts"]) == record["rows"]["all"] == 64
+    parts = {part["host"]: part["computations"] for part in record["parts"]}
+    assert parts == {"host1": 22, "host2": 22, "host3": 20}
+    assert record["rows"]["all"] == 64
     assert main(["report", "merged"]) == 0
     # It is a folder like any other: merged again it stays the same, and a sweep finds nothing to compute.
     assert main(["merge", "part1", "part2", "part3", "--out", "merged", "--quiet"]) == 4
@@ -76,17 +81,6 @@ def test_merged_shards_are_the_whole_sweep(sweep, tmp_path, capsys):
     # But for the failures.
     assert "16 computations" in capsys.readouterr().err
     assert tables("merged") == tables("whole")
-
-
-def test_every_part_keeps_its_machine(sweep, tmp_path, monkeypatch):
-    environment = computing_environment()
-    for number in ("1", "2"):
-        machine = environment | {"host": number}
-        monkeypatch.setattr("comparisons.runs.store.computing_environment", lambda machine=machine: machine)
-        sweep(number, "--shard", f"{number}/2")
-    main(["merge", "2", "1", "--out", "merged", "--quiet"])
-    parts = read_record(tmp_path / "merged" / "run.json")["parts"]
-    assert {part["host"]: part["computations"] for part in parts} == {"1": 32, "2": 32}
 
 
 def test_what_no_shard_has_is_computed_by_one_command(sweep, tmp_path, capsys):
@@ -101,22 +95,16 @@ def test_what_no_shard_has_is_computed_by_one_command(sweep, tmp_path, capsys):
     assert tables("merged") == tables("whole")
 
 
-@pytest.mark.parametrize("order", [["bad", "good"], ["good", "bad"]])
-def test_a_failure_gives_way_to_a_value(sweep, monkeypatch, order):
+def test_a_failure_gives_way_to_a_value_and_different_results_are_refused(sweep, monkeypatch, refused):
     sweep("good", "--model", "ten-percent")
-    with monkeypatch.context() as patch:
-        patch.setattr(type(create("exact")), "_value", lambda model, problem: 1 / 0)
-        sweep("bad", "--model", "ten-percent")
-    assert main(["merge", *order, "--out", "merged", "--quiet"]) == 0
-    assert tables("merged") == tables("good")
-
-
-def test_different_results_of_one_task_are_refused(sweep, monkeypatch, refused):
-    sweep("one", "--model", "ten-percent")
-    with monkeypatch.context() as patch:
-        patch.setattr(type(create("ten-percent")), "_value", lambda model, problem: 3.0)
-        sweep("two", "--model", "ten-percent")
-    refused(["merge", "one", "two", "--out", "merged"], "two has another result")
+    for folder, model, value in (("bad", "exact", lambda *_: 1 / 0), ("other", "ten-percent", lambda *_: 3.0)):
+        with monkeypatch.context() as patch:
+            patch.setattr(type(create(model)), "_value", value)
+            sweep(folder, "--model", "ten-percent")
+    for number, order in enumerate((["bad", "good"], ["good", "bad"])):
+        assert main(["merge", *order, "--out", f"merged{number}", "--quiet"]) == 0
+        assert tables(f"merged{number}") == tables("good")
+    refused(["merge", "good", "other", "--out", "merged"], "other has another result")
 
 
 NOT_MERGED = [

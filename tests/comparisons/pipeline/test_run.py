@@ -7,7 +7,7 @@ import pytest
 
 import comparisons
 from comparisons.cli.main import main
-from comparisons.data.file_names import RUN_FILES, VERDICT_FILES
+from comparisons.data.file_names import VERDICT_FILES
 from comparisons.pipeline.run import run
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.store import rows_in
@@ -21,20 +21,11 @@ def names(folder):
     return {path.name for path in folder.iterdir()}
 
 
-def test_the_function_and_the_command_write_the_same_files(small_grid, tmp_path):
-    finished = run("quick", folder=tmp_path / "function")
-    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "command")]) == 0
-    assert str(finished.verdict) == "PASS"
-    assert finished.counts == {"all": 12, "resumed": 0, "ok": 8, "not-applicable": 4}
-    assert finished.failures == ()
-    assert names(tmp_path / "function") == names(tmp_path / "command")
-    for name in set(RUN_FILES) & names(tmp_path / "function"):
-        assert (tmp_path / "function" / name).read_bytes() == (tmp_path / "command" / name).read_bytes(), name
-
-
-def test_a_sweep_has_the_record_of_a_run_and_no_verdicts(toys, tmp_path):
+def test_a_sweep_has_the_record_of_a_run_and_no_verdicts_also_after_a_run(small_grid, tmp_path):
     (tmp_path / "mine.toml").write_text(GRID)
     out = tmp_path / "out"
+    run("quick", folder=out)
+    assert set(VERDICT_FILES) <= names(out)
     assert main(["sweep", str(tmp_path / "mine.toml"), "--jobs", "1", "--out", str(out)]) == 0
     record = read_record(out / "run.json")
     assert (record["command_name"], record["verdicts"]) == ("sweep", {})
@@ -46,16 +37,9 @@ def test_a_sweep_has_the_record_of_a_run_and_no_verdicts(toys, tmp_path):
     assert not names(out) & {*VERDICT_FILES, "gates.toml"}
     check_files(record, out)
     assert main(["report", str(out)]) == 0
-
-
-def test_a_sweep_after_a_run_leaves_no_verdicts_of_the_run(small_grid, tmp_path):
-    run("quick", folder=tmp_path)
-    assert set(VERDICT_FILES) <= names(tmp_path)
-    run(GRID, folder=tmp_path)
-    assert not names(tmp_path) & {*VERDICT_FILES, "gates.toml"}
-    assert run("quick", folder=tmp_path).counts["resumed"] == 12
-    assert set(VERDICT_FILES) <= names(tmp_path)
-    assert "grid.toml" not in names(tmp_path)
+    assert run("quick", folder=out).counts["resumed"] == 12
+    assert set(VERDICT_FILES) <= names(out)
+    assert "grid.toml" not in names(out)
 
 
 def test_grids_of_a_user_can_be_judged_at_once_and_later(small_grid, tmp_path, capsys):

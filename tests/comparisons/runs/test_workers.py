@@ -38,11 +38,8 @@ def end(item):
     return item, tuple(threads(item)[1])
 
 
-def test_one_job_needs_no_worker():
+def test_one_job_needs_no_worker_and_no_item_no_work():
     assert [process for process, _ in each(threads, [1, 2], 1, lost=str)] == [os.getpid()] * 2
-
-
-def test_nothing_to_do_is_done():
     assert list(each(threads, [], 2, lost=str)) == []
 
 
@@ -62,6 +59,7 @@ def test_an_item_whose_process_ends_is_tried_once_more_and_the_others_go_on(tmp_
 
 def test_processes_that_cannot_work_are_given_up(monkeypatch):
     monkeypatch.setattr(workers, "_DEATHS_IN_SEQUENCE", 2)
+    monkeypatch.setattr(workers, "processes", lambda function, items, jobs: ((item, None) for item in items))
     with pytest.raises(BrokenExecutor, match="3 worker processes"):
         list(each(end, ["always"] * 5, 2, lost=str))
 
@@ -92,7 +90,7 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.parametrize("seconds", [0.05, 0.3, pytest.param(1.5, marks=pytest.mark.heavy)])
+@pytest.mark.parametrize("seconds", [0.3, *(pytest.param(seconds, marks=pytest.mark.heavy) for seconds in (0.05, 1.5))])
 def test_ctrl_c_leaves_no_traceback(seconds):
     """While the processes start, and while they work."""
     command = [sys.executable, "-c", INTERRUPTED.format(seconds=seconds)]

@@ -1,43 +1,83 @@
-"""``fscm-bench list``: the models, quantities, cases, gates or kinds, as text, CSV or JSON.
-
-For example::
-
-    fscm-bench list models
-    fscm-bench list gates --format json
-"""
+"""Commands on what there is, and on models of one's own: lists, a template, and checks of the contract."""
 
 from __future__ import annotations
 
 import argparse
 import json
+from shlex import quote
 
 import numpy as np
 import pandas as pd
 
-from comparisons.cli.options import option, output_format
-from comparisons.cli.screen import output
-from comparisons.console.exit_status import OK
+from comparisons.cli.options import MODEL_SPEC, command, file, option, output_format
+from comparisons.cli.screen import output, print_lines
+from comparisons.console.exit_status import FAILED, FAILS, OK
+from comparisons.console.progress import log, waiting
+from comparisons.external.contract_checks import SKIPPED, examine
 from comparisons.external.model_source import installed
+from comparisons.external.template import write_template
 from comparisons.judging.gates import gates_text, load_gates
 from comparisons.numerics.number_text import limits_text
 from comparisons.output.terminal import records
 from comparisons.problem import PARAMETERS
 from comparisons.problem.kinds import kind_rows
 from comparisons.quantities import ALL_QUANTITIES
-from comparisons.registry import MODELS, create
+from comparisons.registry import MODELS, create, external_model
+from comparisons.runs.atomic_files import writing
 from comparisons.runs.cases import TIERS, grids
 from comparisons.runs.csv_format import csv_text
 
-OPTIONS = (
+#: Columns of the status, the longest of which is "not checked".
+_STATUS = len(SKIPPED)
+
+
+@command(file("folder", metavar="DIR", help="new folder, e.g. my-model; its name becomes that of the model"))
+def new_model_command(args: argparse.Namespace) -> int:
+    """Write a new package with a working model, a test and a CI workflow; return the exit status.
+
+    For example::
+
+        fscm-bench new-model my-model
+    """
+    with writing(args.folder, "folder", "choose another one"):
+        written, spec = write_template(args.folder, reserved=MODELS)
+    for path in written:
+        print(path)
+    log(f"change what the model computes; then: fscm-bench check-model {quote(spec)}")
+    return OK
+
+
+@command(option("spec", metavar="SPEC", help=MODEL_SPEC))
+def check_model_command(args: argparse.Namespace) -> int:
+    """Examine and print; return 4 if a computation failed, 1 if something is wrong, else 0.
+
+    For example::
+
+        fscm-bench check-model my_model.py:MyModel
+    """
+    if args.spec in MODELS:
+        raise ValueError(f"{args.spec} is a model of fscm-bench; its tests are in tests/comparisons/models")
+    model = external_model(args.spec)
+    with waiting(f"checking {model.name}"):
+        findings = examine(model)
+    print_lines(f"{finding.status:{_STATUS}}  {finding.check}: {finding.text}" for finding in findings)
+    statuses = {finding.status for finding in findings}
+    return FAILED if "failed" in statuses else FAILS if "wrong" in statuses else OK
+
+
+@command(
     option("what", choices=("models", "quantities", "cases", "gates", "kinds"), help="what to list"),
     output_format("csv", "json", help="csv and json have every digit, one row for each case of a grid (default: text)"),
 )
+def list_command(args: argparse.Namespace) -> int:
+    """Print a table; return the exit status.
 
+    For example::
 
-def call(args: argparse.Namespace) -> int:
-    """Print the table; return the exit status."""
-    exact = args.format != "text"
-    table = _TABLES[args.what](exact)
+        fscm-bench list models
+        fscm-bench list gates --format json
+    """
+    table = _TABLES[args.what](args.format != "text")
     if args.format == "json":
         # JSON has no infinity and no NaN: what is missing or has no limit is null.
         content = table.astype(object).where(table.notna() & ~table.isin([np.inf, -np.inf]), None)
