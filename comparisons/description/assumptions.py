@@ -100,20 +100,18 @@ def _measures(problem: Problem) -> Json:
     near_edge = tension > _EDGE * tension[edge]
     slope_of_gap = np.gradient(gap, radius)
     slope_of_punch = problem.posed.punch.slope(radius)
-    values = {
-        "punch_slope": (slope_of_punch[edge], "slope of the punch at the contact edge"),
-        "surface_slope": (
-            np.abs(slope_of_gap - slope_of_punch)[near_edge].max(),
-            "slope of the deformed surface there (strain)",
-        ),
-        "gap_slope": (np.abs(slope_of_gap)[near_edge].max(), "slope of the gap there (Derjaguin)"),
-    }
+    of_surface = np.abs(slope_of_gap - slope_of_punch)[near_edge].max()
+    measures = (
+        ("punch_slope", slope_of_punch[edge], "slope of the punch at the contact edge"),
+        ("surface_slope", of_surface, "slope of the deformed surface there (strain)"),
+        ("gap_slope", np.abs(slope_of_gap)[near_edge].max(), "slope of the gap there (Derjaguin)"),
+    )
     unit = problem.units["gap"] / problem.units["radius"]
     return {
         "contact_radius": float(radius[edge]) * problem.units["radius"],
         "measures": [
             {"key": key, "value": float(value) * unit, "limit": SMALL, "meaning": meaning}
-            for key, (value, meaning) in values.items()
+            for key, value, meaning in measures
         ],
     }
 

@@ -39,23 +39,9 @@ def description_text(
         equivalent=equivalent,
         changes=changes,
         stated=stated,
-        tabor_number=_tabor_number(problem, overview["tabor_number"], equivalent),
         largest_deviation=LARGEST_DEVIATION,
         written=[spread.written.strip() for spread in problem.uncertain.values()],
     )
-
-
-def _tabor_number(problem: Problem, of_surface: float, equivalent: Json | None) -> str:
-    """The Tabor number, where the modulus of the surface or a power law stands for the solid."""
-    if problem.is_of_the_paper("solid"):
-        return f"Tabor number {of_surface:.6g}"
-    if equivalent is None:
-        return "no Tabor number: the moduli that the contact meets are not known"
-    if equivalent["surface_compliance_deviation"] <= LARGEST_DEVIATION:
-        return f"Tabor number {of_surface:.6g}, with the modulus of the surface"
-    if equivalent["compliance_deviation"] <= LARGEST_DEVIATION:
-        return f"Tabor number {equivalent['tabor_number']:.4g}, with the equivalent power law"
-    return "no Tabor number: neither its surface nor a power law stands for the solid"
 
 
 def _padded(text: str, column: Iterable[str]) -> str:

@@ -25,7 +25,7 @@ from comparisons.external.text_rules import model_name, one_line
 from comparisons.model import NotApplicable, Result
 from comparisons.numerics.number_text import case_text
 from comparisons.problem import Problem
-from comparisons.problem.variation import Variation, problems_of
+from comparisons.problem.variation import problems_of
 from comparisons.quantities import QUANTITIES
 
 #: Name of the file that describes a model in a folder.
@@ -146,8 +146,7 @@ def _covered_cases(folder: Path, manifest: dict[str, Any], lines: int) -> dict[K
     covered: dict[Key, Problem] = {}
     for table, columns in zip(tables, varied, strict=True):
         if "problem" in table:
-            variations = [Variation.of_values(key, values) for key, values in table.get("vary", {}).items()]
-            problems = problems_of(path_inside(folder, table["problem"]), variations, table["problem"])
+            problems = problems_of(path_inside(folder, table["problem"]), table.get("vary", {}), table["problem"])
             cases = {(problem.name,): problem for problem in problems}
         else:
             numbers = product(*map(dict.fromkeys, columns))

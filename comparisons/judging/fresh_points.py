@@ -15,7 +15,7 @@ from comparisons.judging.gates import Gate
 from comparisons.judging.selection import promised
 from comparisons.problem import Problem
 from comparisons.problem.problem import split_name
-from comparisons.problem.variation import parse_variation, problems_of
+from comparisons.problem.variation import parse_variations, problems_of
 from comparisons.runs.frames import unit_in
 
 #: The smallest and the largest value of parameters.
@@ -176,7 +176,7 @@ def _problem_at(like: Problem, point: Mapping[str, float]) -> Problem:
 
 def named_problem(path: Path, name: Sequence[str]) -> Problem:
     """Return the problem of a file whose name, as of `split_name`, has the values of its keys."""
-    (problem,) = problems_of(path, [parse_variation(text) for text in name[1:]], name[0])
+    (problem,) = problems_of(path, parse_variations(name[1:]), name[0])
     return problem
 
 

@@ -6,8 +6,6 @@ A closed form computes the quantities for which it has a method of that name, an
 from __future__ import annotations
 
 import math
-import time
-from dataclasses import replace
 from typing import Any, ClassVar
 
 from comparisons.model import Curve, NotApplicable, Result
@@ -50,7 +48,7 @@ def monomial(*factors: tuple[float, float]) -> Result:
 
 
 class ClosedForm:
-    """Base of the closed forms: it checks the problem, calls the method of the quantity and measures the time.
+    """Base of the closed forms: it checks the problem and calls the method of the quantity.
 
     A closed form computes the quantities for which it has a method: `pull_off_force` and the other numbers by their
     names, which return a `Result`, `force_curve`, and `pull_off_profile` for both fields.
@@ -107,14 +105,11 @@ class ClosedForm:
         """
         if quantity not in QUANTITIES:
             raise ValueError(f"quantity {quantity!r} is unknown; the known ones are {', '.join(QUANTITIES)}")
-        start = time.perf_counter()
-        result: Result = self._call(quantity, problem)
-        return replace(result, seconds=time.perf_counter() - start)
+        return self._call(quantity, problem)
 
     def curve(self, problem: Problem) -> Curve:
         """Return the force-displacement curve, or raise as `evaluate` does."""
-        curve: Curve = self._call("force_curve", problem)
-        return curve
+        return self._call("force_curve", problem)
 
     def check(self, problem: Problem) -> None:
         """Raise `NotApplicable` where the model does not hold for the problem; by default it holds for every one."""
@@ -125,3 +120,23 @@ class ClosedForm:
         if method is None:
             raise NotApplicable(f"{self.name} does not define {quantity}: {self.undefined}")
         return method(problem)
+
+
+class ContactBranch(ClosedForm):
+    """Base of the closed forms of a branch in contact, whose three events have displacements by one function."""
+
+    def displacement_at(self, problem: Problem, event: str) -> Result:
+        """Delta at ``pull_off``, ``jump_out`` or ``zero_load``."""
+        raise NotImplementedError
+
+    def pull_off_displacement(self, problem: Problem) -> Result:
+        """Delta where P is smallest."""
+        return self.displacement_at(problem, "pull_off")
+
+    def jump_out_displacement(self, problem: Problem) -> Result:
+        """Smallest delta on the branch, which retreat meets first."""
+        return self.displacement_at(problem, "jump_out")
+
+    def zero_load_displacement(self, problem: Problem) -> Result:
+        """Delta in contact where P = 0."""
+        return self.displacement_at(problem, "zero_load")

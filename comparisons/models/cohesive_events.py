@@ -114,7 +114,7 @@ class CohesiveEvents:
             )
         return lowest
 
-    def fold(self) -> Event:
+    def jump_out(self) -> Event:
         """Return the fold of delta that retreat meets first.
 
         Raises

@@ -21,8 +21,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from comparisons.model import Curve, NotApplicable, RadialField, Result
-from comparisons.models.closed_form import EPS, FIELDS, POINTS, ClosedForm, Limits
+from comparisons.model import Curve, NotApplicable, Result
+from comparisons.models.closed_form import EPS, FIELDS, POINTS, ContactBranch, Limits
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import STATE_ROUNDING, CohesiveEvents, Event
 from comparisons.models.cohesive_profiles import CohesiveProfiles, cohesive_profiles
@@ -31,15 +31,13 @@ from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
-# Radii of a stored profile in each of its three parts.
-_PROFILE_POINTS = 60
 # The curve starts at a = 0 and then at this fraction of its largest contact radius.
 _FIRST_RADIUS = 1e-4
 # Hertz's load at pull-off has fallen to exp(-3) of itself this far (over n) below in log(a).
 _NEAR = 3.0
 
 
-class CohesiveModel(ClosedForm):
+class CohesiveModel(ContactBranch):
     """Events, curve and surface of a contact with a cohesive zone; the largest traction is the cohesive stress."""
 
     narrower: ClassVar[dict[str, Limits]] = {field: {"k": [0, 0.9999]} for field in FIELDS}
@@ -65,17 +63,17 @@ class CohesiveModel(ClosedForm):
         scale = GradedPunch.of(problem).scales(problem.mu).load
         return _of_event(event, -event.load * scale, scale * (rounding + event.curvature_error))
 
-    def pull_off_displacement(self, problem: Problem) -> Result:
-        """Delta where P is smallest."""
-        return _displacement(problem, self._events(problem).pull_off())
-
-    def jump_out_displacement(self, problem: Problem) -> Result:
-        """Delta at the fold of the contact branch that retreat meets first."""
-        return _displacement(problem, self._events(problem).fold())
-
-    def zero_load_displacement(self, problem: Problem) -> Result:
-        """Delta in contact where P = 0."""
-        return _displacement(problem, self._events(problem).zero_load())
+    def displacement_at(self, problem: Problem, event: str) -> Result:
+        """Delta at an event of `CohesiveEvents`."""
+        located: Event = getattr(self._events(problem), event)()
+        state = located.state
+        rounding = (_conditioning(problem) * STATE_ROUNDING + EPS) * float(state.displacement_scale[0])
+        displaced = abs(float(state.displacement_slope[0])) * located.w_error
+        # Where the slope vanishes by definition (the fold) its rounding is what is left.
+        displaced += float(state.displacement_slope_scale[0]) * STATE_ROUNDING * located.w_error
+        scale = GradedPunch.of(problem).scales(problem.mu).displacement
+        u_num = scale * (rounding + displaced + located.curvature_error)
+        return _of_event(located, located.displacement * scale, u_num)
 
     def force_curve(self, problem: Problem) -> Curve:
         """Return the contact branch from a = 0 to a load as compressive as the pull-off is tensile.
@@ -100,8 +98,8 @@ class CohesiveModel(ClosedForm):
         radii = {"contact_radius": state.contact_radius, "cohesive_radius": state.cohesive_radius}
         return GradedPunch.of(problem).scales(problem.mu).curve(state.displacement, state.load, **radii)
 
-    def profiles(self, problem: Problem, points: int = 200) -> CohesiveProfiles:
-        """Return contact radius, cohesive radius, pressure and gap at the pull-off, in barred variables.
+    def pull_off_profile(self, problem: Problem, points: int = 60) -> CohesiveProfiles:
+        """Return the surface where P is smallest, with `points` radii in each of its three parts.
 
         Raises
         ------
@@ -113,10 +111,6 @@ class CohesiveModel(ClosedForm):
         events = self._events(problem)
         scales = GradedPunch.of(problem).scales(problem.mu)
         return cohesive_profiles(events.contact, events.pull_off().state, scales, points)
-
-    def pull_off_profile(self, problem: Problem) -> RadialField:
-        """Return the surface where P is smallest, out to a gap of 10, or raise as `profiles`."""
-        return self.profiles(problem, _PROFILE_POINTS)
 
     def _is_jkr(self, problem: Problem) -> bool:
         """At k = 1 the surface is a bed of springs, and the cohesive zone vanishes for Lambda >= 1."""
@@ -204,17 +198,6 @@ class DoubleHertz(CohesiveModel):
 def _conditioning(problem: Problem) -> float:
     """Return how much an event amplifies an error of Griffith's relation: loads ~ dgamma^((k+3)/(2n+k-1))."""
     return 1.0 + (3.0 + problem.k) / (2.0 * problem.n + problem.k - 1.0)
-
-
-def _displacement(problem: Problem, event: Event) -> Result:
-    """Return the barred displacement of an event with its bound."""
-    state = event.state
-    rounding = (_conditioning(problem) * STATE_ROUNDING + EPS) * float(state.displacement_scale[0])
-    displaced = abs(float(state.displacement_slope[0])) * event.w_error
-    # Where the slope vanishes by definition (the fold) its rounding is what is left.
-    displaced += float(state.displacement_slope_scale[0]) * STATE_ROUNDING * event.w_error
-    scale = GradedPunch.of(problem).scales(problem.mu).displacement
-    return _of_event(event, event.displacement * scale, scale * (rounding + displaced + event.curvature_error))
 
 
 def _of_event(event: Event, value: float, u_num: float) -> Result:

@@ -12,15 +12,12 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
 import fem_reference
 from comparisons.model import Curve, NotApplicable, RadialField, Result, translated
 from comparisons.models.solver import SolverModel, curve_of, result_of, surface_of
 from comparisons.numerics.curve_distance import mesh_difference
-from comparisons.problem import Problem
+from comparisons.problem import Problem, Section
 from comparisons.quantities import QUANTITIES
-from fscm.problem import Problem as PosedProblem
 
 if TYPE_CHECKING:
     from fem_reference import export
@@ -33,7 +30,8 @@ _LEVELS = ("quick", "default")
 #: own bound, and to 7e-6 compared with the integral equation; at 0.95 the computation fails.
 LARGEST_K = 0.9
 
-_SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
+_LENGTHS = {"c0": 3.0, "Q": 2.0}
+_LAW = {"work_of_adhesion": 0.7, "z0": 0.25}
 
 
 class FiniteElements(SolverModel):
@@ -69,16 +67,11 @@ class FiniteElements(SolverModel):
 
     def _critical_tabor_number(self, problem: Problem) -> Result:
         """Return the Tabor number of the modulus at which jumps begin; that of the problem is not used."""
-        physical = self._scaled(Problem.dimensionless(problem.n, problem.k, 1.0))
-        solution = fem_reference.solve(self._body(physical), fem_reference.CRITICAL_MODULUS)
-
-        def tabor_number(E0: float) -> float:
-            solid: Any = physical.solid
-            return PosedProblem(replace(solid, E0=E0), physical.punch, physical.law).mu
-
-        value = tabor_number(solution.value)
+        physical = self._in_si(Problem.dimensionless(problem.n, problem.k, 1.0))
+        solution = fem_reference.solve(built(physical), fem_reference.CRITICAL_MODULUS)
         # Eq. 29 is steeper at the lower end of the bound of the modulus.
-        highest = tabor_number(solution.value - solution.u_num)
+        moduli = solution.value, solution.value - solution.u_num
+        value, highest = (physical.with_value("solid.E0", E0).posed.mu for E0 in moduli)
         return result_of(replace(solution, value=value, u_num=highest - value))
 
     def _curve(self, problem: Problem) -> Curve:
@@ -115,7 +108,7 @@ class FiniteElements(SolverModel):
         >>> FiniteElements.shape_parameter(2.0)
         8.0
         """
-        return _SCALES["Q"] / _SCALES["z0"] ** (n - 1.0)
+        return _LENGTHS["Q"] / _LAW["z0"] ** (n - 1.0)
 
     def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, and as its uncertainty the distance of two meshes."""
@@ -123,12 +116,10 @@ class FiniteElements(SolverModel):
 
     def physical(self, problem: Problem) -> tuple[Mapping[str, float], fem_reference.Problem]:
         """The units of the results, and the problem of the solver."""
-        if not problem.name:
-            scaled = self._scaled(problem)
-            return scaled.units, self._body(scaled)
-        return problem.units, built(problem)
+        physical = problem if problem.name else self._in_si(problem)
+        return physical.units, built(physical)
 
-    def _scaled(self, problem: Problem) -> PosedProblem:
+    def _in_si(self, problem: Problem) -> Problem:
         if problem.n < 1.0:
             raise NotApplicable(f"the finite elements need n >= 1, not n = {problem.n:g}: a cusp has no finite slope")
         if problem.k > LARGEST_K:
@@ -136,16 +127,10 @@ class FiniteElements(SolverModel):
                 f"the finite elements need k <= {LARGEST_K:g}, not k = {problem.k:g}: towards the Gibson solid the "
                 "contact has an edge too narrow for their mesh"
             )
-        return problem.posed.in_units(nu=self._poisson_ratio, **_SCALES)
-
-    @staticmethod
-    def _body(physical: PosedProblem) -> fem_reference.Problem:
-        solid: Any = physical.solid
-        return fem_reference.Problem(
-            fem_reference.PowerLaw(E0=solid.E0, c0=solid.c0, k=solid.k, nu=solid.nu),
-            fem_reference.PowerPunch(n=physical.n, Q=_SCALES["Q"]),
-            fem_reference.LennardJones(work_of_adhesion=_SCALES["work_of_adhesion"], z0=_SCALES["z0"]),
-        )
+        solid: Any = problem.posed.in_units(nu=self._poisson_ratio, **_LENGTHS, **_LAW).solid
+        moduli = Section("power-law", {"E0": solid.E0, "c0": solid.c0, "k": solid.k, "nu": solid.nu})
+        punch = Section("power-law", {"n": problem.n, "Q": _LENGTHS["Q"]})
+        return Problem(moduli, punch, Section("lennard-jones-9-3", _LAW))
 
 
 @lru_cache(maxsize=1)
@@ -199,10 +184,7 @@ class LargeStrain(SolverModel):
         return result_of(solution, unit=problem.units[QUANTITIES[quantity].scale])
 
     def _curve(self, problem: Problem) -> Curve:
-        body, units = _body(problem), problem.units
-        path = fem_reference.trace_large_strain(body)
-        errors = path.u_displacement / np.ptp(path.displacement), path.u_load / np.ptp(path.load)
-        return curve_of(path, units, float(np.hypot(*errors).max()))
+        return curve_of(fem_reference.trace_large_strain(_body(problem)), problem.units)
 
 
 def _body(problem: Problem) -> fem_reference.Problem:

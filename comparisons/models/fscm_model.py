@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-import numpy as np
-
 import fscm
 from comparisons.model import ComputationFailed, Curve, NotApplicable, RadialField, Result, translated
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
-from comparisons.models.solver import SolverModel, result_of, surface_of
+from comparisons.models.solver import SolverModel, curve_of, result_of, surface_of
 from comparisons.problem import Problem
 from fscm.interpolation.coordinates import BOX
 from fscm.interpolation.storage import data_digest
@@ -19,6 +17,9 @@ from fscm.stieltjes import STIELTJES_QUANTITIES, StieltjesScheme, stieltjes_solu
 #: Step of a curve: other curves are compared with it between its points (measured: a cubic spline is then
 #: within 1e-5 of the picture).
 _STEP = 0.05
+
+#: Columns of a curve with the stability of each state.
+_MARKS = ("stable_under_displacement", "stable_under_load")
 
 #: From this Tabor number on the contact of a ball is that of JKR to 1e-3, and its path takes a minute.
 _LIKE_JKR = 100.0
@@ -59,15 +60,9 @@ class FullSelfConsistent(SolverModel):
             return gibson_curve(problem.posed)
         _check_ball(problem)
         path = fscm.trace(problem.posed, longest_step=_STEP)
-        columns = {
-            "central_gap": path.central_gap,
-            "edge_radius": path.edge_radius,
-            "stable_under_displacement": path.stable_under_displacement.astype(float),
-            "stable_under_load": path.stable_under_load.astype(float),
-        }
-        shares = path.u_displacement / np.ptp(path.displacement), path.u_load / np.ptp(path.load)
-        # Not a combination of two bounds, but the longest vector with components within them.
-        return Curve(path.displacement, path.load, columns, u_distance=float(np.hypot(*shares)))
+        curve = curve_of(path)
+        curve.columns.update({name: getattr(path, name).astype(float) for name in _MARKS})
+        return curve
 
 
 def _check_ball(problem: Problem) -> None:

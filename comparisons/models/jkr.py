@@ -13,12 +13,12 @@ from __future__ import annotations
 import numpy as np
 
 from comparisons.model import Curve, Result
-from comparisons.models.closed_form import EPS, POINTS, ClosedForm, monomial
+from comparisons.models.closed_form import EPS, POINTS, ContactBranch, monomial
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
 
-class JKR(ClosedForm):
+class JKR(ContactBranch):
     """JKR-n-k: infinitely short-ranged adhesion, Griffith's balance at the contact edge.
 
     Examples
@@ -42,20 +42,15 @@ class JKR(ClosedForm):
             (problem.mu, 2.0 / n - 1.0),
         )
 
-    def pull_off_displacement(self, problem: Problem) -> Result:
-        """Delta where P is smallest."""
+    def displacement_at(self, problem: Problem, event: str) -> Result:
+        """Delta at an event; that of the jump-out is Eqs. 54-55."""
         punch = GradedPunch.of(problem)
-        return _displacement(punch, punch.s + punch.k + 1.0, problem.mu)
-
-    def jump_out_displacement(self, problem: Problem) -> Result:
-        """Smallest delta on the curve (Eqs. 54-55)."""
-        punch = GradedPunch.of(problem)
-        return _displacement(punch, punch.s, problem.mu)
-
-    def zero_load_displacement(self, problem: Problem) -> Result:
-        """Delta in contact where P = 0."""
-        punch = GradedPunch.of(problem)
-        return _displacement(punch, punch.n + punch.k + 1.0, problem.mu)
+        n, k, s = punch.n, punch.k, punch.s
+        theta = {"pull_off": s + k + 1.0, "jump_out": s, "zero_load": n + k + 1.0}[event]
+        magnitude = monomial(*_radius_power(punch, theta, s), (punch.adhesion, 1.0), (problem.mu, 1.0))
+        factor = (theta - n) / n
+        rounding = EPS * (theta + n) / n * magnitude.value
+        return Result(factor * magnitude.value, abs(factor) * magnitude.u_num + rounding)
 
     def force_curve(self, problem: Problem) -> Curve:
         """Return Eqs. 50-51 from a = 0 to where the load is as compressive as the pull-off is tensile.
@@ -85,12 +80,3 @@ def _radius_power(punch: GradedPunch, theta: float, power: float) -> tuple[tuple
     """Return the factors of a^power at the event `theta`."""
     exponent = power / (punch.n - punch.s)
     return ((theta * punch.adhesion, exponent), (punch.n * punch.flattening, -exponent))
-
-
-def _displacement(punch: GradedPunch, theta: float, mu: float) -> Result:
-    """Return the barred displacement at the event `theta`."""
-    n, s = punch.n, punch.s
-    magnitude = monomial(*_radius_power(punch, theta, s), (punch.adhesion, 1.0), (mu, 1.0))
-    factor = (theta - n) / n
-    rounding = EPS * (theta + n) / n * magnitude.value
-    return Result(factor * magnitude.value, abs(factor) * magnitude.u_num + rounding)

@@ -21,7 +21,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from comparisons.model import Curve, NotApplicable, Result
-from comparisons.models.closed_form import EPS, POINTS, ClosedForm, Limits
+from comparisons.models.closed_form import EPS, POINTS, ContactBranch, Limits
 from comparisons.problem import Problem
 
 #: Largest contact radius in radii of the ball, as in both references.
@@ -85,15 +85,8 @@ class _Ball:
         tolerances = {"xtol": 1e-300, "rtol": 4.0 * EPS}
         return float(scipy.optimize.brentq(lambda alpha: rise(alpha) - target, smallest, largest, **tolerances))
 
-    def displacement_at(self, event: str) -> Result:
-        """Return delta / z0 with the rounding of its terms and that of alpha."""
-        alpha = self.at(event)
-        terms = alpha * math.atanh(alpha) + math.sqrt(2.0 * math.pi * self.softness * alpha)
-        rounding = 32.0 * EPS * (terms + alpha**2) / (1.0 - alpha**2)
-        return Result(self.radius * float(self.displacement(alpha)), self.radius * rounding)
 
-
-class JKRSphere(ClosedForm):
+class JKRSphere(ContactBranch):
     """JKR of a ball: Sneddon's punch and Griffith's balance at the contact edge.
 
     Examples
@@ -126,17 +119,13 @@ class JKRSphere(ClosedForm):
         terms = float(_sneddon(alpha)) + math.sqrt(8.0 * math.pi * ball.softness * alpha**3)
         return Result(-float(ball.load(alpha)), 32.0 * EPS * terms / (math.pi * ball.softness))
 
-    def pull_off_displacement(self, problem: Problem) -> Result:
-        """Delta where P is smallest."""
-        return _Ball.of(problem).displacement_at("pull_off")
-
-    def jump_out_displacement(self, problem: Problem) -> Result:
-        """Smallest delta on the curve."""
-        return _Ball.of(problem).displacement_at("jump_out")
-
-    def zero_load_displacement(self, problem: Problem) -> Result:
-        """Delta in contact where P = 0."""
-        return _Ball.of(problem).displacement_at("zero_load")
+    def displacement_at(self, problem: Problem, event: str) -> Result:
+        """Delta at an event, with the rounding of its terms and that of alpha."""
+        ball = _Ball.of(problem)
+        alpha = ball.at(event)
+        terms = alpha * math.atanh(alpha) + math.sqrt(2.0 * math.pi * ball.softness * alpha)
+        rounding = 32.0 * EPS * (terms + alpha**2) / (1.0 - alpha**2)
+        return Result(ball.radius * float(ball.displacement(alpha)), ball.radius * rounding)
 
     def force_curve(self, problem: Problem) -> Curve:
         """Return the curve from a = 0 to where the load is as compressive as the pull-off is tensile.

@@ -45,17 +45,9 @@ class JumpAsymptotes(ClosedForm):
     limits: ClassVar[Limits | None] = None
     undefined: ClassVar[str] = "its branches are those of semi-rigid and jkr, which have their own values"
 
-    def jump_in_displacement(self, problem: Problem) -> Result:
-        """Displacement at the fold of the semi-rigid branch (Eqs. 47-48)."""
-        return SemiRigid().jump_in_displacement(problem)
-
-    def jump_in_gap(self, problem: Problem) -> Result:
-        """Central gap at the fold of the semi-rigid branch (Eq. 46)."""
-        return SemiRigid().jump_in_gap(problem)
-
-    def jump_out_displacement(self, problem: Problem) -> Result:
-        """Displacement at the fold of the JKR branch (Eqs. 54-55)."""
-        return JKR().jump_out_displacement(problem)
+    jump_in_displacement = staticmethod(SemiRigid().jump_in_displacement)
+    jump_in_gap = staticmethod(SemiRigid().jump_in_gap)
+    jump_out_displacement = staticmethod(JKR().jump_out_displacement)
 
     def hysteresis_energy(self, problem: Problem) -> Result:
         """Energy that the two jumps lose."""

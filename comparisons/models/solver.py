@@ -8,11 +8,13 @@ from dataclasses import replace
 from types import ModuleType
 from typing import Any, ClassVar
 
+import numpy as np
+
 from comparisons.model import Curve, NotApplicable, RadialField, Result, translated
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.problem import Problem
 
-_ONES = {"radius": 1.0, "traction": 1.0, "gap": 1.0}
+_ONES = dict.fromkeys(("displacement", "gap", "load", "radius", "traction"), 1.0)
 
 
 class SolverModel:
@@ -87,8 +89,11 @@ def surface_of(coarse: Any, fine: Any, units: Mapping[str, float] = _ONES) -> Ra
     return replace(surfaces[1], u_distance=pressure, u_gap_distance=gap)
 
 
-def curve_of(path: Any, units: Mapping[str, float], u_distance: float) -> Curve:
-    """Return the path of the finite elements as a curve, divided by the units of the paper.
+def curve_of(path: Any, units: Mapping[str, float] = _ONES, u_distance: float | None = None) -> Curve:
+    """Return the path of a solver as a curve, divided by the units of the paper.
+
+    Its bound is by default that of the solver: not a combination of two bounds, but the longest vector with components
+    within them.
 
     Examples
     --------
@@ -97,5 +102,8 @@ def curve_of(path: Any, units: Mapping[str, float], u_distance: float) -> Curve:
     >>> curve_of(path, {"displacement": 2.0, "load": 1.0, "gap": 2.0, "radius": 5.0}, 0.1).columns
     {'central_gap': 2.0, 'edge_radius': 1.0}
     """
+    if u_distance is None:
+        shares = path.u_displacement / np.ptp(path.displacement), path.u_load / np.ptp(path.load)
+        u_distance = float(np.hypot(*shares).max())
     columns = {"central_gap": path.central_gap / units["gap"], "edge_radius": path.edge_radius / units["radius"]}
     return Curve(path.displacement / units["displacement"], path.load / units["load"], columns, u_distance)

@@ -40,7 +40,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from comparisons.model import Curve, NotApplicable, Result
-from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, POINTS, ClosedForm, Limits
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, POINTS, ClosedForm, ContactBranch, Limits
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
@@ -198,7 +198,7 @@ def _coefficients(alpha: float) -> tuple[float, float, float]:
     return radius**2, S, beta
 
 
-class Schwarz(_HomogeneousSphere):
+class Schwarz(_HomogeneousSphere, ContactBranch):
     """JKR and DMT superposed, with the transition parameter of Carpick, Ogletree and Salmeron.
 
     Examples
@@ -219,18 +219,15 @@ class Schwarz(_HomogeneousSphere):
         value = 6.0 / (3.0 + transition_parameter(float(problem.mu)) ** 2)
         return Result(value, FACTOR_ROUNDING * value)
 
-    def pull_off_displacement(self, problem: Problem) -> Result:
-        """Delta where P is smallest: that of JKR with the part w_1."""
-        return _of_part(problem, JKR().pull_off_displacement(problem))
-
-    def jump_out_displacement(self, problem: Problem) -> Result:
-        """Smallest delta on the curve: that of JKR with the part w_1."""
-        return _of_part(problem, JKR().jump_out_displacement(problem))
-
-    def zero_load_displacement(self, problem: Problem) -> Result:
-        """Delta in contact where P = 0."""
+    def displacement_at(self, problem: Problem, event: str) -> Result:
+        """Delta at an event; of pull-off and jump-out that of JKR with the part w_1."""
         mu = float(problem.mu)
         punch, x = GradedPunch.of(problem), short_range_share(transition_parameter(mu))
+        if event != "zero_load":
+            # Displacements of JKR grow with the work of adhesion as w^(2/3).
+            of_all, factor = JKR().displacement_at(problem, event), x ** (2.0 / 3.0)
+            value = factor * of_all.value
+            return Result(value, factor * of_all.u_num + FACTOR_ROUNDING * abs(value) + EPS * abs(value))
         pull = punch.stiffness * punch.adhesion * math.sqrt(x)
         root = math.sqrt(pull**2 + 8.0 * punch.hertz_load * (1.0 - x))
         a = ((pull + root) / (2.0 * punch.hertz_load)) ** (2.0 / 3.0)
@@ -248,10 +245,3 @@ class Schwarz(_HomogeneousSphere):
         a = end * np.linspace(0.0, 1.0, POINTS) ** 2
         load = punch.hertz_load * a**3 - punch.stiffness * punch.adhesion * np.sqrt(x * a**3) - 2.0 * (1.0 - x)
         return scale.curve(a**2 - punch.adhesion * np.sqrt(x * a), load, contact_radius=a)
-
-
-def _of_part(problem: Problem, of_all: Result) -> Result:
-    """Return a displacement of JKR with the part w_1: displacements grow with the work of adhesion as w^(2/3)."""
-    factor = short_range_share(transition_parameter(float(problem.mu))) ** (2.0 / 3.0)
-    value = factor * of_all.value
-    return Result(value, factor * of_all.u_num + FACTOR_ROUNDING * abs(value) + EPS * abs(value))

@@ -181,7 +181,7 @@ def cohesive_surface(model: str, n: float, k: float, mu: float) -> Json:
     >>> round(zone["contact_radius"], 3), round(zone["cohesive_radius"], 3)
     (1.264, 2.054)
     """
-    zone = COHESIVE[model].profiles(Problem.dimensionless(n, k, mu))
+    zone = COHESIVE[model].pull_off_profile(Problem.dimensionless(n, k, mu), points=200)
     numbers = {name: getattr(zone, name) for name in ("contact_radius", "cohesive_radius", "displacement")}
     return numbers | {name: getattr(zone, name).tolist() for name in ("radius", "pressure", "gap")}
 

@@ -201,7 +201,7 @@ def cases_of_problem(
         models=[name for name in models if name in MODELS] or [REFERENCES[0]],
         quantities=quantities,
         problem=problem.name,
-        vary={variation.name: variation.values for variation in variations},
+        vary=variations,
     )
     return replace(load_cases(text, None, problem.parent), source=str(problem))
 

@@ -68,6 +68,7 @@ class EnergySpectrum:
         return float(np.exp(-np.interp(share, below, np.log(self.wave_numbers))))
 
 
+@lru_cache(maxsize=64)
 def energy_spectrum(problem: Problem) -> EnergySpectrum:
     """Return the elastic energy of a problem at its pull-off force by wave number.
 
@@ -99,19 +100,12 @@ def energy_spectrum(problem: Problem) -> EnergySpectrum:
     with translated(fscm):
         # The shares need few digits.
         field = fscm.profile(posed, "pull_off", "quick")
-        first_moment, second_moment = (
-            float(np.sum(np.abs(_moments(field.radius, field.pressure, power)))) for power in (1, 2)
-        )
-        xi = np.geomspace(_LOWEST, _HIGHEST, count) / (second_moment / first_moment)
+        size = np.abs(field.pressure)
+        moments = [float(np.trapezoid(size * field.radius**power, field.radius)) for power in (1, 2)]
+        xi = np.geomspace(_LOWEST, _HIGHEST, count) / (moments[1] / moments[0])
         values = compliance(posed.graded, xi)
     density = values * xi * _transform(field.radius, field.pressure, xi) ** 2
     return EnergySpectrum(xi / problem.units["radius"], values, density / np.sum(density))
-
-
-def _moments(r: Array, p: Array, power: int) -> Array:
-    """The integrals of |p| r^power between the nodes."""
-    f = np.abs(p) * r**power
-    return np.diff(r) * (f[1:] + f[:-1]) / 2.0
 
 
 def _transform(r: Array, p: Array, xi: Array) -> Array:
@@ -143,7 +137,6 @@ LARGEST_K = 0.9
 LARGEST_DEVIATION = 0.5
 
 
-@lru_cache(maxsize=64)
 def equivalent_solids(problem: Problem) -> tuple[Problem, Problem]:
     """Return a problem with the power law that stands for its solid, and with that of every second wave number.
 

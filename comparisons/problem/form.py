@@ -10,7 +10,7 @@ from typing import Any
 
 from comparisons.data.validation import known_name, shown
 from comparisons.problem.kinds import KINDS, Form, Kind
-from comparisons.problem.uncertain import Uncertainty, is_uncertain, uncertain_in_si
+from comparisons.problem.uncertain import Uncertainty, uncertain_in_si
 from comparisons.problem.units import NotAValue, in_si
 
 
@@ -129,20 +129,17 @@ def _entries(written: object) -> list[Any]:
 def _value(written: object, form: Form, power: float) -> tuple[float, Uncertainty | None]:
     """A value in SI, with its uncertainty if it has one; `NotAValue` if it is not admissible."""
     unit = form.unit.removesuffix("^(n-1)")
-    if not is_uncertain(written):
-        if isinstance(written, str) and not unit:
-            raise NotAValue("is a text")
-        value, spread = in_si(written, unit, power), None
-        ends = {value}
-    else:
-        if not form.is_uncertain:
-            raise NotAValue("has an uncertainty, which is not admissible here")
-        value, spread = uncertain_in_si(str(written), unit, power)
-        low, high = spread.limits(value)
-        ends = {low, high} if spread.is_interval else {value}
-        if not form.admits(0.0):
-            # A standard deviation may reach 0 where 0 is admissible.
-            ends.add(low)
+    uncertain = uncertain_in_si(written, unit, power) if isinstance(written, str) else None
+    if uncertain and not form.is_uncertain:
+        raise NotAValue("has an uncertainty, which is not admissible here")
+    if isinstance(written, str) and not unit and not uncertain:
+        raise NotAValue("is a text")
+    value, spread = uncertain or (in_si(written, unit, power), None)
+    low, high = spread.limits(value) if spread else (value, value)
+    ends = {low, high} if spread is None or spread.is_interval else {value}
+    if not form.admits(0.0):
+        # A standard deviation may reach 0 where 0 is admissible.
+        ends.add(low)
     if form.unit == "Pa" and isinstance(written, str) and 0.0 < value < 1.0:
         raise NotAValue("is below 1 Pa: mPa is millipascal, and MPa megapascal")
     if not all(map(form.admits, ends)):

@@ -307,8 +307,7 @@ class Problem:
 def _of_fscm(problem: Problem) -> fscm.Problem:
     if not problem.name:
         return fscm.Problem(problem["n"], problem["k"], problem["mu"])
-    posed: fscm.Problem = problem.build(fscm)
-    return posed
+    return problem.build(fscm)
 
 
 def split_name(name: str) -> list[str]:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -19,9 +17,6 @@ from comparisons.problem.form import Source, kind_of, values_in_si
 from comparisons.problem.kinds import SECTIONS
 from comparisons.problem.problem import Problem, Section
 from fscm.punch import unit_of_radii
-
-#: A whole number that Python does not read.
-_MANY_DIGITS = re.compile(rf"\d{{{sys.int_info.default_max_str_digits + 1},}}")
 
 #: Largest and smallest admissible ratio of the radius of the punch to the range of the law.  A lens of 10 m
 #: and a range of 0.2 nm give 5e10; a tip with a radius far below an atom has no meaning.
@@ -64,9 +59,6 @@ def document_of(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Source]:
         As `load_problem`, if the file cannot be read or is not TOML.
     """
     source = Source(Path(path), read_text(Path(path), "the problem file"))
-    if digits := _MANY_DIGITS.search(source.text):
-        line = source.text.count("\n", 0, digits.start()) + 1
-        raise ValueError(f"{path}, line {line}: {shown(digits[0])} has too many digits; write a power of ten, as 1e9")
     return parse(source.text, str(path)), source
 
 

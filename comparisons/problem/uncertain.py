@@ -9,13 +9,13 @@ from uncertainties import ufloat_fromstr
 
 from comparisons.problem.units import NUMBER, NotAValue, in_si
 
-_SIGN = re.compile(r"\+/-|\+-|±")
 _INTERVAL = re.compile(rf"\s*\[\s*({NUMBER})\s*,\s*({NUMBER})\s*\]\s*(.*?)\s*")
 #: A value with the digits of its standard deviation in brackets, and its unit.
 _DIGITS = re.compile(r"\s*([+-]?\d+\.?\d*\(\d+\.?\d*\)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+#: What is on each side of the sign.
+_VALUE = re.compile(rf"\s*({NUMBER})\s*(%?)\s*(.*?)\s*")
+_SIGN = re.compile(r"\+/-|\+-|±")
 _BRACKETS = re.compile(r"^\s*\(([^()]*)\)")
-_PERCENT = re.compile(rf"\s*({NUMBER})\s*%\s*(.*?)\s*")
-_PLAIN = re.compile(rf"\s*{NUMBER}\s*")
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,20 +45,7 @@ class Uncertainty:
         return value - self.size, value + self.size
 
 
-def is_uncertain(value: object) -> bool:
-    """Whether a value of a file is a text with an uncertainty.
-
-    Examples
-    --------
-    >>> [is_uncertain(value) for value in ("2 GPa", "2 GPa +- 5 %", "[1.8, 2.2] GPa", "2.0(1) GPa", 2e9)]
-    [False, True, True, True, False]
-    """
-    if not isinstance(value, str):
-        return False
-    return bool(_SIGN.search(value) or _DIGITS.fullmatch(value)) or value.lstrip().startswith("[")
-
-
-def uncertain_in_si(text: str, target: str, power: float = 1.0) -> tuple[float, Uncertainty]:
+def uncertain_in_si(text: str, target: str, power: float = 1.0) -> tuple[float, Uncertainty] | None:
     """Return the value of a text with an uncertainty, in SI; that of an interval is its middle.
 
     Parameters
@@ -72,6 +59,11 @@ def uncertain_in_si(text: str, target: str, power: float = 1.0) -> tuple[float, 
     power : float
         Its exponent.
 
+    Returns
+    -------
+    tuple or None
+        None for a text of another form.
+
     Raises
     ------
     NotAValue
@@ -81,38 +73,42 @@ def uncertain_in_si(text: str, target: str, power: float = 1.0) -> tuple[float, 
     >>> value, uncertainty = uncertain_in_si("2 GPa +- 5 %", "Pa")
     >>> value, uncertainty.size
     (2000000000.0, 100000000.0)
+    >>> uncertain_in_si("2 GPa", "Pa") is None
+    True
     """
     if interval := _INTERVAL.fullmatch(text):
-        low, high = (_si(f"{number} {interval[3]}", target, power) for number in interval.groups()[:2])
+        low, high = (_si(number, interval[3], target, power) for number in interval.groups()[:2])
         if not low < high:
             raise NotAValue("has an interval whose first end is not below the second")
         # The middle of 1.8 and 2.2 is 2 to all digits.
         return float(f"{0.5 * (low + high):.15g}"), Uncertainty(0.5 * (high - low), True, text)
     if digits := _DIGITS.fullmatch(text):
         number = ufloat_fromstr(digits[1])
-        texts = [f"{part} {digits[2]}" for part in (number.nominal_value, number.std_dev)]
+        mean, deviation = str(number.nominal_value), str(number.std_dev)
+        percent, unit, unit_behind = "", digits[2], digits[2]
+    elif _SIGN.search(text):
+        sides = [_VALUE.fullmatch(side) for side in _SIGN.split(_BRACKETS.sub(r"\1 ", text))]
+        if len(sides) != 2 or not (sides[0] and sides[1]):
+            raise NotAValue("is no value +- standard deviation with a unit behind it")
+        (mean, share, unit), (deviation, percent, unit_behind) = sides[0].groups(), sides[1].groups()
+        unit = share + unit
     else:
-        texts = _SIGN.split(_BRACKETS.sub(r"\1 ", text))
-    if len(texts) != 2:
-        raise NotAValue("is no value +- standard deviation and no [interval] with a unit behind it")
-    mean, deviation = texts
-    percent = _PERCENT.fullmatch(deviation)
+        return None
     if percent:
-        mean += f" {percent[2]}"
-    elif _PLAIN.fullmatch(mean) and not _PLAIN.fullmatch(deviation):
-        # One unit behind both numbers.
-        mean += re.sub(rf"^\s*{NUMBER}", "", deviation)
-    value = _si(mean, target, power)
-    size = abs(value) * float(percent[1]) / 100.0 if percent else _si(deviation, target, power)
+        value = _si(mean, f"{unit} {unit_behind}".strip(), target, power)
+        size = abs(value) * float(deviation) / 100.0
+    else:
+        value = _si(mean, unit or unit_behind, target, power)
+        size = _si(deviation, unit_behind, target, power)
     if not size > 0.0:
         raise NotAValue("has a standard deviation that is not above 0")
     return value, Uncertainty(size, False, text)
 
 
-def _si(text: str, target: str, power: float) -> float:
+def _si(number: str, unit: str, target: str, power: float) -> float:
     """A number with a unit, or a plain one, in SI."""
     if target:
-        return in_si(text.strip(), target, power)
-    if not _PLAIN.fullmatch(text):
+        return in_si(f"{number} {unit}", target, power)
+    if unit:
         raise NotAValue("is no plain number with an uncertainty, as 0.3 +- 0.02 or [0.25, 0.35]")
-    return float(text)
+    return float(number)

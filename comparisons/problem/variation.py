@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from copy import deepcopy
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 from math import prod
 from pathlib import Path
@@ -19,6 +19,9 @@ from comparisons.problem.problem import BETWEEN, Problem
 from comparisons.problem.reading import document_of, problem_of
 from comparisons.problem.units import NUMBER
 
+#: Values of one key, as in a problem file.
+Values = Sequence[float | str]
+
 #: Most problems of one variation, and most values of a range.
 _MOST = 100_000
 
@@ -30,61 +33,8 @@ _UNIT = re.compile(rf"\s*{NUMBER}\s*(.*?)\s*")
 _FORM = 'write SECTION.KEY=VALUES, as "solid.thickness=5 nm, 10 nm" or "law.work_of_adhesion=20:100:5 mJ/m^2"'
 
 
-@dataclass(frozen=True, slots=True)
-class Variation:
-    """The values of one key, as in a problem file.
-
-    Attributes
-    ----------
-    section, key : str
-        The key of one entry of a list has the number of the entry, from 1, behind a dot.
-    values : tuple of float or str
-
-    Examples
-    --------
-    >>> Variation("solid", "nu", (0.3, 0.4)).name
-    'solid.nu'
-    """
-
-    section: str
-    key: str
-    values: tuple[float | str, ...]
-
-    @classmethod
-    def of_values(cls, name: str, values: Sequence[float | str], text: str = "") -> Variation:
-        """Return the variation of a key, as "solid.thickness", to values as in a problem file.
-
-        Parameters
-        ----------
-        name : str
-        values : sequence of float or str
-        text : str
-            As it was written, for the sentences; by default the name.
-
-        Raises
-        ------
-        ValueError
-            One sentence.
-        """
-        section, _, key = (word.strip() for word in name.partition("."))
-        where = f"--vary {shown(text)}" if text else f"vary {shown(name)}"
-        if not key:
-            raise ValueError(f'{where} names no key; write SECTION.KEY, as "solid.thickness"')
-        known_name("section", section, SECTIONS, where)
-        if key == "kind":
-            raise ValueError(f"{where}: a kind is not varied, since its keys differ; write one file for each")
-        if "" in values or len(set(map(str, values))) < len(values):
-            raise ValueError(f"{where} has an empty value or one value twice; give each value once")
-        return cls(section, key, tuple(values))
-
-    @property
-    def name(self) -> str:
-        """Section and key."""
-        return f"{self.section}.{self.key}"
-
-
-def parse_variation(text: str) -> Variation:
-    """Read ``SECTION.KEY=VALUES``.
+def parse_variation(text: str) -> tuple[str, Values]:
+    """Read ``SECTION.KEY=VALUES``: the name of the key and its values.
 
     The values are separated by commas, and the unit of the last one is that of those without; or ``first:last:number
     unit`` for values at equal distances, both ends included.
@@ -96,10 +46,10 @@ def parse_variation(text: str) -> Variation:
 
     Examples
     --------
-    >>> parse_variation("solid.thickness=5, 10, 20 nm").values
-    ('5 nm', '10 nm', '20 nm')
-    >>> parse_variation("law.work_of_adhesion=20:100:5 mJ/m^2").values[:2]
-    ('20 mJ/m^2', '40 mJ/m^2')
+    >>> parse_variation("solid.thickness=5, 10, 20 nm")
+    ('solid.thickness', ['5 nm', '10 nm', '20 nm'])
+    >>> parse_variation("law.work_of_adhesion=20:100:5 mJ/m^2")[1][:2]
+    ['20 mJ/m^2', '40 mJ/m^2']
     """
     name, _, listed = text.partition("=")
     if not listed.strip():
@@ -113,7 +63,7 @@ def parse_variation(text: str) -> Variation:
         texts = [value.strip() for value in listed.split(",")]
         unit_of_last = _UNIT.fullmatch(texts[-1])
         unit = unit_of_last[1] if unit_of_last else ""
-    return Variation.of_values(name, [_value(value, unit) for value in texts], text)
+    return "".join(name.split()), [_value(value, unit) for value in texts]
 
 
 def _value(text: str, unit: str) -> float | str:
@@ -148,15 +98,15 @@ def spaced(start: str, end: str, count: str, logarithmic: bool = False) -> list[
     return texts
 
 
-def parse_variations(texts: Sequence[str]) -> list[Variation]:
+def parse_variations(texts: Sequence[str]) -> dict[str, Values]:
     """Read several variations, as `parse_variation`; `ValueError` if one key is there twice."""
-    variations = {variation.name: variation for variation in map(parse_variation, texts)}
+    variations = dict(map(parse_variation, texts))
     if len(variations) < len(texts):
         raise ValueError(f"--vary {', '.join(variations)}: a key is there twice; give all its values in one --vary")
-    return list(variations.values())
+    return variations
 
 
-def require_units(problem: Problem, variations: Sequence[Variation]) -> None:
+def require_units(problem: Problem, variations: Mapping[str, Values]) -> None:
     """Refuse a value without a unit of a key that has one: in a problem file, such a text is refused as well.
 
     Raises
@@ -164,58 +114,74 @@ def require_units(problem: Problem, variations: Sequence[Variation]) -> None:
     ValueError
         One sentence.
     """
-    for variation in variations:
-        section = getattr(problem, variation.section)
-        form = KINDS[variation.section][section.kind].keys.get(variation.key.partition(".")[0])
+    for name, values in variations.items():
+        section_name, key, *_ = _parts(name, values)
+        section = getattr(problem, section_name)
+        form = KINDS[section_name][section.kind].keys.get(key)
         # The slope Q of a cone has no unit.
         unit = "" if form is None or (form.unit == "m^(n-1)" and section["n"] == 1.0) else form.unit
-        for value in variation.values:
+        for value in values:
             if unit and not isinstance(value, str):
-                raise ValueError(f"--vary {variation.name}: the value {value:g} has no unit; it is one of {unit}")
+                raise ValueError(f"--vary {name}: the value {value:g} has no unit; it is one of {unit}")
 
 
-def problems_of(path: Path, variations: Sequence[Variation], name: str = "") -> Iterator[Problem]:
+def problems_of(path: Path, variations: Mapping[str, Values], name: str = "") -> Iterator[Problem]:
     """Yield the problem of a file for every combination of values.
 
     Parameters
     ----------
     path : Path
-    variations : sequence of Variation
+    variations : mapping of str to sequence of float or str
+        The values of keys as "solid.thickness", as in a problem file; the key of one entry of a list has the number of
+        the entry, from 1, behind a dot.
     name : str
         Of the file, for the names of the problems; by default that of the path.
 
     Raises
     ------
     ValueError
-        One sentence, if the file or one of the problems is not admissible, or there are too many.
+        One sentence, if a key, the file or one of the problems is not admissible, or there are too many.
     """
-    if (count := prod(len(variation.values) for variation in variations)) > _MOST:
+    keys = [_parts(varied, values) for varied, values in variations.items()]
+    if (count := prod(map(len, variations.values()))) > _MOST:
         raise ValueError(f"the values have {count} combinations, more than {_MOST}; give fewer values")
     document, source = document_of(path)
-    names = [variation.name for variation in variations]
     problem_of(document, source)
-    for values in product(*(variation.values for variation in variations)):
+    for values in product(*variations.values()):
         changed = deepcopy(document)
-        for variation, value in zip(variations, values, strict=True):
-            _change(changed[variation.section], variation, value)
-        texts = [f"{varied}={value}" for varied, value in zip(names, values, strict=True)]
+        for key, value in zip(keys, values, strict=True):
+            _change(changed, *key, value=value)
+        texts = [f"{varied}={value}" for varied, value in zip(variations, values, strict=True)]
         try:
             problem = problem_of(changed, source)
         except ValueError as error:
             raise ValueError(f"{', '.join(texts)}: {error}" if texts else str(error)) from None
-        parameters = {problem.form(varied).named(varied): problem[varied] for varied in names}
+        parameters = {problem.form(varied).named(varied): problem[varied] for varied in variations}
         yield replace(problem, name=BETWEEN.join([name or path.name, *texts]), parameters=parameters)
 
 
-def _change(section: dict[str, Any], variation: Variation, value: float | str) -> None:
-    """Write a value into a section as it is written in a file; ``key.2`` is the second entry of a list."""
-    name, dot, number = variation.key.partition(".")
-    if not dot:
-        section[name] = value
+def _parts(name: str, values: Values) -> list[str]:
+    """Section, key and perhaps number of an entry; refuse values of which one is empty or there twice."""
+    section, _, key = name.partition(".")
+    where = f"vary {shown(name)}"
+    if not key:
+        raise ValueError(f'{where} names no key; write SECTION.KEY, as "solid.thickness"')
+    known_name("section", section, SECTIONS, where)
+    if key == "kind":
+        raise ValueError(f"{where}: a kind is not varied, since its keys differ; write one file for each")
+    if "" in values or len(set(map(str, values))) < len(values):
+        raise ValueError(f"{where} has an empty value or one value twice; give each value once")
+    return name.split(".", 2)
+
+
+def _change(document: Mapping[str, dict[str, Any]], section: str, key: str, number: str = "", *, value: Any) -> None:
+    """Write a value into a section as it is written in a file; with a number, as that entry of a list."""
+    if not number:
+        document[section][key] = value
         return
-    entries = section.get(name)
+    entries = document[section].get(key)
     count = len(entries) if isinstance(entries, list) else 0
     if not isinstance(entries, list) or number not in map(str, range(1, count + 1)):
-        form = f"a list with the entries {name}.1 to {name}.{count}" if count else f"no list; leave out .{number}"
-        raise ValueError(f"{shown(variation.name)}: {name} is {form} in this file")
+        form = f"a list with the entries {key}.1 to {key}.{count}" if count else f"no list; leave out .{number}"
+        raise ValueError(f"{shown(f'{section}.{key}.{number}')}: {key} is {form} in this file")
     entries[int(number) - 1] = value

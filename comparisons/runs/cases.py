@@ -21,7 +21,7 @@ from comparisons.data.contained_paths import path_inside
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, label, validated
 from comparisons.problem import PARAMETERS, Problem
-from comparisons.problem.variation import Variation, problems_of
+from comparisons.problem.variation import problems_of
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS
 
@@ -144,8 +144,7 @@ def _cases_of_file(table: dict[str, Any], folder: Path | None) -> set[Problem]:
             f"problem = {name!r} is the name of a file beside that of the cases; give the cases as a file, "
             "not as a text"
         )
-    variations = [Variation.of_values(key, values) for key, values in table.get("vary", {}).items()]
-    return set(problems_of(path_inside(folder, name), variations, name))
+    return set(problems_of(path_inside(folder, name), table.get("vary", {}), name))
 
 
 def load_grids(

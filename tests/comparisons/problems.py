@@ -3,7 +3,7 @@
 from comparisons.problem import Problem, Section
 
 
-def on_solid(kind, values, columns=None, *, R=1e-7, punch="sphere", work=0.05, z0=4e-10):
+def on_solid(kind, values, R=1e-7):
     """A sphere on a solid, by the 9-3 law."""
-    law = Section("lennard-jones-9-3", {"work_of_adhesion": work, "z0": z0})
-    return Problem(Section(kind, values, columns or {}), Section(punch, {"R": R}), law)
+    law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
+    return Problem(Section(kind, values), Section("sphere", {"R": R}), law)

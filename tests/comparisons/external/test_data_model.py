@@ -9,7 +9,7 @@ from comparisons.external import data_model
 from comparisons.external.data_model import DataModel
 from comparisons.model import Model
 from comparisons.problem import Problem
-from comparisons.problem.variation import Variation, problems_of
+from comparisons.problem.variation import problems_of
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
 from comparisons.runs.tasks import evaluate
@@ -51,7 +51,7 @@ law = { kind = "lennard-jones-9-3", work_of_adhesion = "50 mJ/m^2", z0 = "0.4 nm
 def test_numbers_in_newtons_are_those_of_a_problem_file(write_data, capsys):
     folder = write_data(**PADS, more={"pad.toml": PAD})
     model = create(str(folder))
-    vary = [Variation.of_values("solid.thickness", ["12 nm", "35 nm"])]
+    vary = {"solid.thickness": ["12 nm", "35 nm"]}
     problems = list(problems_of(folder / "pad.toml", vary))
     rows = [evaluate(model, "pull_off_force", problem) for problem in problems]
     assert [row.unit for row in rows] == ["N", "N"]

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from comparisons import create, registry
+from comparisons.description.strain_errors import ball_on
 from comparisons.domain import declared_domain
 from comparisons.model import NotApplicable
 from comparisons.models.closed_form import ClosedForm, monomial
 from comparisons.problem import Problem
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES
-from tests.comparisons.problems import on_solid
 
 #: Every closed form of the registry, also one that is new.
 MODELS = [name for name in registry.MODELS if isinstance(create(name), ClosedForm)]
@@ -29,9 +29,7 @@ def model(request: pytest.FixtureRequest) -> ClosedForm:
 def problem_of(model: ClosedForm, mu: float, n: float = 2.0, k: float = 0.4) -> Problem:
     """A problem in the domain of the model, for a ball and formulas for a paraboloid with their only n and k."""
     if model.name == "jkr-sphere":
-        radius = 30.0 * n**4
-        solid = {"E": math.sqrt(radius / mu**3), "nu": 0.0}
-        return on_solid("homogeneous", solid, R=radius, punch="ball", work=1.0, z0=1.0)
+        return ball_on((mu / (30.0 * n**4)) ** 1.5, mu, 0.0)
     return Problem.dimensionless(*((2.0, 0.0) if model.limits and "k" in model.limits else (n, k)), mu)
 
 

@@ -9,14 +9,13 @@ import pytest
 import fem_reference
 import fscm
 from comparisons.model import ComputationFailed, NotApplicable, Result
-from comparisons.models.fem_model import _LEVELS, _SCALES, FiniteElements, _surface_at_pull_off
+from comparisons.models.fem_model import _LEVELS, FiniteElements, _surface_at_pull_off
 from comparisons.models.fscm_model import StieltjesModel
 from comparisons.models.solver import result_of
 from comparisons.numerics.curve_distance import curve_distance, mesh_difference
 from comparisons.problem import Problem
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import create
-from comparisons.runs.tasks import evaluate
 
 
 @pytest.fixture(autouse=True)
@@ -32,12 +31,6 @@ def test_a_result_has_the_value_and_the_bound_of_the_solution_in_its_unit():
     result = result_of(solution, unit=2.0)
     assert (result.value, result.u_num, result.observed_order) == (1.5, 0.25, None)
     assert (result.size, result.iterations, result.residual) == (9, 8, 7e-16)
-
-
-def test_a_jump_below_the_critical_tabor_number_is_not_applicable():
-    row = evaluate(create("fscm"), "jump_in_gap", Problem.dimensionless(2, 0, 0.3))
-    assert row.status == "not-applicable"
-    assert "critical Tabor number" in row.reason
 
 
 def test_the_curve_of_the_reference_holds_its_own_pull_off():
@@ -70,7 +63,7 @@ def test_a_solver_that_does_not_converge_has_failed(monkeypatch, package):
             call()
 
 
-def test_the_stieltjes_scheme_ends_in_compression_or_at_its_last_gap_and_refuses_the_rest(monkeypatch):
+def test_the_stieltjes_scheme_ends_in_compression_or_at_its_last_gap(monkeypatch):
     assert [create(name).segments for name in ("fscm-stieltjes", "fscm-stieltjes-400")] == [2500, 400]
     monkeypatch.setattr(StieltjesModel, "segments", 60)
     for n, k, mu, end in ((1, 0.2, 0.1, -0.4), (2, 0.4, 0.5, None)):
@@ -78,27 +71,12 @@ def test_the_stieltjes_scheme_ends_in_compression_or_at_its_last_gap_and_refuses
         gap = curve.columns["central_gap"]
         assert gap[0] == 10.0
         assert gap[-1] == end or (curve.load[-1] > 0.0 >= curve.load[-2] and gap[-1] > -0.4)
-    for quantity, k in (("hysteresis_energy", 0.4), ("pull_off_force", 1)):
-        assert evaluate("fscm-stieltjes-400", quantity, Problem.dimensionless(2, k, 0.5)).status == "not-applicable"
 
 
-@pytest.mark.parametrize("quantity", QUANTITIES)
-def test_a_result_of_the_atlas_is_that_of_the_function(quantity):
-    result = create("atlas").evaluate(Problem.dimensionless(n=2.5, k=0.3, mu=2.0), quantity)
-    assert (result.value, result.u_num) == fscm.atlas(2.5, 0.3, 2.0, quantity)
-
-
-@pytest.mark.parametrize(
-    ("n", "k", "mu", "quantity", "reason"),
-    [
-        (2, 0.4, 11, "pull_off_force", r"mu = 11 is outside \[0.01, 10\]"),
-        (2, 0, 0.3, "jump_in_gap", "critical Tabor number 0.69"),
-        (2, 0, 1, "contact_radius", "does not compute contact_radius"),
-    ],
-)
-def test_outside_its_box_and_its_quantities_the_atlas_is_not_applicable(n, k, mu, quantity, reason):
-    with pytest.raises(NotApplicable, match=reason):
-        create("atlas").evaluate(Problem.dimensionless(n=n, k=k, mu=mu), quantity)
+def test_a_result_of_the_atlas_is_that_of_the_function():
+    for quantity in QUANTITIES:
+        result = create("atlas").evaluate(Problem.dimensionless(n=2.5, k=0.3, mu=2.0), quantity)
+        assert (result.value, result.u_num) == fscm.atlas(2.5, 0.3, 2.0, quantity)
 
 
 PROBLEM = Problem.dimensionless(n=2, k=0.4, mu=0.5)
@@ -109,7 +87,7 @@ GAP, PRESSURE = 2e-6, 1e-4
 
 
 def test_curves_and_surfaces_are_in_units_of_the_problem_with_the_distance_of_two_meshes_as_their_bound(monkeypatch):
-    units, x = FiniteElements()._scaled(PROBLEM).units, np.linspace(0.0, 1.0, 60)
+    units, x = FiniteElements().physical(PROBLEM)[0], np.linspace(0.0, 1.0, 60)
 
     def of_level(body, accuracy):
         scale = {"quick": 1.01, "default": 1.0}[accuracy]
@@ -133,16 +111,18 @@ def test_curves_and_surfaces_are_in_units_of_the_problem_with_the_distance_of_tw
     assert surface.u_gap_distance > 1e-3 > 1e-12 > surface.u_distance
 
 
+def of_fscm(body, E0=None):
+    """The problem of the finite elements, perhaps with another modulus, as one of the FSCM."""
+    solid = fscm.PowerLaw(E0 or body.solid.E0, body.solid.c0, body.solid.k, body.solid.nu)
+    law = fscm.LennardJones(body.law.work_of_adhesion, body.law.z0)
+    return fscm.Problem(solid, fscm.PowerPunch(body.punch.n, body.punch.Q), law)
+
+
 @pytest.mark.parametrize("quantity", fem_reference.QUANTITIES)
 def test_the_solver_gets_the_same_tabor_number_and_returns_the_same_unit(monkeypatch, quantity):
     def one_unit(body, name):
-        solid, punch, law = body.solid, body.punch, body.law
-        physical = fscm.Problem(
-            fscm.PowerLaw(solid.E0, solid.c0, solid.k, solid.nu),
-            fscm.PowerPunch(punch.n, punch.Q),
-            fscm.LennardJones(law.work_of_adhesion, law.z0),
-        )
-        assert (physical.mu, solid.nu, name) == (pytest.approx(0.8, rel=1e-13), 0.2, quantity)
+        physical = of_fscm(body)
+        assert (physical.mu, body.solid.nu, name) == (pytest.approx(0.8, rel=1e-13), 0.2, quantity)
         unit = physical.units[QUANTITIES[name].scale]
         return fem_reference.Solution(2.5 * unit, 0.5 * unit, 9, 8, 7e-16, 0.6, (4, 6, 7), (2.5 * unit,) * 3)
 
@@ -156,20 +136,15 @@ def test_the_critical_tabor_number_is_that_of_the_modulus_and_has_the_bound_of_i
     calls = []
 
     def solve(body, quantity):
-        calls.append((body.solid.k, body.solid.nu, body.punch.Q, quantity))
+        calls.append((body, quantity))
         return fem_reference.Solution(12.0, 0.6, 9, 3, 1e-12, 0.1, (4, 6, 7), (12.0, 12.0, 12.0))
 
     monkeypatch.setattr(fem_reference, "solve", solve)
     result = FiniteElements().evaluate(PROBLEM, "critical_tabor_number")
-    assert calls == [(0.4, 0.3, _SCALES["Q"], "critical_modulus")]
-
-    def tabor_number(E0):
-        solid = fscm.PowerLaw(E0, _SCALES["c0"], 0.4, 0.3)
-        law = fscm.LennardJones(_SCALES["work_of_adhesion"], _SCALES["z0"])
-        return fscm.Problem(solid, fscm.PowerPunch(2, _SCALES["Q"]), law).mu
-
-    assert result.value == pytest.approx(tabor_number(12.0), rel=1e-14)
-    assert result.value + result.u_num == pytest.approx(tabor_number(11.4), rel=1e-14)
+    ((body, quantity),) = calls
+    assert (body.solid.k, body.solid.nu, quantity) == (0.4, 0.3, "critical_modulus")
+    assert result.value == pytest.approx(of_fscm(body, 12.0).mu, rel=1e-14)
+    assert result.value + result.u_num == pytest.approx(of_fscm(body, 11.4).mu, rel=1e-14)
     # mu is ignored.
     assert FiniteElements().evaluate(PROBLEM.at({"mu": 1e-9}), "critical_tabor_number") == result
 
@@ -188,14 +163,19 @@ def test_gap_and_pressure_at_pull_off_are_those_of_the_integral_equation(monkeyp
 
 
 @pytest.mark.parametrize(
-    ("problem", "quantity", "reason"),
+    ("model", "n", "k", "mu", "quantity", "reason"),
     [
-        (Problem.dimensionless(0.9, 0, 1), "pull_off_force", "n >= 1"),
-        (Problem.dimensionless(2, 0.95, 1), "pull_off_force", "k <= 0.9, not k = 0.95"),
-        (Problem.dimensionless(2, 0, 1), "contact_radius", "does not compute contact_radius"),
+        ("fem", 0.9, 0, 1, "pull_off_force", "n >= 1"),
+        ("fem", 2, 0.95, 1, "pull_off_force", "k <= 0.9, not k = 0.95"),
+        ("fem", 2, 0, 1, "contact_radius", "does not compute contact_radius"),
+        ("atlas", 2, 0.4, 11, "pull_off_force", r"mu = 11 is outside \[0.01, 10\]"),
+        ("atlas", 2, 0, 0.3, "jump_in_gap", "critical Tabor number 0.69"),
+        ("fscm", 2, 0, 0.3, "jump_in_gap", "critical Tabor number"),
+        ("fscm-stieltjes-400", 2, 0.4, 0.5, "hysteresis_energy", "does not compute"),
+        ("fscm-stieltjes-400", 2, 1, 0.5, "pull_off_force", "k < 1, not k = 1"),
     ],
 )
-def test_what_the_finite_elements_do_not_do(problem, quantity, reason):
+def test_what_the_solvers_do_not_do(model, n, k, mu, quantity, reason):
     with pytest.raises(NotApplicable, match=reason):
-        FiniteElements().evaluate(problem, quantity)
+        create(model).evaluate(Problem.dimensionless(n, k, mu), quantity)
     assert FiniteElements().physical(Problem.dimensionless(1, 0.9, 1))[1].punch.n == 1.0
