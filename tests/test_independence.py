@@ -27,7 +27,7 @@ ALLOWED = {
     # Judges statements on the functions inside the FSCM and on the two Tabor numbers (Eqs. 18-22 and 30).
     "comparisons.paper.statements.formulas": ("fscm",),
     # Measures a solver at every accuracy, and the scheme of the paper beside it.
-    "comparisons.bench.pull_off": ("fscm", "fem_reference"),
+    "comparisons.bench.work_precision": ("fscm", "fem_reference"),
     # Pose the problem of a file to each solver: any solid, punch and law.
     "comparisons.problem.problem": ("fscm",),
     # The pressure at the pull-off force and the surface compliance of a solid, which are no quantities of a model.
@@ -39,7 +39,7 @@ ALLOWED = {
     # Derivatives of a value, which are no quantity of a model.
     "comparisons.description.uncertainty": ("fscm",),
     # The Stieltjes scheme from an accurate surface on.
-    "comparisons.paper.values.scheme_forces": ("fscm",),
+    "comparisons.paper.scheme_forces": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
     "comparisons.models.gibson_limit": ("fscm",),

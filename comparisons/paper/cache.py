@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib import import_module
+from inspect import signature
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -29,16 +30,16 @@ class CachedCall:
     arguments: tuple[float | str, ...]
 
     @classmethod
-    def of(cls, function: Callable[..., Any], *arguments: float | str) -> CachedCall:
-        """Return the call `function(*arguments)`, not made yet.
+    def of(cls, function: Callable[..., Any], *arguments: float | str, **named: float | str) -> CachedCall:
+        """Return the call `function(*arguments, **named)`, not made yet.
 
         Examples
         --------
-        >>> from math import hypot
-        >>> CachedCall.of(hypot, 3, 4)
-        CachedCall(function='math:hypot', arguments=(3, 4))
+        >>> CachedCall.of(pow, exp=4, base=3)
+        CachedCall(function='builtins:pow', arguments=(3, 4))
         """
-        return cls(f"{function.__module__}:{function.__qualname__}", arguments)
+        bound = signature(function).bind(*arguments, **named)
+        return cls(f"{function.__module__}:{function.__qualname__}", bound.args)
 
     @property
     def name(self) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from string import ascii_lowercase
 from typing import Any
 
@@ -25,7 +25,7 @@ LABELS = {
     "force": r"pull-off force $-\bar P_c$",
     "central_gap": r"central gap $H_0/z_0$",
 }
-_SYMBOLS = {"n": "$n$", "k": "$k$", "mu": r"$\mu$"}
+_SYMBOLS = {"n": "$n$", "k": "$k$", "mu": r"$\mu$", "nu": r"$\nu$"}
 
 
 def dashed(index: int) -> dict[str, Any]:
@@ -35,35 +35,30 @@ def dashed(index: int) -> dict[str, Any]:
 
 def held(**values: float) -> str:
     """Return parameters that a panel holds, or a line, e.g. ``$n$ = 2, $k$ = 0.4``."""
-    return ", ".join(f"{symbol} = {values[name]:g}" for name, symbol in _SYMBOLS.items() if name in values)
+    text = ", ".join(f"{_SYMBOLS[name]} = {value:g}" for name, value in values.items())
+    return f"{text} (Gibson)" if values == {"k": 1.0} else text
 
 
-def label_of(name: str, value: float) -> str:
-    """Return the label of a line for one value of a parameter."""
-    return held(**{name: value}) + (" (Gibson)" if (name, value) == ("k", 1.0) else "")
-
-
-def panels(
-    figure: Figure, rows: int, columns: int, words: Iterable[str], x: str = "", y: str = "", **grid: Any
-) -> list[Axes]:
+def panels(figure: Figure, words: Sequence[str], x: str = "", y: str = "", rows: int = 1, **grid: Any) -> list[Axes]:
     """Return lettered panels, row by row, with what each alone shows; labels are at the left and below.
 
     Parameters
     ----------
-    words : iterable of str
+    words : sequence of str
         One text a panel.
     x, y : str
-        Labels of the axes.
+        What is on the axes, as in `LABELS`, or their labels.
+    rows : int
     **grid
         Of `Figure.subplots`.
     """
-    lattice = figure.subplots(rows, columns, squeeze=False, **grid)
+    lattice = figure.subplots(rows, len(words) // rows, squeeze=False, **grid)
     for letter, text, axes in zip(ascii_lowercase, words, lattice.flat, strict=False):
         lettered(axes, letter, text)
     for axes in lattice[-1]:
-        axes.set_xlabel(x)
+        axes.set_xlabel(LABELS.get(x, x))
     for axes in lattice[:, 0]:
-        axes.set_ylabel(y)
+        axes.set_ylabel(LABELS.get(y, y))
     return list(lattice.flat)
 
 
@@ -72,10 +67,10 @@ def of_model(table: pd.DataFrame, *models: str, column: str = "model") -> list[p
     return [table[table[column] == model] for model in models]
 
 
-def by_model(axes: Axes, table: pd.DataFrame, x: str, y: str) -> None:
+def by_model(axes: Axes, table: pd.DataFrame, x: str, y: str, **style: Any) -> None:
     """Draw the FSCM and both Maugis-Dugdale models, each in its style."""
     for model, rows in zip(MODEL_LINES, of_model(table, *MODEL_LINES), strict=True):
-        axes.plot(rows[x], rows[y], label=model, **MODEL_LINES[model])
+        axes.plot(rows[x], rows[y], **{"label": model} | MODEL_LINES[model] | style)
 
 
 def lines_by(
@@ -83,7 +78,7 @@ def lines_by(
 ) -> None:
     """Draw a line for each value of a parameter."""
     for index, (value, rows) in enumerate(table.groupby(name)):
-        axes.plot(rows[x], scale * rows[y], **{"label": label + label_of(name, value)} | dashed(index) | style)
+        axes.plot(rows[x], scale * rows[y], **{"label": label + held(**{name: value})} | dashed(index) | style)
 
 
 def beside_fem(
@@ -93,6 +88,12 @@ def beside_fem(
     exact, fem = of_model(table, "fscm", "fem", column=column)
     axes.plot(exact[x], scale * exact[y], **style)
     axes.plot(fem[x], scale * fem[y], ls="none", marker="x", ms=8, color="0.2")
+
+
+def banded(axes: Axes, x: pd.Series, y: pd.Series, u: pd.Series, **style: Any) -> None:
+    """Draw a line in percent, and its bound as a band."""
+    axes.plot(x, 100.0 * y, **style)
+    axes.fill_between(x, 100.0 * (y - u), 100.0 * (y + u), color=style["color"], alpha=0.2, lw=0.0)
 
 
 def level(axes: Axes, y: float = 0.0, **style: Any) -> None:

@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Generator, Iterable, Mapping
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import pandas as pd
 from matplotlib.figure import Figure
 from rich.console import RenderableType
 
+from comparisons.data.toml_text import shipped
 from comparisons.output.latex import latex
 from comparisons.output.markup import markdown
 from comparisons.output.style import save, styled
@@ -38,8 +40,8 @@ def calls_of(plan: Plan[Any]) -> list[CachedCall]:
 
     Examples
     --------
-    >>> calls_of(rows_of([({"x": 3}, CachedCall("math:sqrt", (3,)))]))
-    [CachedCall(function='math:sqrt', arguments=(3,))]
+    >>> calls_of(rows_of(pow, cases(base=[2], exp=[3, 4, 3])))
+    [CachedCall(function='builtins:pow', arguments=(2, 3)), CachedCall(function='builtins:pow', arguments=(2, 4))]
     """
     return list(dict.fromkeys(next(plan).values()))
 
@@ -71,35 +73,34 @@ def together(plans: Mapping[K, Plan[T]]) -> Plan[dict[K, T]]:
     return {key: _made(plan, {name: results[key, name] for name in calls[key]}) for key, plan in plans.items()}
 
 
-def result_of(function: Callable[..., Any], *arguments: float | str) -> Plan[Any]:
+def result_of(function: Callable[..., Any], *arguments: float | str, **named: float | str) -> Plan[Any]:
     """Plan the result of one call."""
-    results = yield {"": CachedCall.of(function, *arguments)}
+    results = yield {"": CachedCall.of(function, *arguments, **named)}
     return results[""]
 
 
-def keyed(function: Callable[..., Any], *arguments: str, **key: Any) -> tuple[dict[str, Any], CachedCall]:
-    """Return a call of `rows_of`, whose last arguments are its key.
+def cases(**values: Iterable[Any]) -> list[dict[str, Any]]:
+    """Return every combination of values, by their names.
 
     Examples
     --------
-    >>> keyed(pow, x=2, y=3)
-    ({'x': 2, 'y': 3}, CachedCall(function='builtins:pow', arguments=(2, 3)))
+    >>> cases(n=[2.0], k=[0.0, 0.4])
+    [{'n': 2.0, 'k': 0.0}, {'n': 2.0, 'k': 0.4}]
     """
-    return key, CachedCall.of(function, *arguments, *key.values())
+    return [dict(zip(values, combination, strict=True)) for combination in product(*values.values())]
 
 
-def rows_of(calls: Iterable[tuple[Mapping[str, Any], CachedCall]], *names: str) -> Plan[pd.DataFrame]:
-    """Plan the table of several calls: the keys of each, and its result, of which these names, by default all.
+def rows_of(
+    function: Callable[..., Any], keys: Iterable[Mapping[str, Any]], *names: str, **fixed: float | str
+) -> Plan[pd.DataFrame]:
+    """Plan the table of a function: its arguments in each row, and its result, of which these names, by default all.
 
-    A result that lacks a name has NaN there.
+    A result that lacks a name has NaN there.  What is fixed are arguments that the table does not show.
     """
-    keyed = list(calls)
-    results = yield dict(enumerate(call for _, call in keyed))
-    rows = []
-    for index, (key, _) in enumerate(keyed):
-        result = results[index]
-        rows.append({**key, **({name: result.get(name, math.nan) for name in names} or result)})
-    return table_of(rows)
+    rows = list(keys)
+    results = yield {index: CachedCall.of(function, **row, **fixed) for index, row in enumerate(rows)}
+    columns = [{name: results[index].get(name, math.nan) for name in names} or results[index] for index in results]
+    return table_of({**row, **of_row} for row, of_row in zip(rows, columns, strict=True))
 
 
 def table_of(rows: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
@@ -118,13 +119,8 @@ def table_of(rows: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
-class Reading(NamedTuple):
-    """The main table of a figure as texts: all columns, those for a terminal and for paper, and what stands below."""
-
-    whole: pd.DataFrame
-    on_screen: pd.DataFrame
-    on_paper: pd.DataFrame
-    notes: str
+#: The main table of a figure as texts: all columns, those for a terminal, and those for paper.
+Reading = tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,7 +143,8 @@ class PaperFigure:
     size : tuple of float
         Width and height of the page in inches.
     reading : callable or None
-        Makes texts of the main table; None for a figure whose tables are numbers only.
+        Makes texts of the main table; None for a figure whose tables are numbers only.  The file of data of the same
+        stem has the notes that stand below them.
     follows_path : bool
         Whether the rows of its tables lie along equilibrium paths.  The solver places these points, so that rounding
         may change where they lie and how many there are.
@@ -175,13 +172,14 @@ class PaperFigure:
         """Return the main table for reading as a page, and in LaTeX, by the suffix of the file each goes to."""
         if not self.reading:
             return {}
-        whole, _, on_paper, notes = self.reading(tables[""])
+        whole, _, on_paper = self.reading(tables[""])
+        notes = shipped(f"{self.stem}.toml")["notes"]
         tex = latex(on_paper, f"{self.title}. {notes}", self.stem.replace("_", "-"))
         return {".md": f"{markdown(whole, self.title)}\n{notes}\n", ".tex": tex}
 
     def printed(self, tables: Tables) -> RenderableType | None:
         """Return the table that the command prints, None for a figure whose tables are numbers only."""
-        return records(self.reading(tables[""]).on_screen, self.title) if self.reading else None
+        return records(self.reading(tables[""])[1], self.title) if self.reading else None
 
     def table_file(self, name: str) -> str:
         """Return the name of the CSV file of a table."""

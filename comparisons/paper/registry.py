@@ -1,4 +1,4 @@
-"""Registry of the figures of the paper and of the findings: a new module in one of the folders is enough."""
+"""Registry of the figures of the paper and of the findings: a new module in the folder `figures` is enough."""
 
 from __future__ import annotations
 
@@ -6,14 +6,16 @@ from collections.abc import Iterable
 from importlib import import_module
 from pkgutil import iter_modules
 
+from comparisons.paper import figures
+from comparisons.paper import printed_values as printed_values
 from comparisons.paper.paper_figure import FIGURES, PaperFigure
+from comparisons.paper.statements import judgement as judgement
 
-for _folder in ("figures", "values", "statements", "studies"):
-    for _module in iter_modules(import_module(f"comparisons.paper.{_folder}").__path__):
-        import_module(f"comparisons.paper.{_folder}.{_module.name}")
+for _module in iter_modules(figures.__path__, f"{figures.__name__}."):
+    import_module(_module.name)
 
 #: Values of `--figure`: the numbers of the paper's figures, then the names of what is not a figure of the paper.
-NAMES = tuple(sorted(FIGURES, key=lambda name: int(name) if name.isdigit() else len(FIGURES)))
+NAMES = tuple(sorted(FIGURES, key=lambda name: (int(name) if name.isdigit() else len(FIGURES), name)))
 
 
 def paper_figures(names: Iterable[str] | None = None) -> list[PaperFigure]:

@@ -6,23 +6,19 @@ points are not lost.  Bounds on numerical errors are named ``u_...``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
 from operator import attrgetter
 from typing import Any
 
 import numpy as np
-import pandas as pd
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 import fscm
-from comparisons.model import FARTHEST_GAP, ComputationFailed, HasCurve, HasProfile, NotApplicable, translated
+from comparisons.model import FARTHEST_GAP, Array, ComputationFailed, HasCurve, HasProfile, NotApplicable, translated
 from comparisons.models.cohesive_models import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from comparisons.models.gibson_limit import gibson_profile
-from comparisons.paper.cache import CachedCall
-from comparisons.paper.paper_figure import Plan, rows_of
 from comparisons.problem import Problem
 from comparisons.registry import create
 from comparisons.runs.tasks import Task, evaluate_task
@@ -32,6 +28,8 @@ from fscm.laws import LennardJones
 from fscm.solution import FLOOR, SAFETY, EventPair, State
 
 Json = dict[str, Any]
+#: Displacement, radii, and columns over them with their bounds.
+_Surface = tuple[float, Array, dict[str, Array], dict[str, Array]]
 
 #: Shape indices of the paper.
 SHAPES = (1.0, 1.5, 2.0, 5.0)
@@ -67,12 +65,12 @@ def _with_status(function: Callable[..., Json]) -> Callable[..., Json]:
 
 
 @_with_status
-def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
+def quantity(model: str, quantity: str, n: float, k: float, mu: float) -> Json:
     """Evaluate a quantity by a model.
 
     Parameters
     ----------
-    model, name : str
+    model, quantity : str
         As in `comparisons.registry.MODELS` and `comparisons.quantities.QUANTITIES`.
     n, k, mu : float
         The case, dimensionless.
@@ -90,16 +88,8 @@ def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
     >>> quantity("bradley", "jump_in_gap", 2, 0.4, 1)["status"]
     'not-applicable'
     """
-    row = evaluate_task(Task(model, name, Problem.dimensionless(n, k, mu)))
+    row = evaluate_task(Task(model, quantity, Problem.dimensionless(n, k, mu)))
     return {name: getattr(row, name) for name in ("value", "u_num", "status", "reason")}
-
-
-def values_of(name: str, cases: Iterable[tuple[str, float, float, float]]) -> Plan[pd.DataFrame]:
-    """Plan the table of a quantity for models, n, k and mu."""
-    return rows_of(
-        ({"model": model, "n": n, "k": k, "mu": mu}, CachedCall.of(quantity, model, name, n, k, mu))
-        for model, n, k, mu in cases
-    )
 
 
 @_with_status
@@ -157,7 +147,7 @@ def profile(model: str, n: float, k: float, mu: float) -> Json:
     return columns | {"u_distance": float(shape.u_distance)}
 
 
-def _numbers(values: NDArray[np.float64]) -> list[float | None]:
+def _numbers(values: Array) -> list[float | None]:
     return [float(value) if np.isfinite(value) else None for value in values]
 
 
@@ -298,26 +288,33 @@ def surface(n: float, k: float, mu: float) -> Json:
     >>> round(min(surface(2, 0.4, 1)["pressure"]), 3)          # the strength of the surface law
     -1.026
     """
-    if k == 1.0:
-        return _gibson_surface(FscmProblem(n, k, mu))
+    displacement, radius, value, bounds = (_gibson_surface if k == 1.0 else _graded_surface)(n, k, mu)
+    columns: Json = {"displacement": float(displacement), "radius": radius.tolist()}
+    for name, array in value.items():
+        columns |= {name: array.tolist(), f"u_{name}": bounds[name].tolist()}
+    return columns
+
+
+def _graded_surface(n: float, k: float, mu: float) -> _Surface:
     with analysed(n, k, mu) as analysis:
         event = analysis.event("pull_off")
     edge = event.value.scale if event.value.follows_edge else 1.0
     radius = np.unique(np.concatenate([np.linspace(0.0, _FARTHEST, _STEPS + 1), edge * (1.0 + _AROUND_EDGE)]))
     check, value = _sampled(event.check, radius), _sampled(event.value, radius)
     bounds = {name: bound(values - check[name], values) for name, values in value.items()}
-    return _listed(event.value.displacement, radius, value, bounds)
+    return event.value.displacement, radius, value, bounds
 
 
-def _sampled(state: State, radius: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+def _sampled(state: State, radius: Array) -> dict[str, Array]:
     gap, deformation = (
         state.disc.mesh.evaluate(values, radius / state.scale) for values in (state.gap, state.deformation)
     )
     return {"gap": gap, "pressure": state.disc.problem.law.traction(gap), "deformation": deformation}
 
 
-def _gibson_surface(problem: FscmProblem) -> Json:
+def _gibson_surface(n: float, k: float, mu: float) -> _Surface:
     """The surface at k = 1, algebra at every point: its error is that of the displacement."""
+    problem = FscmProblem(n, k, mu)
     profile, pull_off = gibson_profile(problem), solve(problem, "pull_off_displacement")
     inside = profile.radius <= _FARTHEST
     pressure = profile.pressure[inside]
@@ -325,19 +322,7 @@ def _gibson_surface(problem: FscmProblem) -> Json:
     # Along the surface gap and pressure are exact functions of each other; only the radius carries an error.
     u = (1.0 + problem.compliance) * pull_off.u_num
     bounds = {name: u + bound(0.0, values) for name, values in value.items()}
-    return _listed(pull_off.value, profile.radius[inside], value, bounds)
-
-
-def _listed(
-    displacement: float,
-    radius: NDArray[np.float64],
-    values: dict[str, NDArray[np.float64]],
-    bounds: dict[str, NDArray[np.float64]],
-) -> Json:
-    columns: Json = {"displacement": float(displacement), "radius": radius.tolist()}
-    for name, array in values.items():
-        columns |= {name: array.tolist(), f"u_{name}": bounds[name].tolist()}
-    return columns
+    return pull_off.value, profile.radius[inside], value, bounds
 
 
 def half_strength_gaps() -> tuple[float, float]:

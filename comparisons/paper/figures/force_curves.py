@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import partial
-from itertools import product
 from typing import Any
 
 import numpy as np
@@ -12,26 +10,15 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
-from comparisons.paper.cache import CachedCall
-from comparisons.paper.drawing import (
-    LABELS,
-    beside_fem,
-    by_model,
-    held,
-    label_of,
-    legend_below,
-    level,
-    of_model,
-    panels,
-)
-from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, together
-from comparisons.paper.statements.paths import turning_points
+from comparisons.paper.drawing import LABELS, beside_fem, by_model, held, legend_below, level, of_model, panels
+from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, result_of, rows_of, together
+from comparisons.paper.statements.equilibria import turning_points
 from comparisons.paper.tasks import GRADIENTS, curve, named_points, quantity
 
 Range = tuple[float, float]
 
 #: Fig. 3: the case, and the ranges of the axes: the approach continues beyond them.
-_CASE = (2.0, 0.4, 3.0)
+_CASE = {"n": 2.0, "k": 0.4, "mu": 3.0}
 _S_RANGES = {"central_gap": (-0.04, 7.0), "displacement": (-7.2, 7.6), "load": (-2.05, 0.55)}
 _S_AXES = (("central_gap", "displacement"), ("central_gap", "load"), ("displacement", "load"))
 #: In contact the central gap hardly moves; its scale is linear below and logarithmic beyond.
@@ -55,14 +42,14 @@ _K, _MU = 0.4, 1.0
 _FAINT = 0.04
 
 _COLUMNS = ("displacement", "u_displacement", "load", "u_load")
-#: Cases of the additional folds, and the displacements of the part that has them.
-_FOLDS = {(2.0, 0.4, 3.0): (-3.36, -3.22), (2.0, 0.6, 3.0): (-3.36, -3.32)}
+#: Gradient exponents of the additional folds, and the displacements of the part that has them.
+_FOLDS = {0.4: (-3.36, -3.22), 0.6: (-3.36, -3.32)}
 
 
 def _s_curve(figure: Figure, curves: pd.DataFrame, points: pd.DataFrame, hysteresis: pd.DataFrame) -> None:
     points = points.set_index("name")
     path, jkr = of_model(curves, "fscm", "jkr")
-    lattice = panels(figure, 1, 3, ("", "", held(**dict(zip(("n", "k", "mu"), _CASE, strict=True)))))
+    lattice = panels(figure, ("", "", held(**_CASE)))
     lattice[2].fill(*loop(path, points), color=COLOURS[6], alpha=0.35, lw=0)
     for axes, (x, y) in zip(lattice, _S_AXES, strict=True):
         level(axes)
@@ -92,25 +79,23 @@ def loop(path: pd.DataFrame, points: pd.DataFrame) -> tuple[np.ndarray, np.ndarr
     return outline[:, 0], outline[:, 1]
 
 
-def _points() -> Plan[pd.DataFrame]:
-    points = yield from result_of(named_points, *_CASE)
-    return pd.DataFrame([{"name": name} | point for name, point in points.items()])
-
-
 @paper_figure(_s_curve, size=(9.6, 3.8), follows_path=True)
 def fig03_s_curve() -> Plan[Tables]:
     """The S-shaped curve at n = 2, k = 0.4, mu = 3."""
-    paths = [({"model": model}, CachedCall.of(curve, model, *_CASE)) for model in ("fscm", "jkr")]
-    energy = {"quantity": "hysteresis_energy"}, CachedCall.of(quantity, "fscm", "hysteresis_energy", *_CASE)
-    # The coordinate along the path, at which displacement and load are uncertain; JKR has none.
-    curves = rows_of(paths, "central_gap", *_COLUMNS)
-    return together({"curves": curves, "points": _points(), "hysteresis": rows_of([energy])})
+    plans: dict[str, Plan[Any]] = {
+        # The coordinate along the path, at which displacement and load are uncertain; JKR has none.
+        "curves": rows_of(curve, cases(model=["fscm", "jkr"]), "central_gap", *_COLUMNS, **_CASE),
+        "points": result_of(named_points, **_CASE),
+        "hysteresis": rows_of(quantity, [{"quantity": "hysteresis_energy"}], model="fscm", **_CASE),
+    }
+    tables: Tables = yield from together(plans)
+    points = pd.DataFrame(tables["points"]).T.rename_axis("name").reset_index()
+    return tables | {"points": points}
 
 
-def curves(cases: Iterable[tuple[float, float, float]]) -> Plan[pd.DataFrame]:
+def curves(keys: list[dict[str, Any]]) -> Plan[Tables]:
     """Plan the table of the curves of the FSCM in these cases."""
-    calls = (keyed(curve, "fscm", n=n, k=k, mu=mu) for n, k, mu in cases)
-    return rows_of(calls, "status", *_COLUMNS)
+    return together({"": rows_of(curve, keys, "status", *_COLUMNS, model="fscm")})
 
 
 def _families(
@@ -123,35 +108,37 @@ def _families(
 ) -> None:
     """Draw a panel for each value of one parameter, with a curve for each of another."""
     words = [held(**{across: value}, **fixed) for value in ranges]
-    lattice = panels(figure, len(ranges) // 2, 2, words, LABELS["displacement"], LABELS["load"])
+    lattice = panels(figure, words, "displacement", "load", rows=len(ranges) // 2)
     for axes, (of_panel, limits) in zip(lattice, ranges.items(), strict=True):
         for index, (value, path) in enumerate(table[table[across] == of_panel].groupby(along)):
             # Dashes would hide folds; markers at equal distances tell the curves apart in grey.
             marked: Any = {"color": COLOURS[index], "marker": MARKERS[index], "markevery": (0.03 * (1 + index), 0.24)}
-            marked |= {"ms": 3.0, "mfc": "white", "lw": 1.0, "label": label_of(along, value)}
+            marked |= {"ms": 3.0, "mfc": "white", "lw": 1.0, "label": held(**{along: value})}
             axes.plot(path["displacement"], path["load"], **marked)
         level(axes)
         axes.set(xlim=limits[0], ylim=limits[1])
     legend_below(figure, len(_TABOR_NUMBERS))
 
 
-@paper_figure(partial(_families, ranges=_SHAPES, across="n", along="mu", k=_K), size=(7.2, 6.0), follows_path=True)
+_over_tabor_numbers = partial(_families, ranges=_SHAPES, across="n", along="mu", k=_K)
+_over_gradients = partial(_families, ranges=_TABOR_PANELS, across="mu", along="k", n=2.0)
+
+
+@paper_figure(_over_tabor_numbers, size=(7.2, 6.0), follows_path=True)
 def fig04_force_curves_over_tabor_numbers() -> Plan[Tables]:
     """Force-displacement curves for k = 0.4 and four shapes, over the Tabor number."""
-    return together({"": curves((n, _K, mu) for n in _SHAPES for mu in _TABOR_NUMBERS)})
+    return curves(cases(n=_SHAPES, k=[_K], mu=_TABOR_NUMBERS))
 
 
-@paper_figure(
-    partial(_families, ranges=_TABOR_PANELS, across="mu", along="k", n=2.0), size=(7.2, 3.6), follows_path=True
-)
+@paper_figure(_over_gradients, size=(7.2, 3.6), follows_path=True)
 def fig06_force_curves_over_gradients() -> Plan[Tables]:
     """Force-displacement curves for n = 2, mu = 0.5 and 1, over the gradient exponent."""
-    return together({"": curves((2.0, k, mu) for mu in _TABOR_PANELS for k in (*GRADIENTS, 1.0))})
+    over_gradients = [cases(n=[2.0], k=(*GRADIENTS, 1.0), mu=[mu]) for mu in _TABOR_PANELS]
+    return curves([*over_gradients[0], *over_gradients[1]])
 
 
 def _over_models(figure: Figure, table: pd.DataFrame) -> None:
-    words = [held(n=n, k=_K, mu=_MU) for n in _SHAPES]
-    lattice = panels(figure, 2, 2, words, LABELS["displacement"], LABELS["load"])
+    lattice = panels(figure, [held(n=n, k=_K, mu=_MU) for n in _SHAPES], "displacement", "load", rows=2)
     for axes, (_, of_shape) in zip(lattice, table.groupby("n"), strict=True):
         by_model(axes, of_shape, "displacement", "load")
         level(axes)
@@ -167,18 +154,13 @@ def _over_models(figure: Figure, table: pd.DataFrame) -> None:
 @paper_figure(_over_models, size=(7.2, 5.6), follows_path=True)
 def fig13_force_curve_models() -> Plan[Tables]:
     """Force-displacement curves of both Maugis-Dugdale models, which end at first contact, and the FSCM."""
-    cases = product(_SHAPES, MODEL_LINES)
-    calls = (
-        ({"n": n, "k": _K, "mu": _MU, "model": model}, CachedCall.of(curve, model, n, _K, _MU)) for n, model in cases
-    )
     columns = ("displacement", "load", "u_displacement", "u_load", "status", "reason")
-    return together({"": rows_of(calls, *columns)})
+    return together({"": rows_of(curve, cases(n=_SHAPES, k=[_K], mu=[_MU], model=MODEL_LINES), *columns)})
 
 
-def _draw_fold_pairs(figure: Figure, table: pd.DataFrame) -> None:
-    words = [held(n=n, k=k, mu=mu) for n, k, mu in _FOLDS]
-    lattice = panels(figure, 1, 2, words, LABELS["central_gap"], LABELS["displacement"])
-    for axes, ((_, k, _), limits) in zip(lattice, _FOLDS.items(), strict=True):
+def _fold_pairs(figure: Figure, table: pd.DataFrame) -> None:
+    lattice = panels(figure, [held(**_CASE | {"k": k}) for k in _FOLDS], "central_gap", "displacement")
+    for axes, (k, limits) in zip(lattice, _FOLDS.items(), strict=True):
         rows = table[table["k"] == k]
         style: Any = {"color": COLOURS[0], "label": "fscm, crosses: fem"}
         beside_fem(axes, rows, "central_gap", "displacement", column="model", **style)
@@ -189,14 +171,13 @@ def _draw_fold_pairs(figure: Figure, table: pd.DataFrame) -> None:
     legend_below(figure, 3)
 
 
-@paper_figure(_draw_fold_pairs, follows_path=True)
+@paper_figure(_fold_pairs, follows_path=True)
 def finding_fold_pairs() -> Plan[Tables]:
     """Additional turning points of the displacement at mu = 3."""
-    cases = product(_FOLDS, ("fscm", "fem"))
-    calls = [keyed(curve, model=model, n=n, k=k, mu=mu) for (n, k, mu), model in cases]
-    table = yield from rows_of(calls, "central_gap", "displacement", "u_displacement")
+    keys = [key for k in _FOLDS for key in cases(model=["fscm", "fem"], n=[2.0], k=[k], mu=[3.0])]
+    table = yield from rows_of(curve, keys, "central_gap", "displacement", "u_displacement")
     turns: list[int] = []
-    for _, path in table.groupby(["n", "k", "mu", "model"]):
+    for _, path in table.groupby(["k", "model"]):
         points = turning_points(path["displacement"].to_numpy(), path["u_displacement"].iloc[0])
         turns.extend(path.index[points])
     return {"": table.assign(turning_point=table.index.isin(turns))}

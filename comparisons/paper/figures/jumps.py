@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from comparisons.models.semi_rigid import jump_in_coefficient
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
 from comparisons.paper.drawing import LABELS, beside_fem, dashed, held, legend_below, level, lines_by, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, table_of, together
-from comparisons.paper.statements.measures import named, table_of_terms
-from comparisons.paper.tasks import GRADIENTS, SHAPES, jumps, near_critical, quantity, values_of
+from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, result_of, rows_of, together
+from comparisons.paper.statements.measures import table_of_terms
+from comparisons.paper.tasks import GRADIENTS, SHAPES, jumps, near_critical, quantity
 
 _N, _K = 2.0, 0.4
 #: Above the critical Tabor numbers, which are between 0.69 and 0.79.
@@ -21,16 +21,19 @@ TABOR_NUMBERS = (0.85, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0, 
 #: Quantity -> the model whose asymptote it has: Eqs. 47 and 54.
 _ASYMPTOTES = {"jump_in_displacement": "semi-rigid", "jump_out_displacement": "jkr"}
 #: A Tabor number at which the gradient exponent decides whether there are jumps, and the cases shown.
-_ONSET = [(model, _N, k, 0.74) for model in ("fscm", "fem") for k in (0.0, 0.4)]
-#: Reference, n and mu at which the deformation is shown.
-_DEFORMED = [
-    *(("fscm", n, mu) for n in SHAPES for mu in (1.25, 1.5, 2.0, 3.0, 5.0)),
-    *(("fem", n, 3.0) for n in SHAPES),
-]
+_ONSET = cases(model=["fscm", "fem"], n=[_N], k=[0.0, 0.4], mu=[0.74])
+#: Cases in which the deformation is shown.
+_DEFORMED = cases(reference=["fscm"], n=SHAPES, k=[_K], mu=[1.25, 1.5, 2.0, 3.0, 5.0])
+_DEFORMED += cases(reference=["fem"], n=SHAPES, k=[_K], mu=[3.0])
+
+
+def _onsets(*names: str) -> Plan[pd.DataFrame]:
+    """Plan the table of `near_critical`, by default the critical Tabor number, over the gradient exponent."""
+    return rows_of(near_critical, cases(n=[_N], k=GRADIENTS), *(names or ("mu", "u_mu")))
 
 
 def _branches(figure: Figure, table: pd.DataFrame, critical: pd.DataFrame) -> None:
-    lattice = panels(figure, 1, 2, (held(n=_N),) * 2, LABELS["mu"])
+    lattice = panels(figure, (held(n=_N),) * 2, "mu")
     for axes, kind in zip(lattice, ("displacement", "gap"), strict=True):
         names = [f"jump_{name}_{kind}" for name in ("in", "out")]
         for index, (onset, (k, branches)) in enumerate(zip(critical["mu"], table.groupby("k"), strict=True)):
@@ -51,18 +54,11 @@ def _branches(figure: Figure, table: pd.DataFrame, critical: pd.DataFrame) -> No
 @paper_figure(_branches, size=(7.2, 3.8))
 def fig08_jumps() -> Plan[Tables]:
     """Displacement and central gap at the jumps for n = 2, over the Tabor number."""
-    onsets = {k: result_of(near_critical, _N, k) for k in GRADIENTS}
-    beyond = {(k, mu): result_of(jumps, _N, k, mu) for mu in TABOR_NUMBERS for k in GRADIENTS}
-    results = yield from together(onsets | beyond)
-    rows = [{"n": _N, "k": k} | row for k in GRADIENTS for row in results[k]["jumps"]]
-    rows += [{"n": _N, "k": k, "mu": mu} | results[k, mu] for k, mu in beyond]
-    table = pd.DataFrame(rows).sort_values(["k", "mu"], ignore_index=True)
-    return {"": table, "critical": _critical(results)}
-
-
-def _critical(onsets: dict[Any, Any]) -> pd.DataFrame:
-    """Critical Tabor number of each gradient exponent, from results of `near_critical`."""
-    return pd.DataFrame([{"n": _N, "k": k} | {name: onsets[k][name] for name in ("mu", "u_mu")} for k in GRADIENTS])
+    beyond = rows_of(jumps, cases(n=[_N], k=GRADIENTS, mu=TABOR_NUMBERS))
+    tables = yield from together({"critical": _onsets(), "near": _onsets("jumps"), "beyond": beyond})
+    near = tables["near"].drop(columns="jumps").join(pd.DataFrame(tables["near"]["jumps"].tolist()))
+    table = pd.concat([near, tables["beyond"]]).sort_values(["k", "mu"], ignore_index=True)
+    return {"": table, "critical": tables["critical"]}
 
 
 def asymptotes(n: float, k: float) -> dict[str, list[float | None]]:
@@ -98,7 +94,7 @@ def coefficients(n: float) -> dict[str, list[float]]:
 
 
 def _beside_asymptotes(figure: Figure, displacements: pd.DataFrame, coefficients: pd.DataFrame) -> None:
-    left, right = panels(figure, 1, 2, (held(n=_N, k=_K), ""))
+    left, right = panels(figure, (held(n=_N, k=_K), ""))
     fscm, closed = of_model(displacements, "fscm", "asymptote")
     for index, (column, words) in enumerate(zip(_ASYMPTOTES, ("jump in, Eq. 47", "jump out, Eq. 54"), strict=True)):
         left.plot(closed["mu"], closed[column], label=words, color=COLOURS[index], ls=("-", "--")[index])
@@ -115,22 +111,22 @@ def _beside_asymptotes(figure: Figure, displacements: pd.DataFrame, coefficients
 @paper_figure(_beside_asymptotes, size=(7.2, 3.5))
 def fig09_jump_asymptotes() -> Plan[Tables]:
     """Asymptotes of the jumps beside the FSCM, and their coefficients."""
-    of_shapes = rows_of(keyed(coefficients, n=n) for n in SHAPES)
-    return together({"displacements": _displacements(), "coefficients": of_shapes})
-
-
-def _displacements() -> Plan[pd.DataFrame]:
-    plans: dict[Any, Plan[Any]] = {mu: result_of(jumps, _N, _K, mu) for mu in TABOR_NUMBERS}
-    plans |= {"onset": result_of(near_critical, _N, _K), "asymptote": result_of(asymptotes, _N, _K)}
-    results = yield from together(plans)
+    plans: dict[str, Plan[Any]] = {
+        "onset": result_of(near_critical, _N, _K),
+        "beyond": rows_of(jumps, cases(mu=TABOR_NUMBERS), n=_N, k=_K),
+        "asymptote": rows_of(asymptotes, cases(n=[_N], k=[_K])),
+        "coefficients": rows_of(coefficients, cases(n=SHAPES)),
+    }
+    tables = yield from together(plans)
     # Where the two jumps part, then evenly.
-    rows = [results["onset"]["jumps"][0], *({"mu": mu} | results[mu] for mu in TABOR_NUMBERS)]
-    columns = ["mu", *(f"{u}{name}" for name in _ASYMPTOTES for u in ("", "u_"))]
-    of_fscm = [{"model": "fscm"} | {name: row[name] for name in columns} for row in rows]
-    return table_of([*of_fscm, {"model": "asymptote"} | results["asymptote"]]).assign(n=_N, k=_K)
+    fscm = pd.concat([pd.DataFrame(tables["onset"]["jumps"][:1]), tables["beyond"]])
+    by_model = pd.concat({"fscm": fscm, "asymptote": tables["asymptote"]}, names=["model"]).reset_index("model")
+    columns = ["model", "mu", *(f"{u}{name}" for name in _ASYMPTOTES for u in ("", "u_"))]
+    displacements = by_model[columns].assign(n=_N, k=_K)
+    return {"displacements": displacements, "coefficients": tables["coefficients"]}
 
 
-def _draw_onset(figure: Figure, table: pd.DataFrame, energies: pd.DataFrame) -> None:
+def _onset(figure: Figure, table: pd.DataFrame, energies: pd.DataFrame) -> None:
     axes = figure.subplots()
     axes.plot(table["k"], table["mu"], color=COLOURS[0], marker="o", ms=4, label="critical Tabor number")
     low, high = table["mu"].min(), table["mu"].max()
@@ -147,18 +143,14 @@ def _draw_onset(figure: Figure, table: pd.DataFrame, energies: pd.DataFrame) -> 
     axes.legend(loc="lower left", fontsize=8)
 
 
-@paper_figure(_draw_onset, size=(5.0, 3.6))
+@paper_figure(_onset, size=(5.0, 3.6))
 def finding_onset() -> Plan[Tables]:
     """Onset of hysteresis over the gradient exponent at n = 2."""
-    return together({"": _onsets(), "energies": values_of("hysteresis_energy", _ONSET)})
+    return together({"": _onsets(), "energies": rows_of(quantity, _ONSET, quantity="hysteresis_energy")})
 
 
-def _onsets() -> Plan[pd.DataFrame]:
-    return _critical((yield from together({k: result_of(near_critical, _N, k) for k in GRADIENTS})))
-
-
-def _draw_semi_rigid(figure: Figure, table: pd.DataFrame) -> None:
-    lattice = panels(figure, 1, 2, (held(k=_K),) * 2, LABELS["mu"])
+def _semi_rigid(figure: Figure, table: pd.DataFrame) -> None:
+    lattice = panels(figure, (held(k=_K),) * 2, "mu")
     for axes, column, scale in zip(lattice, ("deformation", "error"), (1.0, 100.0), strict=True):
         for index, (n, line) in enumerate(table.groupby("n")):
             style: Any = {"marker": MARKERS[index], "ms": 3.5, "label": f"{held(n=n)}, crosses: fem", **dashed(index)}
@@ -169,9 +161,8 @@ def _draw_semi_rigid(figure: Figure, table: pd.DataFrame) -> None:
     legend_below(figure, 5)
 
 
-@paper_figure(_draw_semi_rigid)
+@paper_figure(_semi_rigid)
 def finding_semi_rigid() -> Plan[Tables]:
     """Deformation at jump-in, and the error of the asymptote that neglects it."""
-    places: Any = [(reference, {}, named(n, _K, mu)) for reference, n, mu in _DEFORMED]
     error = "relative_error jump_in_displacement semi-rigid"
-    return together({"": table_of_terms(places, deformation="jump_in_deformation", error=error)})
+    return together({"": table_of_terms(_DEFORMED, deformation="jump_in_deformation", error=error)})

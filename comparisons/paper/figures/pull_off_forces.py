@@ -1,9 +1,11 @@
-"""Figs. 10 and 14 to 16: the pull-off force over the Tabor number, of the FSCM and of closed forms."""
+"""Figs. 10 and 14 to 16: the pull-off force over the Tabor number, of the FSCM and of closed forms; findings on it.
+
+They are errors of the Maugis-Dugdale models, a force that falls first, and a domain too small.
+"""
 
 from __future__ import annotations
 
 from functools import partial
-from itertools import product
 from typing import Any
 
 import numpy as np
@@ -13,10 +15,23 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator
 
 from comparisons.output.errors import relative_error
-from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, model_styles
-from comparisons.paper.drawing import LABELS, by_model, dashed, held, label_of, legend_below, level, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, paper_figure, together
-from comparisons.paper.tasks import GRADIENTS, values_of
+from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
+from comparisons.paper.drawing import (
+    LABELS,
+    banded,
+    beside_fem,
+    by_model,
+    dashed,
+    held,
+    legend_below,
+    level,
+    lines_by,
+    of_model,
+    panels,
+)
+from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, rows_of, together
+from comparisons.paper.statements.measures import table_of_terms
+from comparisons.paper.tasks import COHESIVE, GRADIENTS, SHAPES, quantity
 
 #: Range of the pull-off force of each panel of Fig. 10, by shape index: a panel spans less than two decades.
 _SHAPES = {1.0: (2.0, 80.0), 1.5: (1.5, 7.0), 2.0: (1.45, 2.05), 5.0: (0.25, 2.2)}
@@ -29,6 +44,23 @@ _FACES = {"md-original": "white", "md-improved": None}
 #: Ten a decade, the preferred numbers of the series R10 but for rounding.
 TABOR_NUMBERS = tuple(float(f"{mu:.3g}") for mu in np.geomspace(0.01, 10.0, 31))
 
+#: Reference, n and mu of the errors.
+_FORCES = [
+    *(("fscm", n, mu) for n in SHAPES for mu in (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)),
+    *(("fem", n, mu) for n, mu in ((1.0, 2.0), (1.5, 2.0), (5.0, 2.0), (5.0, 3.0))),
+]
+#: n and mu at `_K`, and the reference.
+_DOMAIN = [(n, 0.01, model) for n in (1.0, 1.5) for model in ("fscm", "fem")]
+_DOMAIN += [(2.0, 0.668, "fscm"), (5.0, 0.246, "fscm")]
+_FALLING_N = 1.5
+_FORCE, _PLACE = "pull_off_force", "pull_off_displacement"
+_FALLING = [
+    *(("fscm", _FORCE, k, mu) for k in GRADIENTS for mu in (0.01, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1.0)),
+    *(("fem", _FORCE, k, mu) for k, mu in ((0.0, 0.01), (0.0, 0.3), (0.4, 0.01), (0.4, 0.05))),
+    *(("fscm", _PLACE, 0.4, mu) for mu in (0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3)),
+    *(("fem", _PLACE, 0.4, mu) for mu in (0.01, 0.1)),
+]
+
 
 def _log_forces(axes: Axes, low: float, high: float) -> None:
     """A logarithmic axis with plain numbers: 2, not 2 x 10^0."""
@@ -40,13 +72,12 @@ def _log_forces(axes: Axes, low: float, high: float) -> None:
 
 def _transition(figure: Figure, table: pd.DataFrame) -> None:
     forces = table[table["status"] == "ok"]
-    lattice = panels(figure, 2, 2, [held(n=n) for n in _SHAPES], LABELS["mu"], LABELS["force"], sharex=True)
+    lattice = panels(figure, [held(n=n) for n in _SHAPES], "mu", "force", rows=2, sharex=True)
     thin: Any = {"ls": (0, (2, 1.5)), "lw": 0.7}
     for axes, (n, limits) in zip(lattice, _SHAPES.items(), strict=True):
         fscm, jkr, bradley = of_model(forces[forces["n"] == n], "fscm", "jkr", "bradley")
-        for index, (k, line) in enumerate(fscm.groupby("k")):
-            axes.plot(line["mu"], line["value"], label=f"fscm, {label_of('k', k)}", **dashed(index))
-            axes.plot("mu", "value", data=jkr[jkr["k"] == k], color=COLOURS[index], label="_", **thin)
+        lines_by(axes, fscm, "k", "mu", "value", label="fscm, ")
+        lines_by(axes, jkr, "k", "mu", "value", **{"label": "_", **thin})
         axes.plot(bradley["mu"], bradley["value"], color="0.5", ls="--", lw=0.9, label="bradley")
         axes.plot([], [], color=COLOURS[0], **thin, label="jkr, colours as fscm")
         axes.set(xscale="log", xlim=_ENDS)
@@ -58,22 +89,19 @@ def _transition(figure: Figure, table: pd.DataFrame) -> None:
 def fig10_transition() -> Plan[Tables]:
     """Pull-off force from the Bradley to the JKR limit."""
     gradients = (*GRADIENTS, 1.0)
-    table = yield from values_of(
-        "pull_off_force",
-        [
-            *product(("fscm",), _SHAPES, gradients, _TRANSITION),
-            *product(("jkr",), _SHAPES, gradients, (_JKR_FROM, _ENDS[1])),
-            *product(("bradley",), _SHAPES, (0.0,), _ENDS),
-        ],
-    )
+    keys = [
+        *cases(model=["fscm"], n=_SHAPES, k=gradients, mu=_TRANSITION),
+        *cases(model=["jkr"], n=_SHAPES, k=gradients, mu=(_JKR_FROM, _ENDS[1])),
+        *cases(model=["bradley"], n=_SHAPES, k=[0.0], mu=_ENDS),
+    ]
+    table = yield from rows_of(quantity, keys, quantity=_FORCE)
     return {"": table.sort_values(["model", "n", "k", "mu"], ignore_index=True)}
 
 
 def _of_models(*limits: str) -> Plan[pd.DataFrame]:
     """Forces of the three models, then those of limiting ones."""
-    models = [*product(_SHAPES, ("fscm", "md-original", "md-improved")), *product(_SHAPES, limits)]
-    cases = [(model, n, _K, mu) for (n, model), mu in product(models, TABOR_NUMBERS)]
-    table = yield from values_of("pull_off_force", cases)
+    keys = [cases(n=_SHAPES, k=[_K], model=models, mu=TABOR_NUMBERS) for models in (MODEL_LINES, limits)]
+    table = yield from rows_of(quantity, [*keys[0], *keys[1]], quantity=_FORCE)
     columns = ["n", "k", "mu", "model", "value", "u_num", "status", "reason"]
     return table[columns].astype({"value": float, "u_num": float})
 
@@ -89,13 +117,12 @@ def by_limit(limit: str) -> Plan[Tables]:
     scaled = forces[["n", "k", "mu", "model"]].assign(
         ratio=ratio, u_ratio=(forces["u_num"] + ratio * u) / size, status=forces["status"], reason=forces["reason"]
     )
-    kappa = relative_error(forces.assign(quantity="pull_off_force", nu=np.nan), "fscm")
+    kappa = relative_error(forces.assign(quantity=_FORCE, nu=np.nan), "fscm")
     return {"": scaled, "kappa": kappa[["quantity", "n", "k", "mu", "model", "kappa", "u_kappa"]]}
 
 
 def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str) -> None:
-    words = [held(n=n, k=_K) for n in _SHAPES]
-    lattice = panels(figure, 2, 2, words, LABELS["mu"], label, sharex=True)
+    lattice = panels(figure, [held(n=n, k=_K) for n in _SHAPES], "mu", label, rows=2, sharex=True)
     for axes, (_, of_shape) in zip(lattice, table.groupby("n"), strict=True):
         _limits(axes, of_shape, y)
         by_model(axes, of_shape, "mu", y)
@@ -117,47 +144,41 @@ def _limits(axes: Axes, table: pd.DataFrame, y: str) -> None:
         axes.plot(line["mu"], line[y], color="0.55", lw=0.9, ls=dashes, label=name)
 
 
-@paper_figure(partial(_panels_of_models, y="value", label=LABELS["force"]), size=(7.2, 5.6))
+_forces = partial(_panels_of_models, y="value", label="force")
+_by_rigid = partial(_panels_of_models, y="ratio", label=r"$P_c/P_c^{\mathrm{Bradley}}$")
+
+
+@paper_figure(_forces, size=(7.2, 5.6))
 def fig14_pull_off_models() -> Plan[Tables]:
     """Pull-off force of the original and improved Maugis-Dugdale models and of the FSCM, k = 0.4."""
     return together({"": _of_models("bradley", "jkr")})
 
 
-@paper_figure(partial(_panels_of_models, y="ratio", label=r"$P_c/P_c^{\mathrm{Bradley}}$"), size=(7.2, 5.6))
+@paper_figure(_by_rigid, size=(7.2, 5.6))
 def fig15_pull_off_by_rigid_limit() -> Plan[Tables]:
     """Pull-off force scaled by the rigid (Bradley) limit, k = 0.4."""
     tables = yield from by_limit("bradley")
     return {"": tables[""]}
 
 
-def _kappa_panels(complete: Axes, enlarged: Axes, kappa: pd.DataFrame) -> None:
-    """Draw kappa (of one quantity and gradient exponent) into two axes: all of it, and near zero."""
-    for index, (n, of_shape) in enumerate(kappa.sort_values("mu").groupby("n")):
-        for model, face in _FACES.items():
-            points = of_shape[of_shape["model"] == model]
-            colour, line = COLOURS[index], model_styles([model])[model].line
-            style: dict[str, Any] = {"color": colour, "marker": MARKERS[index], "mfc": face or colour, "ms": 3.5}
-            error, u = 100 * points["kappa"], 100 * points["u_kappa"]
-            for axes, label in ((complete, f"$n$ = {n:g}, {model}"), (enlarged, "_")):
-                axes.plot(points["mu"], error, ls=line, label=label, **style)
-                axes.fill_between(points["mu"], error - u, error + u, color=colour, alpha=0.2)
-    for axes in (complete, enlarged):
-        axes.set(xscale="log", xlabel=r"Tabor number $\mu$")
-        axes.axhline(0, color="0.4", lw=0.8)
-    complete.set_ylabel(r"relative error of the pull-off force $\kappa$ (%)")
-    enlarged.set_ylim(-9, 9)
-
-
 def _by_soft(figure: Figure, table: pd.DataFrame, kappa: pd.DataFrame) -> None:
     words = (f"scaled by the soft limit, {held(k=_K)}", "relative error", "enlarged")
-    scaled, complete, enlarged = panels(figure, 1, 3, words, LABELS["mu"], r"$P_c/P_c^{\mathrm{JKR}}$")
-    for index, (_, of_shape) in enumerate(table.groupby("n")):
-        for model, line in zip(MODEL_LINES, of_model(of_shape, *MODEL_LINES), strict=True):
-            scaled.plot(line["mu"], line["ratio"], **MODEL_LINES[model] | {"color": COLOURS[index]})
+    scaled, complete, enlarged = panels(figure, words, "mu", r"$P_c/P_c^{\mathrm{JKR}}$")
+    for index, (n, of_shape) in enumerate(table.groupby("n")):
+        by_model(scaled, of_shape, "mu", "ratio", color=COLOURS[index], label="_")
+        for model, rows in zip(_FACES, of_model(kappa[kappa["n"] == n].sort_values("mu"), *_FACES), strict=True):
+            face, ls = _FACES[model] or COLOURS[index], MODEL_LINES[model]["ls"]
+            style = {"color": COLOURS[index], "marker": MARKERS[index], "mfc": face, "ms": 3.5, "ls": ls}
+            banded(complete, rows["mu"], rows["kappa"], rows["u_kappa"], label=f"$n$ = {n:g}, {model}", **style)
+            banded(enlarged, rows["mu"], rows["kappa"], rows["u_kappa"], label="_", **style)
     level(scaled, 1.0, ls=":")
-    scaled.set(xscale="log")
     _log_forces(scaled, table["ratio"].min() / 1.2, table["ratio"].max() * 1.2)
-    _kappa_panels(complete, enlarged, kappa)
+    for axes in (scaled, complete, enlarged):
+        axes.set(xscale="log")
+    for axes in (complete, enlarged):
+        level(axes)
+    complete.set_ylabel(r"relative error of the pull-off force $\kappa$ (%)")
+    enlarged.set_ylim(-9, 9)
     scaled.plot([], [], label="fscm, colours as $n$", **MODEL_LINES["fscm"])
     figure.legend(loc="outside lower center", ncols=5)
 
@@ -166,3 +187,64 @@ def _by_soft(figure: Figure, table: pd.DataFrame, kappa: pd.DataFrame) -> None:
 def fig16_pull_off_by_soft_limit() -> Plan[Tables]:
     """Pull-off force scaled by the soft (JKR) limit, and the relative error kappa of both models, k = 0.4."""
     return by_limit("jkr")
+
+
+def _cohesive_errors(figure: Figure, table: pd.DataFrame) -> None:
+    left, right = panels(figure, (held(k=_K), held(n=5, k=_K)), "mu")
+    for axes, shapes in ((left, SHAPES), (right, (5.0,))):
+        for (model, n), line in table[table["n"].isin(shapes)].groupby(["model", "n"]):
+            index, label = SHAPES.index(n), f"{model.removeprefix('md-')}, {held(n=n)}"
+            style = {"color": COLOURS[index], "marker": MARKERS[index], "ls": MODEL_LINES[model]["ls"], "ms": 3}
+            beside_fem(axes, line, "mu", "error", 100.0, label=label, **style)
+    level(left, 2.0, ls=":")
+    left.set(xscale="log", yscale="log", ylabel="relative error of the pull-off force (%)", ylim=(0.05, 30.0))
+    right.set(xlim=(1.4, 4.0), ylim=(0.0, 4.5))
+    legend_below(figure, 5, fontsize=7)
+
+
+@paper_figure(_cohesive_errors, size=(7.2, 3.6))
+def finding_cohesive_errors() -> Plan[Tables]:
+    """Errors of both Maugis-Dugdale pull-off forces from mu = 1 on, k = 0.4."""
+    rows = [
+        {"reference": reference, "model": model, "n": n, "k": _K, "mu": mu}
+        for reference, n, mu in _FORCES
+        for model in COHESIVE
+    ]
+    return together({"": table_of_terms(rows, error="relative_error pull_off_force {model}")})
+
+
+def _falls_first(figure: Figure, table: pd.DataFrame) -> None:
+    left, right = panels(figure, (held(n=_FALLING_N), held(n=_FALLING_N, k=0.4)), "mu")
+    for axes, name in ((left, _FORCE), (right, _PLACE)):
+        for k, line in table[table["quantity"] == name].groupby("k"):
+            style: Any = {"label": f"{held(k=k)}, crosses: fem", **dashed(GRADIENTS.index(k))}
+            beside_fem(axes, line, "mu", "value", column="model", **style)
+        axes.set(xscale="log")
+    left.set(ylabel=LABELS["force"], ylim=(2.1, 2.3))
+    right.set(ylabel=r"displacement at pull-off $\delta_c/z_0$")
+    legend_below(figure, 5)
+
+
+@paper_figure(_falls_first)
+def finding_falls_first() -> Plan[Tables]:
+    """Pull-off force and its displacement at n = 1.5, which fall before they rise."""
+    names = ("model", "quantity", "n", "k", "mu")
+    keys = [dict(zip(names, (model, name, _FALLING_N, k, mu), strict=True)) for model, name, k, mu in _FALLING]
+    return together({"": rows_of(quantity, keys)})
+
+
+def _domain(figure: Figure, table: pd.DataFrame) -> None:
+    axes = figure.subplots()
+    labels = [f"{held(n=n)}\n{held(mu=mu)}" for n, mu in table[["n", "mu"]].to_numpy()]
+    style: Any = {"ls": "none", "marker": "o", "mfc": "none", "label": "against fscm, crosses: fem"}
+    beside_fem(axes, table.assign(case=labels), "case", "lacking", 100.0, **style)
+    axes.axhline(0.1, color=COLOURS[1], lw=1.0, ls="--", label="0.1 %")
+    axes.set(yscale="log", ylim=(1e-3, 10.0), ylabel="pull-off force that the scheme lacks (%)")
+    axes.legend()
+
+
+@paper_figure(_domain, size=(5.0, 3.4))
+def finding_domain() -> Plan[Tables]:
+    """Pull-off force that the scheme with f(r_max) = 50 lacks, k = 0.4."""
+    rows = [{"reference": model, "n": n, "k": _K, "mu": mu} for n, mu, model in _DOMAIN]
+    return together({"": table_of_terms(rows, force=_FORCE, scheme="stieltjes_force", lacking="scheme_lack")})

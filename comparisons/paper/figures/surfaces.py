@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import partial
 from itertools import product
 from typing import Any
@@ -14,23 +13,24 @@ from matplotlib.figure import Figure
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
 from comparisons.output.style import COLOURS, MODEL_LINES
 from comparisons.paper.drawing import LABELS, by_model, held, legend_below, level, lines_by, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, keyed, paper_figure, result_of, rows_of, table_of, together
+from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, result_of, rows_of, table_of, together
 from comparisons.paper.tasks import COHESIVE, GRADIENTS, cohesive_surface, profile, quantity, surface
 
 _TABOR_NUMBERS = (0.1, 0.3, 0.5, 1.0, 2.0, 3.0)
-_N, _K, _MU = 2.0, 0.4, 1.0
+_CASE = {"n": 2.0, "k": 0.4, "mu": 1.0}
+_N, _K, _MU = _CASE.values()
 #: Radii at which surfaces are subtracted.
 _RADII = np.linspace(0.02, 3.0, 150)
 _PUNCH: Any = {"lw": 0.6, "ls": (0, (6, 3)), "label": "_"}
 
 
-def _surfaces(cases: Iterable[tuple[float, float]]) -> Plan[Tables]:
-    table = yield from rows_of(keyed(surface, n=_N, k=k, mu=mu) for k, mu in cases)
+def _surfaces(keys: list[dict[str, Any]]) -> Plan[Tables]:
+    table = yield from rows_of(surface, keys)
     return {"": table.assign(punch=table["radius"] ** _N / _N - table["displacement"])}
 
 
 def _draw(figure: Figure, table: pd.DataFrame, name: str, words: str, farthest: float, top: float) -> None:
-    left, right = panels(figure, 1, 2, (words, words), LABELS["radius"], sharex=True)
+    left, right = panels(figure, (words, words), "radius", sharex=True)
     lines_by(left, table, name, "radius", "deformation", -1.0)
     lines_by(left, table, name, "radius", "punch", **_PUNCH)
     lines_by(right, table, name, "radius", "pressure")
@@ -43,41 +43,38 @@ def _draw(figure: Figure, table: pd.DataFrame, name: str, words: str, farthest: 
     legend_below(figure, 4)
 
 
-@paper_figure(
-    partial(_draw, name="mu", words=held(n=_N, k=_K), farthest=5.0, top=6.2), size=(7.2, 3.7), follows_path=True
-)
+_over_tabor_numbers = partial(_draw, name="mu", words=held(n=_N, k=_K), farthest=5.0, top=6.2)
+_over_gradients = partial(_draw, name="k", words=held(n=_N, mu=_MU), farthest=4.0, top=2.0)
+
+
+@paper_figure(_over_tabor_numbers, size=(7.2, 3.7), follows_path=True)
 def fig05_pull_off_over_tabor_numbers() -> Plan[Tables]:
     """Surface and pressure at pull-off for n = 2, k = 0.4, over the Tabor number."""
-    return _surfaces((_K, mu) for mu in _TABOR_NUMBERS)
+    return _surfaces(cases(n=[_N], k=[_K], mu=_TABOR_NUMBERS))
 
 
-@paper_figure(
-    partial(_draw, name="k", words=held(n=_N, mu=_MU), farthest=4.0, top=2.0), size=(7.2, 3.7), follows_path=True
-)
+@paper_figure(_over_gradients, size=(7.2, 3.7), follows_path=True)
 def fig07_pull_off_over_gradients() -> Plan[Tables]:
     """Surface and pressure at pull-off for n = 2, mu = 1, over the gradient exponent."""
-    return _surfaces((k, _MU) for k in (*GRADIENTS, 1.0))
+    return _surfaces(cases(n=[_N], k=(*GRADIENTS, 1.0), mu=[_MU]))
 
 
 def _shapes(*references: str) -> Plan[dict[str, dict[str, Any]]]:
     """Plan the surface of each reference and Maugis-Dugdale model at pull-off, with its displacement."""
-    case = (_N, _K, _MU)
-    plans: dict[Any, Plan[Any]] = {model: result_of(profile, model, *case) for model in references}
-    plans |= {model: result_of(cohesive_surface, model, *case) for model in COHESIVE}
-    plans |= {(model,): result_of(quantity, model, "pull_off_displacement", *case) for model in references}
+    plans: dict[Any, Plan[Any]] = {model: result_of(profile, model, **_CASE) for model in references}
+    plans |= {model: result_of(cohesive_surface, model, **_CASE) for model in COHESIVE}
+    plans |= {(model,): result_of(quantity, model, "pull_off_displacement", **_CASE) for model in references}
     results = yield from together(plans)
     at = {model: {"displacement": results[model,]["value"]} for model in references}
     return {model: {"model": model} | results[model] | at.get(model, {}) for model in (*references, *COHESIVE)}
 
 
 def _radii(shapes: dict[str, dict[str, Any]]) -> pd.DataFrame:
-    names = ("model", "contact_radius", "cohesive_radius")
-    return pd.DataFrame([{name: shapes[model][name] for name in names} for model in COHESIVE])
+    return pd.DataFrame([shapes[model] for model in COHESIVE])[["model", "contact_radius", "cohesive_radius"]]
 
 
 def _over_models(figure: Figure, table: pd.DataFrame, radii: pd.DataFrame) -> None:
-    words = held(n=_N, k=_K, mu=_MU)
-    left, right = panels(figure, 1, 2, (words, words), LABELS["radius"], sharex=True)
+    left, right = panels(figure, (held(**_CASE),) * 2, "radius", sharex=True)
     by_model(left, table, "radius", "height")
     by_model(right, table, "radius", "pressure")
     (exact,) = of_model(table, "fscm")
@@ -95,17 +92,16 @@ def _over_models(figure: Figure, table: pd.DataFrame, radii: pd.DataFrame) -> No
 def fig17_surface_models() -> Plan[Tables]:
     """Surface and pressure at pull-off of both Maugis-Dugdale models and the FSCM; n = 2, k = 0.4, mu = 1."""
     shapes = yield from _shapes("fscm")
-    parts = []
-    for shape in shapes.values():
-        table = table_of([{name: shape[name] for name in ("model", "radius", "gap", "pressure")}])
-        punch = table["radius"] ** _N / _N - shape["displacement"]
-        # The height of the deformed surface, -w = f - delta - H (Eq. 4).  The closed form is good to rounding.
-        u_distance = shape.get("u_distance", 0.0)
-        parts.append(table.assign(height=punch - table["gap"], punch=punch, u_distance=u_distance))
-    return {"": pd.concat(parts, ignore_index=True), "radii": _radii(shapes)}
+    # The closed form is good to rounding.
+    names = {"model": "", "radius": [], "gap": [], "pressure": [], "displacement": 0.0, "u_distance": 0.0}
+    table = table_of({name: shape.get(name, missing) for name, missing in names.items()} for shape in shapes.values())
+    punch = table["radius"] ** _N / _N - table["displacement"]
+    # The height of the deformed surface, -w = f - delta - H (Eq. 4).
+    heights = {"height": punch - table["gap"], "punch": punch, "u_distance": table.pop("u_distance")}
+    return {"": table.drop(columns="displacement").assign(**heights), "radii": _radii(shapes)}
 
 
-def _draw_surface_inside(figure: Figure, table: pd.DataFrame, radii: pd.DataFrame) -> None:
+def _inside(figure: Figure, table: pd.DataFrame, radii: pd.DataFrame) -> None:
     heights = table.pivot(index="radius", columns="model", values="gap_and_displacement")
     axes = figure.subplots()
     for model in COHESIVE:
@@ -120,7 +116,7 @@ def _draw_surface_inside(figure: Figure, table: pd.DataFrame, radii: pd.DataFram
     axes.legend(loc="upper right", fontsize=8)
 
 
-@paper_figure(_draw_surface_inside, size=(5.4, 3.6), follows_path=True)
+@paper_figure(_inside, size=(5.4, 3.6), follows_path=True)
 def finding_surface_inside() -> Plan[Tables]:
     """Difference of the surfaces of both Maugis-Dugdale models from the FSCM; n = 2, k = 0.4, mu = 1."""
     shapes = yield from _shapes("fscm", "fem")

@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 
 import numpy as np
 from scipy.integrate import quad
 
 import fscm
-from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.fem_model import FiniteElements
 from comparisons.models.jkr import JKR
-from comparisons.models.semi_rigid import jump_in_coefficient
-from comparisons.paper.figures.gradient_effect import largest_chi
-from comparisons.paper.paper_figure import Plan, result_of, together
-from comparisons.paper.statements.evidence import Number
-from comparisons.paper.statements.measures import ROUNDING, Measured, Place, call, measure, term
+from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
+from comparisons.paper.figures.functions import largest_chi
+from comparisons.paper.paper_figure import Plan, together
+from comparisons.paper.scheme_forces import SEGMENTS, exact_force, scheme_force
+from comparisons.paper.statements.measures import ROUNDING, Measured, Number, Place, call, measure, term
 from comparisons.paper.tasks import TRACTION
-from comparisons.paper.values.scheme_forces import SEGMENTS, exact_force, scheme_force
 from comparisons.problem import Problem
-from fscm import LennardJones, PowerLaw, PowerPunch
-from fscm import Problem as PhysicalProblem
 
 __all__ = ["force_at"]
 
@@ -68,8 +65,8 @@ def largest_psi(at: Place) -> Measured:
 def tabor_difference(at: Place) -> Measured:
     """Tabor number (Eq. 29) over that of Jin et al. (2021), less 1."""
     nu = float(at.arguments[0])
-    solid, law = PowerLaw(E0=2.0, c0=3.0, k=at.k, nu=nu), LennardJones(work_of_adhesion=0.7, z0=0.25)
-    problem = PhysicalProblem(solid, PowerPunch(at.n, Q=1.5), law)
+    solid, law = fscm.PowerLaw(E0=2.0, c0=3.0, k=at.k, nu=nu), fscm.LennardJones(work_of_adhesion=0.7, z0=0.25)
+    problem = fscm.Problem(solid, fscm.PowerPunch(at.n, Q=1.5), law)
     return abs(problem.mu / problem.tabor_number_jin - 1.0), ROUNDING, f"|mu / mu_Jin - 1|, {at.label}, nu = {nu:g}"
 
 
@@ -97,6 +94,22 @@ def strength(at: Place) -> Measured:
     return *_closed(THEORETICAL_STRENGTH), "theoretical strength"
 
 
+@_formula("largest tension of the 9-3 law")
+def largest_tension(at: Place) -> Measured:
+    """By the law, and not the constant that the models use."""
+    return _closed(-float(TRACTION(np.array(fscm.LennardJones().peak_gap))))
+
+
+@_formula("slope of log(1 - displacement at jump-in) over log(mu)")
+def jump_in_exponent(at: Place) -> Measured:
+    """The difference of two logarithms loses a digit."""
+    low, high = (
+        math.log(1.0 - SemiRigid().evaluate(problem, "jump_in_displacement").value)
+        for problem in (Problem.dimensionless(at.n, at.k, mu) for mu in (1.0, math.e**7))
+    )
+    return _closed((high - low) / 7.0)
+
+
 @_formula("strength minus eta")
 def strength_difference(at: Place) -> Measured:
     return THEORETICAL_STRENGTH - eta(at.n), ROUNDING
@@ -104,7 +117,7 @@ def strength_difference(at: Place) -> Measured:
 
 @_formula("largest chi over k")
 def chi_of(at: Place) -> Measured:
-    return _closed(largest_chi(at.n)[0])
+    return _closed(largest_chi(at.n)["chi_max"])
 
 
 @_formula("")
@@ -118,18 +131,15 @@ def force_at(n: float, k: float, mu: float, nu: float) -> dict[str, float]:
 
     Raises
     ------
-    comparisons.model.ComputationFailed
+    comparisons.model.NotApplicable, comparisons.model.ComputationFailed
         If the finite elements refuse or fail.
     """
-    try:
-        force = FiniteElements(nu).evaluate(Problem.dimensionless(n, k, mu), "pull_off_force")
-    except NotApplicable as refusal:
-        raise ComputationFailed(str(refusal)) from refusal
+    force = FiniteElements(nu).evaluate(Problem.dimensionless(n, k, mu), "pull_off_force")
     return {"value": force.value, "u_num": force.u_num}
 
 
 def _forces(at: Place) -> Plan[dict[str, dict[str, float]]]:
-    return together({nu: result_of(force_at, at.n, at.k, at.mu, float(nu)) for nu in at.arguments})
+    return together({nu: call(force_at, nu=float(nu))(at) for nu in at.arguments})
 
 
 @measure("difference of the pull-off forces for nu = {0} and {1}", _forces, model="fem")
@@ -138,12 +148,10 @@ def poisson_difference(at: Place, forces: dict[str, dict[str, float]]) -> Measur
     return abs(low["value"] - high["value"]), low["u_num"] + high["u_num"]
 
 
-@measure(
-    f"change of the pull-off force by N = {SEGMENTS} segments",
-    call(scheme_force),
-    call(exact_force),
-    model="fscm-stieltjes",
-)
+_CHANGE = f"change of the pull-off force by N = {SEGMENTS} segments"
+
+
+@measure(_CHANGE, call(scheme_force), call(exact_force), model="fscm-stieltjes")
 def segments_change(at: Place, coarse: dict[str, float], full: dict[str, float]) -> Measured:
     """Compared on the same finite domain."""
     same_domain = full["force"] - full["beyond"]
@@ -155,10 +163,9 @@ def stieltjes_force(at: Place, scheme: dict[str, float]) -> Measured:
     return scheme["force"], scheme["u_num"]
 
 
-@measure(
-    "share of the pull-off force that the scheme with f(r_max) = 50 lacks",
-    term("stieltjes_force"),
-    term("pull_off_force"),
-)
+_LACK = "share of the pull-off force that the scheme with f(r_max) = 50 lacks"
+
+
+@measure(_LACK, term("stieltjes_force"), term("pull_off_force"))
 def scheme_lack(at: Place, scheme: Number, exact: Number) -> Measured:
     return abs(1.0 - scheme.value / exact.value), (scheme.u + exact.u) / exact.value

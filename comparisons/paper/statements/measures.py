@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,17 +11,26 @@ import pandas as pd
 from comparisons.models.closed_form import EPS
 from comparisons.numerics.number_text import case_text
 from comparisons.paper.paper_figure import Plan, result_of, together
-from comparisons.paper.statements.evidence import Number
 from comparisons.paper.tasks import JUMPS, jumps, quantity
 from comparisons.quantities import title_of
 
-__all__ = ["MEASURES", "Place", "call", "label", "measure", "measured", "term"]
+__all__ = ["MEASURES", "PARAMETERS", "Number", "Place", "call", "case_of", "is_refused", "label", "measure", "measured"]
 
-#: Parameters of a case with their names, in order.
+#: Parameters of a case; s is the distance from s = 1 of a ratio of radii.
+PARAMETERS = ("n", "k", "mu", "s")
+#: Those of one case with their names, in order.
 Case = tuple[tuple[str, float], ...]
 
 #: What a measure makes: value and bound, and what it is of if that is not the measure's title with the case.
 Measured = tuple[Any, ...]
+
+
+class Number(NamedTuple):
+    """A value, a bound on its numerical error, and what it is of."""
+
+    value: float
+    u: float
+    title: str
 
 
 class Place(NamedTuple):
@@ -36,7 +45,7 @@ class Place(NamedTuple):
         try:
             return dict(self.case)[name]
         except KeyError:
-            raise AttributeError(f"the case {label(self.case)} has no {name}") from None
+            raise AttributeError(name) from None
 
     @property
     def label(self) -> str:
@@ -79,6 +88,17 @@ MEASURES: dict[str, Measure] = {}
 ROUNDING = 64.0 * EPS
 
 
+def case_of(row: Mapping[str, Any]) -> Case:
+    """Return the parameters that a row has.
+
+    Examples
+    --------
+    >>> case_of({"reference": "fem", "n": 2, "k": 0.4})
+    (('n', 2.0), ('k', 0.4))
+    """
+    return tuple((name, float(row[name])) for name in PARAMETERS if name in row)
+
+
 def label(case: Case, without: str = "") -> str:
     """Return the parameters of a case as a text.
 
@@ -100,9 +120,14 @@ def measure(title: str, *needs: Need, model: str = "") -> Callable[[Callable[...
     return register
 
 
-def call(function: Callable[..., Any], *texts: str) -> Need:
-    """Need the result of a function of n, k and mu, and of texts before them."""
-    return lambda at: result_of(function, *map(at.text, texts), at.n, at.k, at.mu)
+def call(function: Callable[..., Any], *texts: str, **fixed: float) -> Need:
+    """Need the result of a function of texts and of the parameters of the case, but for fixed ones; lists as arrays."""
+
+    def need(at: Place) -> Plan[dict[str, Any]]:
+        result = yield from result_of(function, *map(at.text, texts), **dict(at.case) | fixed)
+        return {name: np.array(value, float) if isinstance(value, list) else value for name, value in result.items()}
+
+    return need
 
 
 def term(text: str, **changes: Callable[[float], float]) -> Need:
@@ -134,26 +159,23 @@ def measured(text: str, reference: str, case: Case) -> Plan[Number]:
     return Number(float(value), float(u), titles[0] if titles else f"{at.text(title)}, {at.label}")
 
 
-def named(n: float, k: float, mu: float) -> Case:
-    """Return a case of three parameters."""
-    return (("n", n), ("k", k), ("mu", mu))
+def table_of_terms(rows: Iterable[Mapping[str, Any]], **terms: str) -> Plan[pd.DataFrame]:
+    """Plan a table of rows, each a reference in a case, with a column and its ``u_`` for each term.
 
-
-def table_of_terms(places: list[tuple[str, dict[str, str], Case]], **terms: str) -> Plan[pd.DataFrame]:
-    """Plan a table of references in cases: what else the row says, and a column and its ``u_`` for each term."""
+    A term may name other keys of a row in braces.
+    """
+    keys = list(rows)
     plans = {
-        (index, name): measured(text.format(**keys), reference, case)
-        for index, (reference, keys, case) in enumerate(places)
+        (index, name): measured(text.format(**row), row["reference"], case_of(row))
+        for index, row in enumerate(keys)
         for name, text in terms.items()
     }
     numbers = yield from together(plans)
-    rows = []
-    for index, (reference, keys, case) in enumerate(places):
-        row: dict[str, Any] = {"reference": reference, **keys, **dict(case)}
-        for name in terms:
-            row[name], row[f"u_{name}"], _ = numbers[index, name]
-        rows.append(row)
-    return pd.DataFrame(rows)
+    table = pd.DataFrame(keys)
+    for name in terms:
+        of_rows = [numbers[index, name] for index in range(len(keys))]
+        table[name], table[f"u_{name}"] = [number.value for number in of_rows], [number.u for number in of_rows]
+    return table
 
 
 def _quantity(at: Place) -> Plan[Any]:
@@ -258,12 +280,8 @@ def power_of_mu(at: Place, small: Number, large: Number) -> Measured:
     return power - expected, u, f"difference of the power {power:.4f} of mu from {expected:.4f}, {where}"
 
 
-def _critical(at: Place) -> Plan[Any]:
-    # The Tabor number of the case is not used.
-    return result_of(quantity, at.reference, "critical_tabor_number", at.n, at.k, 1.0)
-
-
-@measure("", _critical)
+# The critical number depends on no Tabor number.
+@measure("", call(quantity, "{reference}", "critical_tabor_number", mu=1.0))
 def critical_difference(at: Place, critical: dict[str, Any]) -> Measured:
     printed = float(at.arguments[0])
     title = f"difference of the critical Tabor number {critical['value']:.6f} from {printed:g}"

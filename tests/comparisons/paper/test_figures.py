@@ -8,7 +8,7 @@ from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.paper.figures import force_curves, pull_off_forces
 from comparisons.paper.figures.force_curves import fig03_s_curve, loop
 from comparisons.paper.figures.surfaces import fig17_surface_models
-from comparisons.paper.tasks import curve, jumps, profile, quantity, surface
+from comparisons.paper.tasks import jumps, profile, quantity, surface
 from comparisons.problem import Problem
 from comparisons.registry import create
 
@@ -23,7 +23,6 @@ def of_model(model, name, *case):
     ("function", "arguments", "status", "reason"),
     [
         (quantity, ("fscm", "pull_off_force", 0.5, 0.4, 1), "failed", "diverges"),
-        (curve, ("dmt", 0.4, 0.1, 1), "failed", "shape index"),
         (profile, ("fscm", 2, 0.4, -1), "failed", "Tabor number"),
     ],
 )
@@ -52,8 +51,8 @@ def test_the_named_points_are_events_and_their_loop_has_the_area_of_the_energy_l
 
 
 def test_a_curve_has_its_load_and_a_refused_one_is_named(made_of):
-    cases = [(2.0, 1.0, 0.5), (0.6, 0.4, 1.0)]
-    table = made_of(lambda: force_curves.curves(cases))
+    keys = [{"n": 2.0, "k": 1.0, "mu": 0.5}, {"n": 0.6, "k": 0.4, "mu": 1.0}]
+    table = made_of(lambda: force_curves.curves(keys))[""]
     assert list(table.loc[table["n"] == 0.6, "status"]) == ["failed"]
     assert table.loc[table["n"] == 0.6, "load"].isna().all()
     traced = table[table["status"] == "ok"]

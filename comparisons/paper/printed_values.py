@@ -8,30 +8,34 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
+from numpy.polynomial import chebyshev
 
 from comparisons.data.paper_values import PaperValue
 from comparisons.data.paper_values import paper_values as printed_values
-from comparisons.data.toml_text import shipped
+from comparisons.model import Array
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import CohesiveEvents
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
-from comparisons.models.semi_rigid import SemiRigid
 from comparisons.numerics.number_text import LEAST_SHOWN, case_text, value_text
-from comparisons.paper.figures.gradient_effect import LAST_K, insensitive_regions, largest_chi
+from comparisons.paper.figures.functions import LAST_K, insensitive_regions, largest_chi
 from comparisons.paper.paper_figure import Plan, Reading, Tables, paper_figure, result_of, together
-from comparisons.paper.statements.measures import ROUNDING, measured, named
-from comparisons.paper.tasks import SHAPES, TRACTION
-from comparisons.paper.values.scheme_forces import HEIGHT, exact_force
-from comparisons.paper.values.tabor_curve import TaborCurve, largest_error, tabor_numbers
-from comparisons.problem import Problem
-from fscm.laws import LennardJones
+from comparisons.paper.scheme_forces import HEIGHT, exact_force
+from comparisons.paper.statements.measures import case_of, measured
+from comparisons.paper.tasks import SHAPES
 
 _K = 0.4
 #: Rounding of chi in percent, and of the ends of its regions, which are roots to 1e-10.
 _CHI_ROUNDING, _REGION_ROUNDING = 1e-11, 1e-9
 #: Degrees of the series in log(mu); the closed forms cost little.
 _EXACT_DEGREE, _COHESIVE_DEGREE = 40, 96
+#: The paper shows mu from 0.01 to a few; beyond 10 the differences vanish.
+RANGE = (0.01, 10.0)
+#: The last coefficients estimate the error of the series: measured at random mu, it is at most 3 times the largest of
+#: the last five.
+_LAST, _SAFETY = 5, 3.0
+#: Points of the search; the largest is refined by a parabola, whose error is then below 1e-8 of the maximum.
+_SEARCH = 4001
 #: Step of the shape index with which, and with `LAST_K`, all eight numbers of Fig. 11 have the printed digits; the
 #: paper does not state it.  A largest value depends on the points at which it was searched: here the ends of the
 #: regions of Fig. 11(b) are the first and the last multiple of 0.001.
@@ -54,27 +58,73 @@ def _measured(printed: PaperValue) -> Plan[Computed]:
     """Plan its term at a case without Tabor number; of all shapes, if the limit is the same, what is farthest off."""
     k = 0.0 if math.isnan(printed.k) else printed.k
     shapes = SHAPES if math.isnan(printed.n) else (printed.n,)
-    numbers = yield from together({n: measured(printed.term, "fscm", named(n, k, 1.0)) for n in shapes})
+    numbers = yield from together(
+        {n: measured(printed.term, "fscm", case_of({"n": n, "k": k, "mu": 1.0})) for n in shapes}
+    )
     farthest = max(numbers.values(), key=lambda number: abs(number.value - printed.value))
     return Computed(farthest.value, farthest.u)
 
 
-def _strength(paper_value: PaperValue) -> Plan[Computed]:
-    """The largest tension of the law, not the constant that the models use."""
-    yield {}
-    value = -float(TRACTION(np.array(LennardJones().peak_gap)))
-    return Computed(value, ROUNDING * abs(value))
+def tabor_numbers(degree: int) -> tuple[float, ...]:
+    """Return the Chebyshev points of log(mu) on `RANGE`, `degree` + 1 of them, increasing.
+
+    Examples
+    --------
+    >>> [round(mu, 6) for mu in tabor_numbers(2)]
+    [0.01, 0.316228, 10.0]
+    """
+    low, high = np.log(RANGE)
+    points = low + 0.5 * (chebyshev.chebpts2(degree + 1) + 1.0) * (high - low)
+    return tuple(float(mu) for mu in np.exp(points))
 
 
-def _exponent(paper_value: PaperValue) -> Plan[Computed]:
-    """Slope of log(1 - displacement) over log(mu); the difference of two logarithms loses a digit."""
-    yield {}
-    low, high = (
-        math.log(1.0 - SemiRigid().evaluate(case, "jump_in_displacement").value)
-        for case in (Problem.dimensionless(paper_value.n, paper_value.k, mu) for mu in (1.0, math.e**7))
-    )
-    value = (high - low) / 7.0
-    return Computed(value, ROUNDING * abs(value))
+class TaborCurve(NamedTuple):
+    """A positive force over mu, as a series for its logarithm, and the bound on its relative error."""
+
+    coefficients: Array
+    error: float
+
+    @classmethod
+    def through(cls, forces: Array, relative_error: float = 0.0) -> TaborCurve:
+        """Return the curve through forces, of this error, at `tabor_numbers` of the degree that fits their number.
+
+        Examples
+        --------
+        >>> curve = TaborCurve.through(np.array(tabor_numbers(8)) ** 0.5)
+        >>> bool(np.isclose(curve(np.array([0.04]))[0], 0.2, rtol=1e-12))
+        True
+        """
+        degree = len(forces) - 1
+        coefficients = np.asarray(chebyshev.chebfit(chebyshev.chebpts2(degree + 1), np.log(forces), degree), float)
+        return cls(coefficients, _SAFETY * float(np.max(np.abs(coefficients[-_LAST:]))) + relative_error)
+
+    def __call__(self, mu: Array) -> Array:
+        """The force, shape of `mu`."""
+        low, high = np.log(RANGE)
+        return np.asarray(np.exp(chebyshev.chebval(2.0 * (np.log(mu) - low) / (high - low) - 1.0, self.coefficients)))
+
+
+def largest_error(model: TaborCurve, exact: TaborCurve) -> tuple[float, float, float]:
+    """Return the relative error of a model that is largest in size over `RANGE`, its bound, and its Tabor number.
+
+    Examples
+    --------
+    >>> mu = np.array(tabor_numbers(20))
+    >>> hump = TaborCurve.through(1.0 + 0.1 / (1.0 + np.log(mu) ** 2 / 10.0))
+    >>> kappa, u, at_mu = largest_error(hump, TaborCurve.through(np.ones(21)))
+    >>> round(kappa, 6), round(at_mu, 4)
+    (0.1, 1.0)
+    """
+    mu = np.geomspace(*RANGE, _SEARCH)
+    kappa = model(mu) / exact(mu) - 1.0
+    at = int(np.argmax(np.abs(kappa)))
+    value, at_mu = float(kappa[at]), float(mu[at])
+    if 0 < at < _SEARCH - 1:
+        # The extreme of the parabola through three points.
+        x, y = np.log(mu[at - 1 : at + 2]), kappa[at - 1 : at + 2]
+        rise, bend = 0.5 * (y[2] - y[0]), y[2] - 2.0 * y[1] + y[0]
+        value, at_mu = float(y[1] - 0.5 * rise**2 / bend), float(np.exp(x[1] - (x[1] - x[0]) * rise / bend))
+    return value, (1.0 + abs(value)) * (model.error + exact.error), at_mu
 
 
 def cohesive_forces(n: float, k: float, stress: float) -> list[float]:
@@ -111,16 +161,15 @@ def _largest_relative_error(paper_value: PaperValue) -> Plan[Computed]:
     force, beyond = (np.array([point[name] for point in points]) for name in ("force", "beyond"))
     u = max(point["u_num"] / point["force"] for point in points)
     model, printed = (TaborCurve.through(np.array(results[name])) for name in ("model", "printed"))
-    converged = largest_error(model, TaborCurve.through(force, u))
-    by_scheme = largest_error(printed, TaborCurve.through(force - beyond, u))
+    kappa, u_kappa, at_mu = largest_error(model, TaborCurve.through(force, u))
+    by_scheme, u_scheme, _ = largest_error(printed, TaborCurve.through(force - beyond, u))
     scheme = f"f(r_max) = {HEIGHT:g}, nothing beyond; sigma_0 = {printed_stress:g} as printed"
-    of_converged = 100.0 * converged.kappa, 100.0 * converged.u, converged.mu
-    return Computed(*of_converged, scheme, 100.0 * by_scheme.kappa, 100.0 * by_scheme.u)
+    return Computed(100.0 * kappa, 100.0 * u_kappa, at_mu, scheme, 100.0 * by_scheme, 100.0 * u_scheme)
 
 
 def _largest_chi(paper_value: PaperValue) -> Plan[Computed]:
     yield {}
-    converged, by_scheme = (100.0 * largest_chi(paper_value.n, last_k)[0] for last_k in (1.0, LAST_K))
+    converged, by_scheme = (100.0 * largest_chi(paper_value.n, last_k)["chi_max"] for last_k in (1.0, LAST_K))
     return Computed(converged, _CHI_ROUNDING, math.nan, _GRID, by_scheme, _CHI_ROUNDING)
 
 
@@ -146,8 +195,6 @@ def _insensitive_region(paper_value: PaperValue) -> Plan[Computed]:
 
 #: How numbers that are no measures are computed, by their names.
 _COMPUTED: dict[str, Callable[[PaperValue], Plan[Computed]]] = {
-    "theoretical_strength": _strength,
-    "jump_in_exponent": _exponent,
     "largest_relative_error": _largest_relative_error,
     "largest_chi": _largest_chi,
     "insensitive_region": _insensitive_region,
@@ -190,7 +237,7 @@ def readable(table: pd.DataFrame) -> Reading:
             texts | {"scheme": row["scheme"], "by scheme": by_scheme, "verdict by scheme": row["scheme_verdict"]}
         )
     texts = pd.DataFrame(rows)
-    return Reading(texts, texts, texts, shipped("paper_values.toml")["notes"])
+    return texts, texts, texts
 
 
 @paper_figure(name="numbers", reading=readable)

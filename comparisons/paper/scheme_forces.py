@@ -13,7 +13,7 @@ from scipy.optimize import newton
 
 import fscm
 from comparisons.model import ComputationFailed
-from fscm.solution import State
+from comparisons.paper.tasks import TRACTION, analysed
 from fscm.stieltjes import StieltjesScheme, StieltjesState
 
 #: f(r_max) of the paper, and the segments of its mesh.
@@ -38,8 +38,8 @@ def exact_force(n: float, k: float, mu: float) -> dict[str, float]:
 
     Raises
     ------
-    ComputationFailed
-        If the solver refuses.
+    NotApplicable, ComputationFailed
+        If the solver refuses or fails.
 
     Examples
     --------
@@ -47,26 +47,18 @@ def exact_force(n: float, k: float, mu: float) -> dict[str, float]:
     >>> round(result["force"], 8), round(result["beyond"], 6)
     (1.78848171, 0.00101)
     """
-    problem = fscm.Problem(n, k, mu)
-    solution, state = _pull_off(problem)
+    with analysed(n, k, mu) as analysis:
+        solution, state = analysis.solution("pull_off_force"), analysis.event("pull_off").value
     log_radius = np.log(state.radius)
     x = np.linspace(math.log(n * HEIGHT) / n, float(log_radius[-1]), _QUADRATURE_POINTS)
     gap = np.exp(n * x) / n - state.displacement + np.interp(x, log_radius, state.deformation)
-    load = float(simpson(problem.law.traction(gap) * 2.0 * np.exp(2.0 * x), x=x))
+    load = float(simpson(TRACTION(gap) * 2.0 * np.exp(2.0 * x), x=x))
     return {
         "force": solution.value,
         "u_num": solution.u_num,
         "beyond": -load - float(state.tail.load),
         "central_gap": float(state.central_gap),
     }
-
-
-def _pull_off(problem: fscm.Problem) -> tuple[fscm.Solution, State]:
-    try:
-        analysis = fscm.Analysis(problem)
-        return analysis.solution("pull_off_force"), analysis.event("pull_off").value
-    except (fscm.NoSuchEvent, fscm.NotConverged) as failure:
-        raise ComputationFailed(str(failure)) from failure
 
 
 def scheme_force(n: float, k: float, mu: float, segments: int = SEGMENTS) -> dict[str, float]:
@@ -85,9 +77,9 @@ def scheme_force(n: float, k: float, mu: float, segments: int = SEGMENTS) -> dic
     ComputationFailed
         If the scheme does not converge.
     """
-    problem = fscm.Problem(n, k, mu)
-    scheme = StieltjesScheme(problem, segments, farthest_height=HEIGHT)
-    _, accurate = _pull_off(problem)
+    with analysed(n, k, mu) as analysis:
+        accurate = analysis.event("pull_off").value
+    scheme = StieltjesScheme(fscm.Problem(n, k, mu), segments, farthest_height=HEIGHT)
     start, central = np.interp(scheme.radius, accurate.radius, accurate.gap), float(accurate.central_gap)
     states: list[StieltjesState] = []
 

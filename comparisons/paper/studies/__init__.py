@@ -1,1 +1,0 @@
-"""Studies beyond the paper: error maps, solids that are no power law."""
