@@ -8,7 +8,6 @@ without points counts as a distance of its length.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -33,8 +32,7 @@ _SAFETY = 2.0
 _FEWEST_POINTS = 8
 
 
-@dataclass(frozen=True, slots=True)
-class CurveDistance:
+class CurveDistance(NamedTuple):
     """A distance and the bound on its error by the interpolation of the reference, as fractions of the picture.
 
     Examples
@@ -69,9 +67,10 @@ def curve_distance(x: Array, y: Array, reference_x: Array, reference_y: Array) -
     >>> bool(0.009 < found.value < 0.011), found.u_interpolation < 1e-5
     (True, True)
     """
-    compared = _compared(x, y, reference_x, reference_y)
-    value = max(compared.largest, compared.missing if compared.missing > _LONGEST_PART else 0.0)
-    return CurveDistance(value, _interpolation_error(compared.reference, compared.inside))
+    largest, missing, reference, inside = _compared(x, y, reference_x, reference_y)
+    return CurveDistance(
+        max(largest, missing if missing > _LONGEST_PART else 0.0), _interpolation_error(reference, inside)
+    )
 
 
 def mesh_difference(coarse_x: Array, coarse_y: Array, x: Array, y: Array) -> float:
@@ -85,22 +84,16 @@ def mesh_difference(coarse_x: Array, coarse_y: Array, x: Array, y: Array) -> flo
     >>> bool(0.0 < mesh_difference(t, np.sin(3 * t) + 1e-3, s, np.sin(3 * s)) < 2e-3)
     True
     """
-    return _SAFETY * _compared(coarse_x, coarse_y, x, y).largest
+    return _SAFETY * _compared(coarse_x, coarse_y, x, y)[0]
 
 
-class _Compared(NamedTuple):
-    """Largest distance of a point, longest part of the reference without one, and the scaled reference.
+def _compared(
+    x: Array, y: Array, reference_x: Array, reference_y: Array
+) -> tuple[float, float, Array, NDArray[np.bool_]]:
+    """Return the largest distance of a point, the longest part of the reference without one, and the scaled reference.
 
-    `inside` tells which points of the reference are in the common range.
+    The last array tells which points of the reference are in the common range.
     """
-
-    largest: float
-    missing: float
-    reference: Array
-    inside: NDArray[np.bool_]
-
-
-def _compared(x: Array, y: Array, reference_x: Array, reference_y: Array) -> _Compared:
     curve, reference = (_checked(a, b) for a, b in ((x, y), (reference_x, reference_y)))
     low = max(curve[:, 0].min(), reference[:, 0].min())
     high = min(curve[:, 0].max(), reference[:, 0].max())
@@ -114,7 +107,7 @@ def _compared(x: Array, y: Array, reference_x: Array, reference_y: Array) -> _Co
     polyline = _dense(reference)
     distances, segments = _nearest(curve[inside] / span, polyline)
     missing = _longest_part(polyline, segments, low / span[0], high / span[0])
-    return _Compared(float(distances.max()), missing, reference, reference_inside)
+    return float(distances.max()), missing, reference, reference_inside
 
 
 def _checked(x: Array, y: Array) -> Array:

@@ -68,6 +68,10 @@ def short(value: float, uncertainty: float | None) -> str:
     --------
     >>> short(1.7884817, 2.6e-6), short(-0.4123, 0.0101), short(123456.0, 2300.0), short(1.5, 0.0), short(-1e-4, 5e-3)
     ('1.788482(3)', '-0.412(11)', '123(3)e3', '1.5', '0.000(5)')
+    >>> short(1.7884817, 1.4e-6), short(-1.7884817, 9.6e-6), short(0.0, 0.003), short(1e20, 1e-12)
+    ('1.7884817(14)', '-1.788482(10)', '0.000(3)', '1e+20(10e-13)')
+    >>> short(1.5, None), short(math.nan, 0.1), short(1.5, math.inf)
+    ('1.5', 'nan', '1.5(inf)')
     """
     if not math.isfinite(value):
         return str(value)

@@ -13,8 +13,6 @@ from comparisons.runs.environment import DIGITS, version_of
 
 #: Entries of a work, in the order of BibTeX.
 _ENTRIES = ("author", "title", "journal", "volume", "pages", "year", "doi", "url", "note")
-#: Library -> its name in a sentence, where that differs.
-_PRINTED = {"numpy": "NumPy", "scipy": "SciPy", "pyamg": "PyAMG"}
 
 
 class Work(NamedTuple):
@@ -69,10 +67,7 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
     >>> [work.key for work in works("0.1.0")]
     ['fscm-bench', 'zhu-adhesion']
     """
-    cff, software = (
-        json.loads(files("comparisons.data").joinpath(name).read_text(encoding="utf-8"))
-        for name in ("citation.json", "software_references.json")
-    )
+    cff = _shipped("citation.json")
     note = f"version {version_of(record['package']) if record else version}"
     cited = [
         _work("fscm-bench", cff | {"author": _names(cff["authors"]), "year": cff["date-released"][:4], "note": note})
@@ -81,17 +76,27 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
         key = f"{paper['authors'][0].get('family-names', '')}-{paper['title'].split()[0]}".lower()
         pages = "--".join(str(paper[name]) for name in ("start", "end") if name in paper)
         cited.append(_work(key, paper | {"author": _names(paper["authors"]), "pages": pages}))
-    models = (record or {}).get("models") or {}
-    for name, model in models.items():
+    for name, model in ((record or {}).get("models") or {}).items():
         title = f"Model {name}, version {model['version']}"
         cited.append(_work("model-" + re.sub("[^A-Za-z0-9-]", "-", name), {"title": title, "note": model["citation"]}))
-    versions = (record or {}).get("dependencies", {})
-    for library in software if record else ():
-        if library["models"] is None or not models.keys().isdisjoint(library["models"]):
-            package = library["package"]
-            facts = {"author": " and ".join(library["authors"]), "note": f"version {versions[package]}"}
-            cited.append(_work(package, library | facts))
+    for library in _libraries(record) if record else ():
+        facts = {"author": " and ".join(library["authors"]), "note": f"version {library['version']}"}
+        cited.append(_work(library["package"], library | facts))
     return cited
+
+
+def _shipped(name: str) -> Any:
+    return json.loads(files("comparisons.data").joinpath(name).read_text(encoding="utf-8"))
+
+
+def _libraries(record: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return the libraries that the models of a run use, each with its version."""
+    models = record.get("models") or {}
+    return [
+        library | {"version": record["dependencies"][library["package"]]}
+        for library in _shipped("software_references.json")
+        if library["models"] is None or not models.keys().isdisjoint(library["models"])
+    ]
 
 
 def _work(key: str, facts: Mapping[str, Any]) -> Work:
@@ -112,13 +117,12 @@ def methods(record: Mapping[str, Any], references: Mapping[str, float]) -> str:
     named = {name: f"{name} (version {model['version']})" for name, model in models.items()}
     *others, last = [text for name, text in named.items() if name not in references] or [""]
     judged = f"{', '.join(others)} and {last}" if others else last
-    present = {name: bound for name, bound in references.items() if name in named}
-    limits = (
-        f"{named[name]}, whose numerical error is at most {bound:.1g} of its value" for name, bound in present.items()
+    reference = "; ".join(
+        f"{named[name]}, whose numerical error is at most {bound:.1g} of its value"
+        for name, bound in references.items()
+        if name in named
     )
-    reference = "; ".join(limits)
-    used = ["numpy", "scipy", *(["scikit-fem", "pyamg"] if "fem" in models else [])]
-    libraries = ", ".join(f"{_PRINTED.get(name, name)} {record['dependencies'][name]}" for name in used)
+    libraries = ", ".join(f"{library['name']} {library['version']}" for library in _libraries(record))
     digest = f", code with the SHA-256 {package['code_sha256'][:DIGITS]}" if "code_sha256" in package else ""
     verdict = record["verdicts"].get("all")
     sentences = [

@@ -136,8 +136,7 @@ def kappa(table: pd.DataFrame, over: str = "") -> Plot:
     if not over:
         over = "case" if rows["n"].isna().any() else max(_HEADINGS, key=lambda name: rows[name].nunique())
     parameters = [heading for name, heading in reversed(_HEADINGS.items()) if over not in (name, "case")]
-    rows = rows.sort_values(["n", "k", "mu", "model", over], kind="stable")
-    rows = rows.sort_values("quantity", key=_ranks, kind="stable")
+    rows = _by_quantity(rows, "n", "k", "mu", "model", over)
     choices = columns("quantity", "reference", *parameters)
 
     def hover(row: Record) -> str:
@@ -166,7 +165,7 @@ def agreement(table: pd.DataFrame) -> Plot:
     table : DataFrame
         As of `comparisons.output.errors.agreement`.
     """
-    rows = table.sort_values(["n", "k", "mu"], kind="stable").sort_values("quantity", key=_ranks, kind="stable")
+    rows = _by_quantity(table, "n", "k", "mu")
     cases = 1.0 + rows.groupby("quantity").cumcount()
     choices = columns("quantity")
     return Plot(
@@ -178,10 +177,11 @@ def agreement(table: pd.DataFrame) -> Plot:
     )
 
 
-def _ranks(quantities: pd.Series) -> pd.Series:
-    """Order of quantities; one that is not in the registry comes last."""
-    names = list(ALL_QUANTITIES)
-    return quantities.map(lambda name: (names.index(name) if name in names else len(names), name))
+def _by_quantity(rows: pd.DataFrame, *columns: str) -> pd.DataFrame:
+    """Return rows in the order of the quantities, then of some columns; a quantity that is not known comes last."""
+    ranks = {name: rank for rank, name in enumerate(ALL_QUANTITIES)}
+    place = rows["quantity"].map(lambda name: (ranks.get(name, len(ranks)), name))
+    return rows.assign(place=place).sort_values(["place", *columns], kind="stable").drop(columns="place")
 
 
 def curves(table: pd.DataFrame) -> list[Plot]:
@@ -207,10 +207,8 @@ def curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
     choices = [column("case")]
     (x_label, abscissas), (y_label, ordinates) = (_scaled(quantity.x, rows["x"]), _scaled(quantity.y, rows["y"]))
     points = _points(rows, choices, lambda row: f"{x} = {row['x']:.6g}, {y} = {row['y']:.6g}", abscissas, ordinates)
-    views = {
-        group: _tension_view(of_group)
-        for group, of_group in (points.groupby("group") if quantity.kind is Kind.CURVE else ())
-    }
+    groups = points.groupby("group") if quantity.kind is Kind.CURVE else ()
+    views = {group: view for group, of_group in groups if (view := _tension_view(of_group))}
     return Plot(
         id=f"plot-{quantity.name.replace('_', '-')}",
         title=quantity.title.capitalize(),
@@ -221,7 +219,7 @@ def curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
         points=points,
         table=quantity.name,
         caption=quantity.caption,
-        views={group: view for group, view in views.items() if view},
+        views=views,
     )
 
 
@@ -268,7 +266,7 @@ def values_over_keys(results: pd.DataFrame) -> Iterator[tuple[Plot, list[str]]]:
 
 def _over_key(rows: pd.DataFrame, keys: list[str], file: str, id: str) -> Plot:
     over, (label, unit) = keys[0], unit_in(keys[0])
-    rows = rows.sort_values([*keys[1:], over], kind="stable").sort_values("quantity", key=_ranks, kind="stable")
+    rows = _by_quantity(rows, *keys[1:], over)
     choices = [*columns("quantity"), *key_columns(keys[1:])]
     power, prefixed = prefixed_unit(float(rows[over].abs().max()), unit)
 

@@ -126,18 +126,15 @@ _METADATA: dict[str, Any] = {
 #: Formats of pictures, as endings of their files.
 FORMATS = tuple(_METADATA)
 
-_SETTINGS: Any = {
-    **{"font.size": 9, "axes.grid": True, "grid.alpha": 0.25, "grid.linewidth": 0.5, "lines.linewidth": 1.3},
-    **{"legend.frameon": False, "legend.fontsize": 8, "figure.dpi": 100, "savefig.dpi": 150},
-    **{"pdf.fonttype": 42, "svg.hashsalt": "fscm-bench"},
-}
+#: Settings of Matplotlib.
+_SETTINGS = Path(__file__).with_name("figures.mplstyle")
 
 
 def styled() -> Any:
     """Return the context in which figures are drawn and saved."""
     from matplotlib import rc_context
 
-    return rc_context(_SETTINGS)
+    return rc_context(fname=_SETTINGS)
 
 
 def new_figure(width: float, height: float) -> Figure:

@@ -90,11 +90,10 @@ def standings(entries: Sequence[BoardEntry]) -> pd.DataFrame:
         quantities, of which the judged one is the first.
     """
     tables = []
-    for entry in entries:
-        if entry.judged and (submission := entry.submission):
-            stated = {name: getattr(submission, name) for name in ("version", "date", "licence", "folder")}
-            errors = standing(entry.judged).assign(**stated, authors=", ".join(submission.authors))
-            tables.append(errors[errors["model"] == submission.name])
+    for submission, judged in _judged(entries):
+        stated = {name: getattr(submission, name) for name in ("version", "date", "licence", "folder")}
+        errors = standing(judged).assign(**stated, authors=", ".join(submission.authors))
+        tables.append(errors[errors["model"] == submission.name])
     if not tables:
         return pd.DataFrame()
     rows = pd.concat(tables, ignore_index=True)
@@ -131,14 +130,19 @@ def _results(entries: Sequence[BoardEntry], rows: pd.DataFrame) -> dict[str, Seq
     }
 
 
+def _judged(entries: Sequence[BoardEntry]) -> list[tuple[Submission, Entry]]:
+    """Return the submissions that were judged, with their results."""
+    return [(entry.submission, entry.judged) for entry in entries if entry.submission and entry.judged]
+
+
 def _kappa(entries: Sequence[BoardEntry], folders: set[str]) -> pd.DataFrame:
     """Return the relative errors of the versions in these folders in every case."""
-    tables = []
-    for entry in entries:
-        if entry.judged and entry.submission and entry.submission.folder in folders:
-            kappa = entry.judged.stored.kappa
-            tables.append(kappa[kappa["model"] == entry.submission.name])
-    return pd.concat(tables, ignore_index=True)
+    newest = [
+        (submission.name, judged.stored.kappa)
+        for submission, judged in _judged(entries)
+        if submission.folder in folders
+    ]
+    return pd.concat([kappa[kappa["model"] == name] for name, kappa in newest], ignore_index=True)
 
 
 def _regions(kappa: pd.DataFrame, newest: pd.DataFrame) -> Table:

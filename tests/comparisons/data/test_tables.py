@@ -19,23 +19,20 @@ def test_a_formula_has_no_last_digit_to_be_generous_with(computed, u, verdict):
 
 
 @pytest.mark.parametrize(
-    ("text", "computed"),
-    [("40.8", 40.8855), ("1.056", 1.05661), ("3.5", 3.562), ("15.9", 15.9506), ("4.4", 4.499), ("2.880", 2.8809)],
+    ("text", "steps", "u", "verdict"),
+    [
+        *[("2.880", steps, 1e-9, "agrees") for steps in (-0.49, 0.49)],
+        *[("40.8", steps, 1e-9, "agrees if truncated") for steps in (0.51, 0.99)],
+        # Numbers are not truncated upwards.
+        *[("3.5", steps, 1e-9, "differs") for steps in (-0.51, 1.01)],
+        # A bound that reaches over a border decides nothing.
+        *[("3.5", steps, 1e-6, "undecided") for steps in (-0.5, 0.5, 1.0)],
+        ("3.5", 55.0, 100.0, "undecided"),
+    ],
 )
-def test_truncated_digits_are_distinguished_from_rounded_ones(text, computed):
+def test_rounded_and_truncated_digits_are_distinguished(text, steps, u, verdict):
     printed = PaperValue("", "", "", text)
-    step = 10.0 ** -len(text.partition(".")[2])
-    assert printed.verdict(computed, 1e-9) == "agrees if truncated"
-    assert printed.verdict(printed.value + 0.49 * step, 1e-9) == "agrees"
-    assert printed.verdict(printed.value - 0.49 * step, 1e-9) == "agrees"
-    # Numbers are not truncated upwards.
-    assert printed.verdict(printed.value - 0.51 * step, 1e-9) == "differs"
-    assert printed.verdict(printed.value + 1.01 * step, 1e-9) == "differs"
-
-
-@pytest.mark.parametrize(("computed", "u"), [(3.45, 1e-6), (3.55, 1e-6), (3.6, 1e-6), (9.0, 100.0)])
-def test_a_bound_that_reaches_over_a_border_decides_nothing(computed, u):
-    assert PaperValue("", "", "", "3.5").verdict(computed, u) == "undecided"
+    assert printed.verdict(printed.value + steps * 10.0 ** -len(text.partition(".")[2]), u) == verdict
 
 
 CASES = [{"n": 1.0, "mu": 1.0}, {"n": 2.0, "k": 0.6, "mu": 3.0}, {"n": 2.0, "mu": 2.0}, {"n": 2.0, "k": 0.4}]

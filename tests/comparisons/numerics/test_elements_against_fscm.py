@@ -24,7 +24,7 @@ def _table():
     return table
 
 
-@lru_cache(maxsize=4)
+@lru_cache
 def _by_fscm(number):
     n, k, mu, _ = problems(number + 1)[number]
     names = [row["quantity"] for row in _table()[number] if row["quantity"] in fscm.QUANTITIES]
@@ -74,7 +74,8 @@ def test_every_problem_agrees_within_both_bounds(number):
 
 
 def test_a_value_outside_both_bounds_is_found():
-    number, elements = next((number, table) for number, table in _table().items() if table[0]["status"] == "value")
+    sample = [(number, _table()[number]) for number in sorted(_table())[::SAMPLE]]
+    number, elements = next((number, table) for number, table in sample if table[0]["status"] == "value")
     worse = [{**row, "value": float(row["value"]) + 2.0 * float(row["u_num"]) + 1e-6} for row in elements[:1]]
     assert set(_disagreements(number, worse)) == {elements[0]["quantity"]}
     absent = [{**elements[0], "status": "NoSuchEvent"}]
