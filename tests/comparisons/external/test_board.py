@@ -90,7 +90,7 @@ def test_every_submission_has_a_verdict_or_the_reason_why_not(submissions, write
 def test_what_has_not_changed_is_not_computed_again(submissions, tmp_path, capsys, monkeypatch):
     """And the values of the reference are computed once for all."""
     monkeypatch.setattr("comparisons.pipeline.board.REFERENCE", "exact")
-    submissions("a", name="a")
+    submissions("a", name="ten-percent", model="ten-percent")
     for body, counts in ((BODY, ["8", "4"]), (BODY.replace("2.2", "2.1"), ["0", "4"])):
         submissions("b", body, name="b")
         assert board(tmp_path)[0] == 0
