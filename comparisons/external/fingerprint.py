@@ -12,6 +12,7 @@ import os
 import stat
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
+from shutil import ignore_patterns
 
 from comparisons.data.file_names import RECORD, STORE
 from comparisons.external.cleaner import PREFIX
@@ -26,8 +27,9 @@ _MOST_DECLARED, _MOST_DECLARED_BYTES = 10_000, 2_000_000_000
 SITES = ("site-packages", "dist-packages")
 #: A folder with one of them holds the results of a run, or is an environment, and is no part of a model.
 _OF_OTHERS = (RECORD, STORE, "pyvenv.cfg")
-_NOT_ENTERED = ("__pycache__", "results", "node_modules", *SITES)
-_NOT_READ_ENDINGS = (".pyc", ".log", "~", ".egg-info", ".dist-info")
+#: Names of files and folders that are no part of a model; the last are scratch folders of processes of models.
+_OF_TOOLS = (".*", "*~", "*.pyc", "*.log", "*.egg-info", "*.dist-info", "__pycache__", "results", "node_modules")
+_ignored = ignore_patterns(*_OF_TOOLS, *SITES, PREFIX + 8 * "[a-z0-9_]")
 
 
 def fingerprint(
@@ -68,7 +70,8 @@ def fingerprint(
 
 def _of_root(root: Path, loaded: Collection[Path]) -> tuple[Collection[Path], str]:
     """Return the files of a folder that count, and which they are in words."""
-    used = [path for path in loaded if path.is_relative_to(root) and path.is_file() and _counts(path, root)]
+    inside = [path for path in loaded if path.is_relative_to(root) and path.is_file()]
+    used = [path for path in inside if not _ignored("", list(path.relative_to(root).parts))]
     name = one_line(root.name, 60)
     if root.name in SITES or any(root.glob("*.dist-info")):
         return used, "the installed files of the model"
@@ -93,9 +96,9 @@ def _every_file(root: Path) -> list[Path] | None:
     files: list[Path] = []
     size = 0
     for folder, inner, names in os.walk(root):
-        parent = Path(folder)
-        inner[:] = [name for name in inner if _is_entered(name) and not _is_of_others(parent / name)]
-        for path in (parent / name for name in names if _is_read(name)):
+        ignored = _ignored(folder, [*inner, *names])
+        inner[:] = [name for name in inner if name not in ignored and not _is_of_others(Path(folder, name))]
+        for path in (Path(folder, name) for name in names if name not in ignored):
             with contextlib.suppress(OSError):
                 status = path.stat()
                 # A pipe or a device would never end.
@@ -112,19 +115,6 @@ def _takes_output(status: os.stat_result) -> bool:
     with contextlib.suppress(OSError):
         return any(os.path.samestat(os.fstat(descriptor), status) for descriptor in (1, 2))
     return False
-
-
-def _counts(path: Path, root: Path) -> bool:
-    *folders, name = path.relative_to(root).parts
-    return all(map(_is_entered, folders)) and _is_read(name)
-
-
-def _is_entered(name: str) -> bool:
-    return _is_read(name) and name not in _NOT_ENTERED and not name.startswith(PREFIX)
-
-
-def _is_read(name: str) -> bool:
-    return not (name.startswith(".") or name.endswith(_NOT_READ_ENDINGS))
 
 
 def _declared(names: Iterable[str], base: Path) -> Iterator[tuple[str, Path]]:

@@ -95,8 +95,8 @@ def curve_of(line: bytes) -> Curve:
     """Return the curve that a reply has, or raise what its status means."""
     reply = _parsed(line)
     _check("curve", reply)
-    columns = {name: _column(name, reply[name]) for name in ("displacement", "load")}
-    columns |= {one_line(name, 60): _column(name, values) for name, values in reply.get("columns", {}).items()}
+    stated = {name: reply[name] for name in ("displacement", "load")} | reply.get("columns", {})
+    columns = {one_line(name, 60): _column(name, values) for name, values in stated.items()}
     if len(set(map(len, columns.values()))) != 1:
         listed = ", ".join(f"{name} {len(values)}" for name, values in columns.items())
         raise Malformed(f"the columns of the curve have different lengths: {listed}")

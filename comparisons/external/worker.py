@@ -87,22 +87,19 @@ def _attributes(value: object, cls: type, names: Iterable[str]) -> dict[str, Any
 
 def _loaded(source: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
     """Return the model, and where its files are: folders with the file that was loaded in each, and other files."""
-    roots: dict[str, str] = {}
     installed: Iterable[str] = ()
     if source["kind"] == "file":
         file = Path(source["file"])
-        loaded = _attribute_of_file(file, source["attribute"])
-        roots[str(file.parent)] = str(file)
+        loaded, roots = _attribute_of_file(file, source["attribute"]), {str(file.parent): str(file)}
     else:
         # It takes a tenth of the start of a process, and a file does not need it.
         from importlib.metadata import entry_points
 
         (entry,) = {entry for entry in entry_points(group=source["group"]) if entry.name == source["name"]}
-        loaded = entry.load()
-        roots |= _root_of(entry.module)
+        loaded, roots = entry.load(), _root_of(entry.module)
         installed = (os.path.realpath(path.locate()) for path in (entry.dist.files if entry.dist else None) or ())
     model = loaded() if callable(loaded) else loaded
-    roots = _root_of((loaded if isinstance(loaded, type) else type(model)).__module__) | roots
+    roots = _root_of(type(model).__module__) | roots
     modules = (os.path.realpath(getattr(module, "__file__", None) or "/") for module in list(sys.modules.values()))
     imported = (name for name in modules if not any(f"/{site}/" in name for site in SITES))
     return model, {"roots": roots, "loaded": sorted({*installed, *imported})}

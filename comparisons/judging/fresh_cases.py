@@ -22,9 +22,8 @@ from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.selection import cases_of, relevant
 from comparisons.problem import Problem
 from comparisons.problem.problem import split_name
-from comparisons.registry import ExternalIdentity, create
+from comparisons.registry import create
 from comparisons.runs.cases import TIERS, Grid
-from comparisons.runs.tasks import Task, plan
 
 #: The end of the id of a gate that is judged in fresh cases, and the tag of their grids.
 RANDOM = "-RANDOM"
@@ -72,10 +71,6 @@ class FreshCases:
     seed: int
     parts: tuple[Part, ...]
     undrawn: tuple[dict[str, str], ...] = ()
-
-    def plan(self, external: Mapping[str, ExternalIdentity]) -> list[Task]:
-        """Return the tasks of all parts."""
-        return plan([drawn.grid for drawn in self.parts], None, external)
 
     def as_json(self) -> dict[str, Any]:
         """Return the form in the record of a run: the cases themselves, since other versions may draw others."""

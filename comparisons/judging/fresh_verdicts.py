@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import RANDOM
@@ -69,24 +67,19 @@ def _difference(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
     between = pd.Series(True, index=new.index)
     for name, ends in ranges.items():
         between &= new[name].between(*ends) | new[name].isna()
-    beyond, largest, certain = new["verdict"] == Verdict.FAIL, _errors(right), _errors(new[between])
+    beyond, size, size_of_new = new["verdict"] == Verdict.FAIL, _size(right), _size(new)
     # What is certain of the error of a fresh case, against the most that the error of a standing one can be.
-    much_worse = len(certain) > 0 and _is_much_worse(largest, certain)
+    certain, most = size_of_new - new["uncertainty"], (size + right["uncertainty"]).max()
+    much_worse = (certain[between] > WORSE * most).any()
     if not beyond.any() and not much_worse:
         return ""
     where = "between them" if much_worse or between[beyond].any() else "elsewhere in its domain"
     return (
-        f"right at the standing cases and wrong {where}: the error is at most {largest[:, 0].max():.2g} in "
-        f"{len(right)} standing cases and {_errors(new)[:, 0].max():.2g} in {len(new)} fresh ones"
+        f"right at the standing cases and wrong {where}: the error is at most {size.max():.2g} in "
+        f"{len(right)} standing cases and {size_of_new.max():.2g} in {len(new)} fresh ones"
         + (f", beyond the limits in {beyond.sum()}" if beyond.any() else "")
     )
 
 
-def _errors(table: pd.DataFrame) -> NDArray[np.float64]:
-    """Return the sizes of the errors and their bounds, in two columns."""
-    return np.abs(table[["error", "uncertainty"]].to_numpy(dtype=float))
-
-
-def _is_much_worse(standing: NDArray[np.float64], fresh: NDArray[np.float64]) -> bool:
-    """Whether the largest error that is certain in fresh cases is `WORSE` times what it can be in the standing ones."""
-    return bool((fresh[:, 0] - fresh[:, 1]).max() > WORSE * standing.sum(axis=1).max())
+def _size(table: pd.DataFrame) -> pd.Series:
+    return table["error"].astype(float).abs()

@@ -145,9 +145,8 @@ def _judge_case(results: GateResults, case: Problem, scale: float, domain: Domai
     except UnusableResult as unusable:
         return _without_error(judged, unusable, results, case, is_failure=is_inside and status == "not-applicable")
     verdict, reason = _decided(gate, error)
-    return replace(
-        judged, **error.facts, error=error.error, uncertainty=error.uncertainty, verdict=verdict, reason=reason
-    )
+    numbers = error.facts | {"error": error.error, "uncertainty": error.uncertainty}
+    return replace(judged, **numbers, verdict=verdict, reason=reason)
 
 
 def _without_error(
@@ -177,12 +176,11 @@ def _decided(gate: Gate, case: CaseError) -> tuple[Verdict, str]:
         verdict = Verdict.INCONCLUSIVE
     if gate.expected_failure:
         verdict, reason = expecting_failure(verdict), reason or gate.expected_failure
-    if gate.measured_range and verdict is not Verdict.XPASS:
-        low, high = gate.measured_range
-        if not low <= error <= high:
-            between = f"{exact(low)} and {exact(high)}"
-            changed = f"E = {error:.6g} has changed: the errors measured when the gate was made are between {between}"
-            return Verdict.FAIL, changed
+    low, high = gate.measured_range or (-math.inf, math.inf)
+    if not low <= error <= high and verdict is not Verdict.XPASS:
+        between = f"{exact(low)} and {exact(high)}"
+        changed = f"E = {error:.6g} has changed: the errors measured when the gate was made are between {between}"
+        return Verdict.FAIL, changed
     return verdict, reason
 
 

@@ -95,7 +95,7 @@ def needed_keys(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[s
             compared |= set(gate.models.values())
             needed |= {key_of(gate, role, case) for role in gate.models}
     if models:
-        needed |= {task.key for task in plan([grid for grid in grids if FOR_GIVEN_MODELS in grid.tags], models)}
+        needed |= {task.key for task in plan([grid for grid in grids if FOR_GIVEN_MODELS in grid.tags], list(models))}
     if unjudged := [model for model in models or () if model not in compared]:
         needed |= {task.key for task in plan(grids, unjudged)}
     return needed

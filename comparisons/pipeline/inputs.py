@@ -118,7 +118,7 @@ class RunInputs:
     def plan(self) -> list[Task]:
         """Return every task once, as `comparisons.runs.tasks.plan`."""
         standing = plan(self.cases.grids, self.models, self.external)
-        fresh = [] if self.fresh is None else self.fresh.plan(self.external)
+        fresh = plan([part.grid for part in self.fresh.parts], None, self.external) if self.fresh else []
         return list(dict.fromkeys([*standing, *fresh]))
 
     def needed(self) -> list[Task]:

@@ -49,7 +49,7 @@ def test_every_file_of_a_small_folder_counts(folder):
 #: What is beside a model without being its own.
 OTHERS = (
     *("venv/pyvenv.cfg", "old/run.json", "old/kappa.csv", ".hidden", "stranger.pyc", "run.log", "stranger.py~"),
-    *(f"{name}/file" for name in (".git", "__pycache__", "results", "stranger.egg-info", "fscm-bench-abc")),
+    *(f"{name}/file" for name in (".git", "__pycache__", "results", "stranger.egg-info", "fscm-bench-abc_1234")),
 )
 
 
