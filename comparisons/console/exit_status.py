@@ -87,7 +87,13 @@ def _status(command: Callable[[], int], program: str) -> int:
         return FAILED
     _obey_sigterm()
     try:
-        return _finished(command)
+        try:
+            status = command()
+        except SystemExit as end:  # argparse, after --help and --version
+            status = FAILED if end.code else OK
+        with writing_stdout():
+            sys.stdout.flush()
+        return status
     except KeyboardInterrupt as error:
         terminated = isinstance(error, Terminated)
         _say(program, "terminated" if terminated else "interrupted")
@@ -100,17 +106,6 @@ def _status(command: Callable[[], int], program: str) -> int:
             sentence += "\n" + "".join(traceback.format_exception(error)).rstrip("\n")
         _say(program, sentence)
         return status
-
-
-def _finished(command: Callable[[], int]) -> int:
-    """Call the command and write what stdout still holds."""
-    try:
-        status = command()
-    except SystemExit as end:  # argparse, after --help and --version
-        status = FAILED if end.code else OK
-    with writing_stdout():
-        sys.stdout.flush()
-    return status
 
 
 @contextmanager

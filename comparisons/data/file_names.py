@@ -23,8 +23,6 @@ INPUTS = "inputs"
 RESULTS, CURVES, KAPPA, LARGEST_KAPPA, AGREEMENT = "results", "curves", "kappa", "largest_kappa", "agreement"
 #: Tables of the gates: a row for each gate and case, what each requires, a row for each gate and candidate.
 VERDICTS, GATES, SUMMARY = "verdicts", "gates", "summary"
-#: Tables that are written when a run is judged.
-VERDICT_TABLES = (VERDICTS, GATES, SUMMARY)
 
 #: Table and picture of `comparisons.compare`.
 COMPARISON = "comparison"
@@ -40,7 +38,7 @@ FIGURES = (KAPPA_FIGURE, AGREEMENT, REFERENCES)
 JUNIT, REPORT = "junit.xml", "report.html"
 
 #: What is written when a run is judged, besides the verdicts in other formats (`is_of_verdicts`).
-VERDICT_FILES = (*(f"{table}.csv" for table in VERDICT_TABLES), JUNIT)
+VERDICT_FILES = (*(f"{table}.csv" for table in (VERDICTS, GATES, SUMMARY)), JUNIT)
 
 #: Files of a run that have a checksum in its record, as far as they exist.
 RUN_FILES = (

@@ -16,7 +16,7 @@ _ENTRIES = ("author", "title", "journal", "volume", "pages", "year", "doi", "url
 
 
 class Work(NamedTuple):
-    """A work to cite: its key, and its entries in plain text; `author` has names separated by " and ".
+    """A work to cite: its key, and its facts in plain text; `author` has names separated by " and ".
 
     Examples
     --------
@@ -25,11 +25,16 @@ class Work(NamedTuple):
     """
 
     key: str
-    entries: Mapping[str, str]
+    entries: Mapping[str, Any]
+
+    @property
+    def filled(self) -> dict[str, str]:
+        """The entries of BibTeX that are not empty, in its order."""
+        return {name: str(self.entries[name]) for name in _ENTRIES if self.entries.get(name)}
 
     def text(self) -> str:
         """The work in one line."""
-        entry = {name: self.entries.get(name, "") for name in _ENTRIES}
+        entry = dict.fromkeys(_ENTRIES, "") | self.filled
         authors = entry["author"].strip("{}").replace(" and others", " et al.").replace(" and ", "; ")
         year = f"({entry['year']})" if entry["year"] else ""
         where = " ".join(filter(None, [entry["journal"], entry["volume"], year, entry["pages"].replace("--", "-")]))
@@ -39,8 +44,8 @@ class Work(NamedTuple):
 
     def bibtex(self) -> str:
         """The work as an entry of BibTeX, in ASCII."""
-        kind = "article" if "journal" in self.entries else "misc"
-        lines = [f"  {name} = {{{_field(name, value)}}}," for name, value in self.entries.items()]
+        kind = "article" if "journal" in self.filled else "misc"
+        lines = [f"  {name} = {{{_field(name, value)}}}," for name, value in self.filled.items()]
         return "\n".join([f"@{kind}{{{self.key},", *lines, "}"])
 
 
@@ -69,19 +74,18 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
     """
     cff = _shipped("citation.json")
     note = f"version {version_of(record['package']) if record else version}"
-    cited = [
-        _work("fscm-bench", cff | {"author": _names(cff["authors"]), "year": cff["date-released"][:4], "note": note})
-    ]
+    facts = {"author": _names(cff["authors"]), "year": cff["date-released"][:4], "note": note}
+    cited = [Work("fscm-bench", cff | facts)]
     for paper in cff["references"]:
         key = f"{paper['authors'][0].get('family-names', '')}-{paper['title'].split()[0]}".lower()
         pages = "--".join(str(paper[name]) for name in ("start", "end") if name in paper)
-        cited.append(_work(key, paper | {"author": _names(paper["authors"]), "pages": pages}))
+        cited.append(Work(key, paper | {"author": _names(paper["authors"]), "pages": pages}))
     for name, model in ((record or {}).get("models") or {}).items():
         title = f"Model {name}, version {model['version']}"
-        cited.append(_work("model-" + re.sub("[^A-Za-z0-9-]", "-", name), {"title": title, "note": model["citation"]}))
+        cited.append(Work("model-" + re.sub("[^A-Za-z0-9-]", "-", name), {"title": title, "note": model["citation"]}))
     for library in _libraries(record) if record else ():
         facts = {"author": " and ".join(library["authors"]), "note": f"version {library['version']}"}
-        cited.append(_work(library["package"], library | facts))
+        cited.append(Work(library["package"], library | facts))
     return cited
 
 
@@ -97,10 +101,6 @@ def _libraries(record: Mapping[str, Any]) -> list[dict[str, Any]]:
         for library in _shipped("software_references.json")
         if library["models"] is None or not models.keys().isdisjoint(library["models"])
     ]
-
-
-def _work(key: str, facts: Mapping[str, Any]) -> Work:
-    return Work(key, {name: str(facts[name]) for name in _ENTRIES if facts.get(name)})
 
 
 def methods(record: Mapping[str, Any], references: Mapping[str, float]) -> str:

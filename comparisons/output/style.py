@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from comparisons.judging.decision import Verdict
+from comparisons.output.table import LAYOUT
 from comparisons.runs.atomic_files import atomic
 
 # A command that draws nothing does not wait for Matplotlib.
@@ -34,13 +35,8 @@ LINES += ((0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (4, 1, 4, 1, 1, 1)), (0, (2,
 #: Dashes in Matplotlib -> in Bokeh.
 _DASHES = {"-": "solid", "--": "dashed", "-.": "dotdash", ":": "dotted"}
 
-#: Model -> its dashes, in the order of the colours and markers; a model needs no row here.
-_MODEL_DASHES = {
-    **{"fscm": "-", "md-improved": "-", "md-original": "--", "fem": "--", "jkr": "-.", "bradley": ":"},
-    **{"double-hertz-n-k": "-.", "semi-rigid": "-", "fscm-stieltjes": ":", "fscm-stieltjes-400": ":", "dmt": ":"},
-    **{"md-jin": ":", "dmt-strength": ":", "carpick-ogletree-salmeron": "-.", "pietrement-troyon": ":"},
-    **{"schwarz": "-.", "jump-asymptotes": "-.", "atlas": "--", "jkr-sphere": "-."},
-}
+#: Model -> its dashes, in the order of the colours and markers; a model needs no entry.
+_MODEL_DASHES: dict[str, str] = LAYOUT["dashes"]
 #: The models of fscm-bench in the order of their colours.
 MODEL_ORDER = tuple(_MODEL_DASHES)
 

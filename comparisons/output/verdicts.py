@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 
@@ -19,7 +19,7 @@ from comparisons.numerics.number_text import error_text, exact, limits_text
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
 from comparisons.output.markup import markdown
-from comparisons.output.table import Column, Record, Table, laid_out
+from comparisons.output.table import Column, Record, laid_out
 from comparisons.problem import PARAMETERS
 from comparisons.problem.problem import split_name
 from comparisons.quantities import CURVES
@@ -31,12 +31,6 @@ _NAMES = 12
 
 #: What is stored of each gate beside its verdicts: what was required, in which unit, and on what grounds.
 GATE_COLUMNS = ("id", "requirement", "metric", "basis", "grounds")
-
-#: Suffix of a file of verdicts -> its text, made of the table of the gates and of that of their worst cases.
-FORMATS: dict[str, Callable[[Table, Table], str]] = {
-    "md": lambda gates, worst: markdown(gates.texts, gates.caption),
-    "tex": lambda gates, worst: latex(worst.texts, worst.caption, worst.id),
-}
 
 
 def command(row: Record, specs: Mapping[str, str]) -> str:
@@ -167,5 +161,5 @@ def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate], specs:
     by_gate = laid_out("by_gate", summary, Column("command", again), requirements)
     worst = laid_out("worst_of_gates", summary, id="verdicts")
     write_file(folder / JUNIT, junit(judged, again))
-    for suffix, text_of in FORMATS.items():
-        write_file(folder / f"{VERDICTS}.{suffix}", text_of(by_gate, worst))
+    write_file(folder / f"{VERDICTS}.md", markdown(by_gate.texts, by_gate.caption))
+    write_file(folder / f"{VERDICTS}.tex", latex(worst.texts, worst.caption, worst.id))
