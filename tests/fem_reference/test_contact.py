@@ -15,6 +15,7 @@ from fem_reference.laws import LennardJones
 from fem_reference.modulus import PowerLawModulus
 from fem_reference.punch import PowerPunch
 from fem_reference.quantities import quantity_named
+from tests.refusals import refused
 
 SPEC = MeshSpec(0.125, 2.5e-3, 256.0, 0.9, 6, 0.05)
 
@@ -83,17 +84,14 @@ def test_rates_are_derivatives_along_the_path_and_the_load_is_that_of_the_energy
 
 def test_unknown_names_are_refused(points):
     """An unknown name does not stand for the jump out of contact."""
-    with pytest.raises(ValueError, match=r"event 'nonsense' is unknown; choose one of pull_off, jump_in"):
-        PathEvents(points).at("nonsense")
-    with pytest.raises(ValueError, match=r"quantity 'nonsense' is unknown; choose one of pull_off_force"):
-        quantity_named("nonsense")
+    refused(r"event 'nonsense' is unknown; choose one of pull_off, jump_in", PathEvents(points).at, "nonsense")
+    refused(r"quantity 'nonsense' is unknown; choose one of pull_off_force", quantity_named, "nonsense")
 
 
 def test_newton_refuses_a_hopeless_start():
     contact = _contact(E0=1e-6)
     y = np.append(np.zeros(contact.unknowns), [50.0, 1.0])
-    with pytest.raises(NotConverged, match="Newton stopped at a residual"):
-        newton(contact, y, Size(1.0), CentralGap(-50.0))
+    refused("Newton stopped at a residual", newton, contact, y, Size(1.0), CentralGap(-50.0), error=NotConverged)
 
 
 def test_a_distant_rigid_punch_has_the_load_of_bradley():

@@ -18,6 +18,7 @@ from fem_reference._contact.path import point_at
 from fem_reference._contact.tracing import traced
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference.accuracy import level_for
+from tests.refusals import refused
 
 LAW = LennardJones(work_of_adhesion=1.0, z0=1.0)
 FLAT = Problem(PowerLaw(E0=1.0, c0=1.0, k=0.0, nu=0.0), PowerPunch(n=5.0, Q=1.0), LAW)
@@ -101,13 +102,11 @@ def test_softer_it_jumps_and_stiffer_it_does_not():
     cusp = 1.0 / critical.MARGIN
     soft = PathEvents(traced(at(GRADED, 0.99 * cusp)))
     assert soft.jump_in.state.displacement > soft.jump_out.state.displacement
-    with pytest.raises(NoSuchEvent, match="too stiff for jumps"):
-        PathEvents(traced(at(GRADED, 1.005 * cusp))).at("jump_in")
+    refused("too stiff for jumps", PathEvents(traced(at(GRADED, 1.005 * cusp))).at, "jump_in", error=NoSuchEvent)
 
 
 def test_a_path_with_folds_is_not_taken_for_one_without():
-    with pytest.raises(fem_reference.NotConverged, match="has a fold near"):
-        PathEvents(traced(at(GRADED, 0.95))).at(CUSP)
+    refused("has a fold near", PathEvents(traced(at(GRADED, 0.95))).at, CUSP, error=fem_reference.NotConverged)
 
 
 @pytest.mark.heavy
@@ -122,8 +121,7 @@ def test_a_solid_whose_compliance_does_not_scale():
 
 def test_a_solid_without_a_reference_modulus_is_refused():
     solid = Exponential(1.0, 1.0, 1.0, 0.3)
-    with pytest.raises(ValueError, match=r"has no reference modulus E0.*take a PowerLaw$"):
-        solve(replace(FLAT, solid=solid), "critical_modulus")
+    refused(r"has no reference modulus E0.*take a PowerLaw$", solve, replace(FLAT, solid=solid), "critical_modulus")
 
 
 @pytest.mark.parametrize(("rate", "reason"), [(1.0, "no path has jumps"), (-1.0, "every path has jumps")])

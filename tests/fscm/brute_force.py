@@ -15,7 +15,6 @@ complete path has as well; a complete path may have more of them, on branches to
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -59,37 +58,37 @@ class State(NamedTuple):
     gap: np.ndarray
 
 
-@dataclass
-class Branch:
-    """Stable states in the order of their displacements, and whether a jump ends them below and above."""
+class StableStates(NamedTuple):
+    """Pull-off force of the stable states, and displacements at which branches end in jumps.
 
-    states: list[State]
-    below: bool = False
-    above: bool = False
+    Attributes
+    ----------
+    pull_off_force : float
+        Largest tension of all stable states that were met.
+    retreat, approach : list of float
+        Displacements of the jumps when the punch is withdrawn and pressed on, ascending.
+    """
 
-    def least_load(self) -> float:
-        """Smallest load; between two states it is the cubic through loads and slopes."""
-        least = min(state.load for state in self.states)
-        for a, b in pairwise(self.states):
-            if a.slope < 0.0 < b.slope:
-                ends = [a.displacement, b.displacement], [a.load, b.load], [a.slope, b.slope]
-                cubic = CubicHermiteSpline(*ends)
-                least = min(least, float(np.min(cubic(cubic.derivative().roots(extrapolate=False)))))
-        return least
+    pull_off_force: float
+    retreat: list[float]
+    approach: list[float]
+
+
+def least_load(branch: list[State]) -> float:
+    """Smallest load of states in the order of their displacements; between two it is cubic."""
+    least = min(state.load for state in branch)
+    for a, b in pairwise(branch):
+        if a.slope < 0.0 < b.slope:
+            ends = [a.displacement, b.displacement], [a.load, b.load], [a.slope, b.slope]
+            cubic = CubicHermiteSpline(*ends)
+            least = min(least, float(np.min(cubic(cubic.derivative().roots(extrapolate=False)))))
+    return least
 
 
 class BruteForce:
     """Stable states of a problem; `width` is the length of the panels up to the radius `fine`."""
 
-    def __init__(
-        self,
-        problem: Problem,
-        width: float,
-        fine: float,
-        order: int = _ORDER,
-        most: int = _MOST,
-        height: float = _HEIGHT,
-    ) -> None:
+    def __init__(self, problem: Problem, width, fine, order=_ORDER, most=_MOST, height=_HEIGHT) -> None:
         self.problem = problem
         end = fine
         while problem.punch.height(np.array([end]))[0] < height:
@@ -135,16 +134,13 @@ class BruteForce:
                 return H
             J = self.jacobian(H)
             J[np.diag_indices_from(J)] += 1.0 / time
-            factors = self._factors(J)
+            factors = _factorised(J)
             step = lu_solve(factors, -R, check_finite=False)
             if _rising(factors) and np.max(np.abs(step) / self.clearance(H)) < 0.4:
                 H, time = H + step, time * 1.5
             else:
                 time *= 0.4
         raise RuntimeError(f"no state to relax to at delta = {d}")
-
-    def _factors(self, J):
-        return lu_factor(J, overwrite_a=True, check_finite=False)
 
     def _solved(self, H, d, factors):
         """Newton's method from a close guess, with the given factors as long as they do; None if it fails."""
@@ -157,13 +153,13 @@ class BruteForce:
             if change < _TOLERANCE:
                 return H
             if iteration % _EVERY == 0:
-                factors = self._factors(self.jacobian(H))
+                factors = _factorised(self.jacobian(H))
         return None
 
-    def swept(self, branch: Branch, end: float, upwards: bool) -> bool:
+    def swept(self, branch: list[State], end: float, upwards: bool) -> bool:
         """Continue a branch from one of its ends; whether it ends in a jump, not at `end` or apart."""
         sense = 1.0 if upwards else -1.0
-        state, step = branch.states[-upwards], _FIRST
+        state, step = branch[-upwards], _FIRST
         d, H = state.displacement, state.gap
         apart = _APART * (1.0 + self.problem.mu)
         factors, tangent = self._linearised(H)
@@ -181,7 +177,7 @@ class BruteForce:
                     return True
                 continue
             d, H, factors, tangent = d + sense * step, new, new_factors, new_tangent
-            branch.states.insert(len(branch.states) if upwards else 0, self._state(d, H, tangent))
+            branch.insert(len(branch) if upwards else 0, self._state(d, H, tangent))
             # The deviation from the trapezoidal rule is of third order.
             growth = min(_GROWTH, (0.5 * _SURPRISE / max(surprise, 1e-12)) ** (1.0 / 3.0))
             step = min(growth * step, _LONGEST_PRESSED if self.load(H) > 0.0 else _LONGEST)
@@ -189,26 +185,27 @@ class BruteForce:
 
     def _linearised(self, H):
         """Factors of the tangent matrix, and the derivative of the gaps by the displacement."""
-        factors = self._factors(self.jacobian(H))
+        factors = _factorised(self.jacobian(H))
         return factors, lu_solve(factors, -np.ones_like(H), check_finite=False)
 
     def _state(self, d, H, tangent):
         return State(d, self.load(H), float(self.area @ (self.problem.law.slope(H) * tangent)), H)
 
-    def _on(self, branch: Branch, H, d) -> bool:
+    def _on(self, branch: list[State], H, d) -> bool:
         """Whether a state is on a branch: Newton's method from the states next to it leads to it."""
-        at, gaps = [state.displacement for state in branch.states], [state.gap for state in branch.states]
+        at, gaps = [state.displacement for state in branch], [state.gap for state in branch]
         if not at[0] - _FIRST < d < at[-1] + _FIRST:
             return False
         j = int(np.clip(np.searchsorted(at, d), 1, len(at) - 1)) if len(at) > 1 else 0
         fraction = np.clip((d - at[j - 1]) / (at[j] - at[j - 1]), 0.0, 1.0) if j else 1.0
         start = (1.0 - fraction) * gaps[j - 1] + fraction * gaps[j]
-        new = self._solved(start, d, self._factors(self.jacobian(start)))
+        new = self._solved(start, d, _factorised(self.jacobian(start)))
         return new is not None and bool(np.max(np.abs(new - H) / self.clearance(H)) < _SAME)
 
-    def branches(self, largest: float) -> list[Branch]:
-        """All branches that jumps lead to, from full contact at the displacement `largest`."""
-        branches: list[Branch] = []
+    def stable(self, largest: float) -> StableStates:
+        """The states of all branches that jumps lead to, from full contact at the displacement `largest`."""
+        branches: list[list[State]] = []
+        jumps: dict[bool, list[float]] = {False: [], True: []}
         seeds = [(largest, self.compressed(largest))]
         while seeds:
             d, H = seeds.pop()
@@ -216,18 +213,19 @@ class BruteForce:
                 continue
             if len(branches) == _MOST_BRANCHES:
                 raise RuntimeError(f"more than {_MOST_BRANCHES} branches")
-            branch = Branch([self._state(d, H, self._linearised(H)[1])])
+            branch = [self._state(d, H, self._linearised(H)[1])]
             branches.append(branch)
             for upwards in (False, True):
                 if self.swept(branch, largest if upwards else -math.inf, upwards):
-                    last = branch.states[-upwards]
+                    last = branch[-upwards]
+                    jumps[upwards].append(last.displacement)
                     beyond = last.displacement + (_BEYOND if upwards else -_BEYOND)
                     seeds.append((beyond, self.relaxed(last.gap, beyond)))
-                    if upwards:
-                        branch.above = True
-                    else:
-                        branch.below = True
-        return branches
+        return StableStates(-min(map(least_load, branches)), sorted(jumps[False]), sorted(jumps[True]))
+
+
+def _factorised(J):
+    return lu_factor(J, overwrite_a=True, check_finite=False)
 
 
 def _rising(factors):
@@ -245,23 +243,6 @@ def _edge(problem: Problem, displacement: float) -> float:
     return float(np.max(coarse.radii[coarse.compressed(displacement) < problem.law.peak_gap]))
 
 
-@dataclass(frozen=True)
-class StableStates:
-    """Pull-off force of the stable states, and displacements at which branches end in jumps.
-
-    Attributes
-    ----------
-    pull_off_force : float
-        Largest tension of all stable states that were met.
-    retreat, approach : tuple of float
-        Displacements of the jumps when the punch is withdrawn and pressed on, ascending.
-    """
-
-    pull_off_force: float
-    retreat: tuple[float, ...]
-    approach: tuple[float, ...]
-
-
 def stable_states(problem: Problem, height: float) -> StableStates:
     """The stable states from a displacement beyond roughness of that height to separation; coarse.
 
@@ -273,9 +254,4 @@ def stable_states(problem: Problem, height: float) -> StableStates:
     displacement = 6.0 + 1.3 * height + 2.0 * problem.mu
     width = (_EDGE * problem.compliance) ** (-1.0 / (1.0 - problem.k))
     fine = _BEYOND_EDGE * _edge(problem, displacement) + _MARGIN
-    branches = BruteForce(problem, min(width, _WIDTH), fine).branches(displacement)
-    return StableStates(
-        -min(branch.least_load() for branch in branches),
-        tuple(sorted(branch.states[0].displacement for branch in branches if branch.below)),
-        tuple(sorted(branch.states[-1].displacement for branch in branches if branch.above)),
-    )
+    return BruteForce(problem, min(width, _WIDTH), fine).stable(displacement)

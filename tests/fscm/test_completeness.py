@@ -16,6 +16,7 @@ from fscm.path import EquilibriumPath
 from fscm.punch import PowerSum, RoundedCone
 from tests.fscm.solved_once import ASPERITY, SUBSTRATE, WORK, R, analysis_of, path_of, stiff_on_soft
 from tests.marks import heavy
+from tests.refusals import refused
 from tests.solvers.layered_jkr import Stack, jkr
 from tests.solvers.test_layered_jkr import COATINGS
 
@@ -142,14 +143,12 @@ def test_a_tensile_end_comes_after_pull_off() -> None:
     assert path.load[-2] <= -0.5 < path.load[-1] < 0.0
     assert path.load.min() == pytest.approx(path_of(problem).load.min(), abs=1e-7)
     assert load_controlled_retreat(path)[1, -1] == path.load.min()
-    with pytest.raises(ValueError, match="max_load = -5 is outside"):
-        trace(problem, max_load=-5.0)
+    refused("max_load = -5 is outside", trace, problem, max_load=-5.0)
 
 
 def test_a_retreat_needs_a_path_beyond_pull_off() -> None:
     x = np.linspace(0.0, 1.0, 3)
-    with pytest.raises(ValueError, match="before pull-off"):
-        load_controlled_retreat(EquilibriumPath(-x, x, -x, x, x, 0.0, 0.0))
+    refused("before pull-off", load_controlled_retreat, EquilibriumPath(-x, x, -x, x, x, 0.0, 0.0))
 
 
 UNIT = math.pi * R * WORK

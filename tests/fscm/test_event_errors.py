@@ -96,15 +96,10 @@ def landing_errors(monkeypatch):
     def use(errors):
         called = []
 
-        class OfLanding:
-            def __init__(self, state):
-                self.state = state
+        def of_landing(state):
+            return SimpleNamespace(controlled=lambda *names: called.append((state, *names)) or errors)
 
-            def controlled(self, *names):
-                called.append((self.state, *names))
-                return errors
-
-        monkeypatch.setattr(_bounds, "EventErrors", OfLanding)
+        monkeypatch.setattr(_bounds, "EventErrors", of_landing)
         return called
 
     return use

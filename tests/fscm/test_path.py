@@ -20,12 +20,13 @@ from fscm import (
     solve_together,
     trace,
 )
-from fscm._arc_length import Point, parameter_of, rates_of
+from fscm._arc_length import parameter_of, rates_of
 from fscm._continuation import equilibrium_path, moved
 from fscm._jumps import Branch, jumps_between
 from fscm.stability import margins
 from tests.fscm.solved_once import analysis_of, path_of, stiff_on_soft
 from tests.marks import heavy
+from tests.refusals import refused
 
 
 @pytest.mark.parametrize(
@@ -86,11 +87,9 @@ def test_bad_controls_and_angles_are_refused() -> None:
         ("load", math.nan, "finite"),
         ("central_gap", -1.0, "singular"),
     ):
-        with pytest.raises(ValueError, match=message):
-            equilibria(problem, control, value)
+        refused(message, equilibria, problem, control, value)
     for degrees in (0.0, -5.0, 181.0, math.nan):
-        with pytest.raises(ValueError, match="largest_turn"):
-            trace(problem, largest_turn=degrees)
+        refused("largest_turn", trace, problem, largest_turn=degrees)
 
 
 def test_profiles_at_pull_off() -> None:
@@ -135,18 +134,12 @@ FILM_JUMPS = [-9.0557, -122.2588, -135.4293]
 LOSS_OF_FILM = 0.46289
 
 
-def _bracket(name: str) -> tuple[Point, Point]:
-    """A stand-in that is only handed on."""
-    return name  # type: ignore[return-value]
-
-
-def _branches(*spans: tuple[float, float]) -> list[Branch]:
-    branches = []
-    for i, (least, largest) in enumerate(spans):
-        low = None if least == -math.inf else _bracket(f"low {i}")
-        high = None if largest == math.inf else _bracket(f"high {i}")
-        branches.append(Branch(low, high, least, largest))
-    return branches
+def _branches(*spans):
+    """Branches between displacements; the names of their folds stand for brackets, which are only handed on."""
+    return [
+        Branch(f"low {i}" if least > -math.inf else None, f"high {i}" if largest < math.inf else None, least, largest)
+        for i, (least, largest) in enumerate(spans)
+    ]
 
 
 @pytest.mark.parametrize(

@@ -31,6 +31,7 @@ from fscm import (
     trace,
 )
 from fscm._response_factor import response_factor, response_factor_per_rest
+from tests.refusals import refused
 
 EPS = np.finfo(float).eps
 # Logarithms of SI sizes reach 100, divided by 2n + k - 1 >= 0.4: their rounding is worth 100 eps / 0.4 in mu.
@@ -139,12 +140,12 @@ def test_results_have_the_units_of_the_problem():
     for name, kind in kinds.items():
         expected = plain[name].value * units[kind], plain[name].u_num * units[kind]
         assert (in_units[name].value, in_units[name].u_num) == pytest.approx(expected)
-    path, plain = trace(p, max_load=0.0), trace(core, max_load=0.0)
+    path, plain = (trace(posed, "quick", max_load=0.0) for posed in (p, core))
     for name, kind in (("central_gap", "gap"), ("load", "load"), ("energy", "energy"), ("edge_radius", "radius")):
         np.testing.assert_allclose(getattr(path, name), getattr(plain, name) * units[kind], rtol=1e-14)
     assert path.u_load == plain.u_load * units["load"]
     assert [fold.load for fold in path.folds] == pytest.approx([fold.load * units["load"] for fold in plain.folds])
-    surface, plain = profile(p), profile(core)
+    surface, plain = (profile(posed, accuracy="quick") for posed in (p, core))
     np.testing.assert_allclose(surface.pressure, plain.pressure * units["traction"], rtol=1e-14)
     np.testing.assert_allclose(surface.gap, plain.gap * units["gap"], rtol=1e-14)
     (state, *_), (plain, *_) = (equilibria(of, "load", -1.2 * of.units["load"]) for of in (p, core))
@@ -202,14 +203,10 @@ def test_the_form_of_a_punch_and_of_a_law_changes_no_force(name):
 
 
 def test_a_dimensionless_problem_takes_dimensionless_parts():
-    with pytest.raises(ValueError, match="range 3e-10"):
-        Problem(2, 0, 1.0, law=LennardJones(0.05, 3e-10))
-    with pytest.raises(ValueError, match="does not fit"):
-        Problem(2, 0, 1.0, punch=PowerPunch(2, Q=1e-6))
-    with pytest.raises(ValueError, match="physical problem"):
-        replace(physical(), mu=2.0)
-    with pytest.raises(ValueError, match="is no solid"):
-        Problem(solid=1e9, punch=PowerPunch(2, 1e-6), law=LennardJones(0.05, 3e-10))
+    refused("range 3e-10", Problem, 2, 0, 1.0, law=LennardJones(0.05, 3e-10))
+    refused("does not fit", Problem, 2, 0, 1.0, punch=PowerPunch(2, Q=1e-6))
+    refused("physical problem", replace, physical(), mu=2.0)
+    refused("is no solid", Problem, solid=1e9, punch=PowerPunch(2, 1e-6), law=LennardJones(0.05, 3e-10))
 
 
 BAD = [math.nan, math.inf, -1.0, "1", True, 1j, None]
@@ -219,22 +216,16 @@ POSITIVE = ("E0", "c0", "Q", "n", "work_of_adhesion", "z0")
 @pytest.mark.parametrize("name", SPHERE)
 def test_bad_input_is_refused_by_name(name):
     for bad in [*BAD, 0.0] if name in POSITIVE else BAD:
-        with pytest.raises(ValueError, match=rf"^[\w ]*\b{name} = ") as caught:
-            physical(**{name: bad})
-        assert "\n" not in str(caught.value)
+        refused(rf"^[\w ]*\b{name} = ", physical, **{name: bad})
 
 
 def test_other_refusals():
     with pytest.raises(ValueError, match="physical units"):
         _ = physical().compliance
-    with pytest.raises(ValueError, match="Gibson"):
-        physical(k=1.0, nu=0.3)
-    with pytest.raises(ValueError, match=r"Eq\. 29"):
-        physical(n=0.3)
-    with pytest.raises(ValueError, match="check the units"):
-        physical(Q=1e300, n=0.5)
-    with pytest.raises(ValueError, match="check the units"):
-        Problem(2, 0, 1e-9).in_units(c0=1, nu=0.3, Q=1, work_of_adhesion=1e300, z0=1)
+    refused("Gibson", physical, k=1.0, nu=0.3)
+    refused(r"Eq\. 29", physical, n=0.3)
+    refused("check the units", physical, Q=1e300, n=0.5)
+    refused("check the units", Problem(2, 0, 1e-9).in_units, c0=1, nu=0.3, Q=1, work_of_adhesion=1e300, z0=1)
     with pytest.raises(ValueError, match="three numbers"):
         Problem(2, 0, 1.0, law=Mie(m=12, n=6)).in_units(c0=1, nu=0.3, Q=1, work_of_adhesion=1, z0=1)
 

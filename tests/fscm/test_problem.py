@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from fscm.laws import LennardJones, Mie
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
+from tests.refusals import refused
 
 
 @given(st.floats(0.7, 50.0), st.floats(0.0, 1.0), st.floats(1e-3, 100.0))
@@ -35,9 +36,7 @@ BAD = [math.nan, -math.inf, -1.0, 10**400, "1", True, 1j, None, np.array([1.0]),
 )
 def test_bad_numbers_are_refused_in_one_sentence(name, values, message):
     for bad in values:
-        with pytest.raises(ValueError, match=message) as caught:
-            Problem(**{"n": 2.0, "k": 0.4, "mu": 1.0, name: bad})
-        assert "\n" not in str(caught.value)
+        refused(message, Problem, **{"n": 2.0, "k": 0.4, "mu": 1.0, name: bad})
 
 
 def test_a_tabor_number_at_which_doubles_end_is_refused():
@@ -57,20 +56,15 @@ def test_a_divergent_load_integral_is_refused():
     assert Problem(0.67, 0.4, 1.0).n == 0.67
     # A shorter-ranged law admits the sharper punch, a longer-ranged one does not admit the cone.
     assert Problem(2 / 3, 0.4, 1.0, law=Mie(m=12, n=6)).n == 2 / 3
-    with pytest.raises(ValueError, match="load integral"):
-        Problem(1.0, 0.4, 1.0, law=Mie(m=9, n=2))
+    refused("load integral", Problem, 1.0, 0.4, 1.0, law=Mie(m=9, n=2))
 
 
 def test_the_tabor_number_of_a_punch_too_sharp_is_undefined():
     for n, k, low in ((0.5, 0.0, "0.5"), (0.4999999, 0.0, "0.5"), (0.35, 0.3, "0.35")):
-        with pytest.raises(ValueError, match=rf"n = {n} is outside \({low}, inf\) for k = {k}: .*Eq\. 29"):
-            Problem(n, k, 1.0, law=Mie(m=12, n=6))
+        refused(rf"n = {n} is outside \({low}, inf\) for k = {k}: .*Eq\. 29", Problem, n, k, 1.0, law=Mie(m=12, n=6))
 
 
 def test_what_is_not_a_profile_or_a_law_is_refused():
-    with pytest.raises(ValueError, match="punch shape"):
-        Problem(2, 0, 1, punch=lambda r: r)
-    with pytest.raises(ValueError, match="surface law"):
-        Problem(2, 0, 1, law=np.sin)
-    with pytest.raises(ValueError, match="does not fit n"):
-        replace(Problem(2, 0, 1), n=3.0)
+    refused("punch shape", Problem, 2, 0, 1, punch=lambda r: r)
+    refused("surface law", Problem, 2, 0, 1, law=np.sin)
+    refused("does not fit n", replace, Problem(2, 0, 1), n=3.0)

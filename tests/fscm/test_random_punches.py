@@ -60,7 +60,7 @@ def test_stable_states_on_a_fixed_mesh_have_the_least_load_and_the_jumps_of_the_
     assert states.pull_off_force == pytest.approx(float(row["brute_force"]), rel=1e-4)
     for column in ("retreat", "approach"):
         jumps = [float(jump) for jump in row[column].split()]
-        assert list(getattr(states, column)) == pytest.approx(jumps, abs=JUMP)
+        assert getattr(states, column) == pytest.approx(jumps, abs=JUMP)
 
 
 def test_a_path_has_an_edge_where_the_mesh_does_not_follow_it() -> None:

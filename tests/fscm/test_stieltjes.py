@@ -12,6 +12,7 @@ from fscm.problem import Problem
 from fscm.solver import solve_together
 from fscm.stieltjes import STIELTJES_QUANTITIES, StieltjesScheme, find_event, stieltjes_solution
 from tests.marks import heavy
+from tests.refusals import refused
 
 COARSE = {"gap_step": 0.25}
 
@@ -69,8 +70,7 @@ def test_the_uncertainty_covers_the_error(problem, quantity):
 def test_events_that_are_not_on_the_path():
     calm = StieltjesScheme(Problem(2, 0.4, 0.5), 60, **COARSE)
     for name in ("jump_in", "jump_out"):
-        with pytest.raises(NoSuchEvent, match="jump"):
-            find_event(calm, name)
+        refused("jump", find_event, calm, name, error=NoSuchEvent)
     # The pull-off of a cone lies beyond the range of the paper.
     with pytest.raises(NoSuchEvent, match="pull off"):
         find_event(StieltjesScheme(Problem(1, 0.4, 0.1), 100, last_gap=-0.1, **COARSE), "pull_off")
@@ -78,10 +78,8 @@ def test_events_that_are_not_on_the_path():
 
 def test_an_edge_narrower_than_the_segments_is_a_failure_not_a_number():
     scheme = StieltjesScheme(Problem(2, 0.4, 3.0), 100, **COARSE)
-    with pytest.raises(NotConverged, match=r"folds|Newton"):
-        find_event(scheme, "pull_off")
-    with pytest.raises(NotConverged, match="Newton's method failed"):
-        StieltjesScheme(Problem(2, 0.4, 3.0), 100).solve(-0.05)
+    refused(r"folds|Newton", find_event, scheme, "pull_off", error=NotConverged)
+    refused("Newton's method failed", StieltjesScheme(Problem(2, 0.4, 3.0), 100).solve, -0.05, error=NotConverged)
 
 
 def test_bad_input():
@@ -91,11 +89,7 @@ def test_bad_input():
         *(("farthest_height", 0.0), ("gap_step", 0.0), ("gap_step", math.nan), ("last_gap", -1.0)),
         *(("last_load", -0.1), ("first_gap", -0.5), ("first_gap", math.inf)),
     ):
-        with pytest.raises(ValueError, match=name):
-            StieltjesScheme(problem, **{name: value})
-    with pytest.raises(ValueError, match="gradient exponent"):
-        StieltjesScheme(Problem(2, 1, 1.0))
-    with pytest.raises(ValueError, match="unknown event"):
-        find_event(StieltjesScheme(problem, 20), "nonsense")
-    with pytest.raises(ValueError, match="unknown quantity"):
-        stieltjes_solution(problem, "weight", 20)
+        refused(name, StieltjesScheme, problem, **{name: value})
+    refused("gradient exponent", StieltjesScheme, Problem(2, 1, 1.0))
+    refused("unknown event", find_event, StieltjesScheme(problem, 20), "nonsense")
+    refused("unknown quantity", stieltjes_solution, problem, "weight", 20)

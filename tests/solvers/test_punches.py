@@ -8,6 +8,7 @@ import pytest
 
 import fem_reference
 import fscm
+from tests.refusals import refused
 
 both = pytest.mark.parametrize("package", [fscm, fem_reference], ids=lambda package: package.__name__)
 RADII = np.array([0.1, 0.3, 0.7, 1.1, 4.0, 30.0, 1e3])
@@ -87,6 +88,4 @@ def test_impossible_shapes_are_refused_in_one_sentence(package):
         ("MeasuredPunch", ((0.0, math.nan), (0.0, 1.0)), "finite"),
         ("CustomPunch", (lambda r: r + 1.0, 1.0), r"f\(0\)"),
     ):
-        with pytest.raises(ValueError, match=message) as caught:
-            getattr(package, name)(*arguments)
-        assert "\n" not in str(caught.value)
+        refused(message, getattr(package, name), *arguments)
