@@ -223,7 +223,6 @@ def test_other_refusals():
     with pytest.raises(ValueError, match="physical units"):
         _ = physical().compliance
     refused("Gibson", physical, k=1.0, nu=0.3)
-    refused(r"Eq\. 29", physical, n=0.3)
     refused("check the units", physical, Q=1e300, n=0.5)
     refused("check the units", Problem(2, 0, 1e-9).in_units, c0=1, nu=0.3, Q=1, work_of_adhesion=1e300, z0=1)
     with pytest.raises(ValueError, match="three numbers"):
