@@ -7,7 +7,7 @@ import tomllib
 
 import pytest
 
-from comparisons.cli.commands import check_model
+from comparisons import registry
 from comparisons.cli.main import main
 from comparisons.external.contract_checks import examine
 from comparisons.external.model_source import GROUP
@@ -75,7 +75,7 @@ def test_what_is_wrong_is_named(change, stated, wrong):
     ],
 )
 def test_the_status_is_that_of_the_worst_finding(monkeypatch, capsys, change, status, sentence):
-    monkeypatch.setattr(check_model, "external_model", lambda spec: Stranger(change, **LIMITS))
+    monkeypatch.setattr(registry, "load_model", lambda spec: Stranger(change, **LIMITS))
     assert main(["check-model", "stranger"]) == status
     printed = " ".join(capsys.readouterr().out.split())
     assert sentence in printed

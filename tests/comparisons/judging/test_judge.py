@@ -10,6 +10,7 @@ from comparisons.domain import Domain
 from comparisons.judging.decision import roll_up
 from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
+from comparisons.judging.selection import load_user_gates
 from comparisons.judging.summary import summarise
 from comparisons.runs.cases import load_grids
 from tests.comparisons.conftest import GATES, GRID, with_entries
@@ -230,10 +231,13 @@ def test_an_error_that_was_not_measured_fails_although_it_keeps_the_limits_or_is
     assert verdict(results(fscm=2.0, jkr=lambda k, mu: 2.0 if k else 2.5), KNOWN)[0] == "XPASS"
 
 
-def test_gates_for_models_that_are_given():
+def test_gates_for_models_that_are_given(capsys):
     gate = GATE.replace('"jkr"', '"given"')
     rows = results(fscm=2.0, jkr=2.0, dmt=2.5)
     assert judge(load_gates(gate), GRIDS, rows).empty
+    for models, messages in ((None, 1), (["jkr"], 0)):
+        load_user_gates(gate, "mine.toml", "quick", GRIDS, models)
+        assert capsys.readouterr().err.count("1 of 1 gates of mine.toml are left out") == messages
     _, table = verdict(rows, gate, models=["jkr", "dmt"])
     assert summarise(table).set_index("candidate")["verdict"].to_dict() == {"dmt": "FAIL", "jkr": "PASS"}
     # A model is not compared with itself, unless it is elsewhere; a gate of another model does not count.
