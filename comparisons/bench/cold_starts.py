@@ -34,9 +34,6 @@ _LONG = 5.0
 #: Exit statuses of a finished command: 1 and 3 are a gate that fails or is inconclusive, as with the stand-in model.
 _FINISHED = {0, 1, 3}
 
-#: Folder of the results of `run`.
-_OUT = "out"
-
 
 def plan(full: bool) -> list[Numbers]:
     """Return the commands."""
@@ -56,7 +53,7 @@ def cold_start(command: str) -> Numbers:
         if command == _OWN_MODEL:
             # The model of the user is that of `fscm-bench new-model`.
             _, spec = write_template(Path(folder, "my"))
-            arguments[-1:] = [spec, "--out", str(Path(folder, _OUT))]
+            arguments[-1:] = [spec, "--out", str(Path(folder, "out"))]
         used = [_call(arguments, Path(folder))]
         while len(used) <= _REPEATS and used[-1]["cpu_seconds"] < _LONG:
             used.append(_call(arguments, Path(folder)))
@@ -65,7 +62,7 @@ def cold_start(command: str) -> Numbers:
 
 def _call(arguments: list[str], folder: Path) -> Numbers:
     """Call a command; the results of the call before it are removed."""
-    shutil.rmtree(folder / _OUT, ignore_errors=True)
+    shutil.rmtree(folder / "out", ignore_errors=True)
     before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     done = subprocess.run([sys.executable, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     seconds, after = time.perf_counter() - begin, resource.getrusage(resource.RUSAGE_CHILDREN)

@@ -84,9 +84,8 @@ def run_bench(folder: Path, only: Sequence[str] | None = None, *, full: bool = F
     summary = [f"{machine['cpu']}, {machine['cores']} cores; ratios of one run on it:"[:80]]
     for part in parts:
         summary += _written(folder, part, part.table(full, computed.outcomes))
-    arguments = {"only": only and list(only), "full": full}
-    content = {"arguments": arguments, **record, "parts": computed.parts, "failures": len(failures)}
-    write_json(content, folder / BENCH)
+    content = {"arguments": {"only": only and list(only), "full": full}, **record, "parts": computed.parts}
+    write_json({**content, "failures": len(failures)}, folder / BENCH)
     write_file(folder / BENCH_SUMMARY, "".join(f"{line}\n" for line in summary))
     return FinishedBench(summary, failures)
 

@@ -52,9 +52,6 @@ _NEIGHBOUR = 1.1
 #: Repetitions have Tabor numbers that differ by this much, so that no stored solution serves them.
 _APART = 1e-6
 
-#: Value and bound in units of the pull-off force, and unknowns.
-_Solved = tuple[float, float | None, int]
-
 
 def plan(full: bool) -> list[Numbers]:
     """Return the solvers with all their settings."""
@@ -67,21 +64,21 @@ def plan(full: bool) -> list[Numbers]:
     ]
 
 
-def _by_fscm(problem: fscm.Problem, accuracy: str) -> _Solved:
+def _by_fscm(problem: fscm.Problem, accuracy: str) -> Numbers:
     solution = fscm.solve(problem, "pull_off_force", float(accuracy))
-    return solution.value, solution.u_num, solution.size
+    return {"value": solution.value, "u_num": solution.u_num, "unknowns": solution.size}
 
 
-def _by_elements(problem: fscm.Problem, accuracy: str) -> _Solved:
+def _by_elements(problem: fscm.Problem, accuracy: str) -> Numbers:
     """Solve the physical problem; its load is in the unit of the pull-off force."""
     units, body = FiniteElements().physical(Problem.dimensionless(problem.n, problem.k, problem.mu))
     solution, unit = fem_reference.solve(body, "pull_off_force", accuracy), units["load"]
-    return solution.value / unit, solution.u_num / unit, solution.size
+    return {"value": solution.value / unit, "u_num": solution.u_num / unit, "unknowns": solution.size}
 
 
-def _by_stieltjes(problem: fscm.Problem, segments: str) -> _Solved:
+def _by_stieltjes(problem: fscm.Problem, segments: str) -> Numbers:
     event = find_event(StieltjesScheme(problem, int(segments)), "pull_off")
-    return -event.load, None, int(segments)
+    return {"value": -event.load, "u_num": None, "unknowns": int(segments)}
 
 
 _SOLVERS = {"fscm": _by_fscm, "fem": _by_elements, "fscm-stieltjes": _by_stieltjes}
@@ -101,7 +98,7 @@ def cost_of_pull_off(n: float, k: float, mu: float, model: str, setting: str) ->
     setting : str
         An accuracy (fscm, fem), or how many segments (fscm-stieltjes).
     """
-    solved: list[_Solved] = []
+    solved: list[Numbers] = []
     seconds: list[float] = []
     peak = None
     for factor in (_NEIGHBOUR, *(1.0 + _APART * repetition for repetition in range(_REPEATS))):
@@ -112,9 +109,7 @@ def cost_of_pull_off(n: float, k: float, mu: float, model: str, setting: str) ->
             peak = peak_memory()
         elif seconds[-1] > _LONG:
             break
-    value, u_num, unknowns = solved[1]
-    numbers = {"value": value, "u_num": u_num, "unknowns": unknowns}
-    return {**numbers, "cpu_seconds": min(seconds[1:]), "cold_seconds": seconds[0], "megabytes": peak}
+    return {**solved[1], "cpu_seconds": min(seconds[1:]), "cold_seconds": seconds[0], "megabytes": peak}
 
 
 def peak_memory() -> float | None:

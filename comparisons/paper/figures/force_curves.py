@@ -15,7 +15,8 @@ from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, re
 from comparisons.paper.statements.equilibria import turning_points
 from comparisons.paper.tasks import GRADIENTS, curve, named_points, quantity
 
-Range = tuple[float, float]
+#: Ranges of displacement and load of each panel, by the value of its parameter.
+Ranges = dict[float, tuple[tuple[float, float], tuple[float, float]]]
 
 #: Fig. 3: the case, and the ranges of the axes: the approach continues beyond them.
 _CASE = {"n": 2.0, "k": 0.4, "mu": 3.0}
@@ -24,18 +25,15 @@ _S_AXES = (("central_gap", "displacement"), ("central_gap", "load"), ("displacem
 #: In contact the central gap hardly moves; its scale is linear below and logarithmic beyond.
 _LINEAR_GAP = 0.05
 
-#: Figs. 4, 6 and 13: ranges of displacement and load of each panel, by shape index.
-_SHAPES: dict[float, tuple[Range, Range]] = {
+#: Figs. 4 and 13, by shape index.
+_SHAPES: Ranges = {
     1.0: ((-5.0, 13.0), (-17.5, 2.5)),
     1.5: ((-5.0, 6.0), (-3.6, 1.0)),
     2.0: ((-6.0, 6.0), (-2.15, 0.6)),
     5.0: ((-7.0, 4.0), (-1.75, 0.5)),
 }
-#: The same by Tabor number.
-_TABOR_PANELS: dict[float, tuple[Range, Range]] = {
-    0.5: ((-4.0, 1.5), (-2.15, 0.8)),
-    1.0: ((-4.0, 2.5), (-2.15, 0.8)),
-}
+#: Fig. 6, by Tabor number.
+_TABOR_PANELS: Ranges = {0.5: ((-4.0, 1.5), (-2.15, 0.8)), 1.0: ((-4.0, 2.5), (-2.15, 0.8))}
 _TABOR_NUMBERS = (0.1, 0.3, 0.5, 1.0, 1.5, 2.0, 3.0)
 _K, _MU = 0.4, 1.0
 #: Fig. 13 ends to the left where the FSCM's load has faded to this share of the pull-off force.
@@ -98,14 +96,7 @@ def curves(keys: list[dict[str, Any]]) -> Plan[Tables]:
     return together({"": rows_of(curve, keys, "status", *_COLUMNS, model="fscm")})
 
 
-def _families(
-    figure: Figure,
-    table: pd.DataFrame,
-    ranges: dict[float, tuple[Range, Range]],
-    across: str,
-    along: str,
-    **fixed: float,
-) -> None:
+def _families(figure: Figure, table: pd.DataFrame, ranges: Ranges, across: str, along: str, **fixed: float) -> None:
     """Draw a panel for each value of one parameter, with a curve for each of another."""
     words = [held(**{across: value}, **fixed) for value in ranges]
     lattice = panels(figure, words, "displacement", "load", rows=len(ranges) // 2)

@@ -9,16 +9,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from comparisons.data.paper_statements import PaperStatement
 from comparisons.paper.paper_figure import Plan, cases, together
-from comparisons.paper.statements.measures import (
-    PARAMETERS,
-    Case,
-    Number,
-    case_of,
-    is_refused,
-    label,
-    measured,
-    model_of,
-)
+from comparisons.paper.statements.measures import PARAMETERS, Case, Number, case_of, label, measured, model_of, refused
 
 T = TypeVar("T")
 K = TypeVar("K")
@@ -195,8 +186,8 @@ def extrapolated(earliest: Number, second: Number, third: Number) -> Number:
 
 def alike(test: Test, family: Family, values: list[Number], limits: list[Number]) -> list[Evidence]:
     """Every case along a parameter has a quantity, or none has: a model refuses the energy where nothing jumps."""
-    having = [value for value in values if not is_refused(value)]
-    lacking = [dict(case)[test["along"]] for case, value in zip(family.cases, values, strict=True) if is_refused(value)]
+    having = [value for value in values if not refused(value)]
+    lacking = [dict(case)[test["along"]] for case, value in zip(family.cases, values, strict=True) if refused(value)]
     failed = [value for value in values if math.isnan(value.u)]
     if failed or (lacking and having):
         limit = Number(0.0, 0.0, f"no jump at k = {', '.join(f'{k:g}' for k in lacking)}")

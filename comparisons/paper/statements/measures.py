@@ -14,7 +14,7 @@ from comparisons.paper.paper_figure import Plan, result_of, together
 from comparisons.paper.tasks import JUMPS, jumps, quantity
 from comparisons.quantities import title_of
 
-__all__ = ["MEASURES", "PARAMETERS", "Number", "Place", "call", "case_of", "is_refused", "label", "measure", "measured"]
+__all__ = ["MEASURES", "PARAMETERS", "Number", "Place", "call", "case_of", "label", "measure", "measured", "refused"]
 
 #: Parameters of a case; s is the distance from s = 1 of a ratio of radii.
 PARAMETERS = ("n", "k", "mu", "s")
@@ -227,7 +227,7 @@ def signed(value: Number, exact: Number) -> tuple[float, float]:
     return kappa, (value.u + (1.0 + abs(kappa)) * exact.u) / (abs(exact.value) - exact.u)
 
 
-def is_refused(number: Number) -> bool:
+def refused(number: Number) -> bool:
     """Whether a model has no such quantity in the case."""
     return bool(np.isnan(number.value) and number.u == 0.0)
 

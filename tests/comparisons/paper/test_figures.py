@@ -1,11 +1,14 @@
 """Figures of the paper: the data beside each picture against closed forms, limits, identities and the models."""
 
+import math
+
 import numpy as np
+import pandas as pd
 import pytest
 
 from comparisons.model import NotApplicable
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
-from comparisons.paper.figures import force_curves, pull_off_forces
+from comparisons.paper.figures import force_curves, pull_off_forces, studies
 from comparisons.paper.figures.force_curves import fig03_s_curve, loop
 from comparisons.paper.figures.surfaces import fig17_surface_models
 from comparisons.paper.tasks import jumps, profile, quantity, surface
@@ -112,3 +115,20 @@ def test_surfaces_touch_inside_a_and_part_by_the_work_of_adhesion_at_c(made_of):
         a, c = radii.loc[model]
         assert (surface_rows["height"] == surface_rows["punch"])[surface_rows["radius"] < a].all()
         assert stress * np.interp(c, surface_rows["radius"], surface_rows["gap"]) == pytest.approx(1.0, abs=1e-6)
+
+
+def test_geometry_and_strain_cancel_where_their_parts_are_equal():
+    """kappa = 2 x^2 - 0.1 x of the root x vanishes at 0.05; the bound 1e-3 x moves it by 5e-4."""
+    x = np.linspace(0.01, 0.2, 8)
+    line = pd.DataFrame({"elasto_adhesion_number": x**3, "kappa": 2 * x**2 - 0.1 * x, "u_kappa": 1e-3 * x})
+    with_error = line.assign(nu=0.3, kappa=line["kappa"] + 0.2 * x)
+    table = pd.concat([line.assign(nu=0.5), with_error]).assign(model="fscm", mu=1.0)
+    never, once = studies.meeting_points(table).itertuples()
+    roots = np.cbrt([once.elasto_adhesion_number, once.lowest, once.highest])
+    assert roots == pytest.approx([0.05, 0.0495, 0.0505])
+    assert math.isnan(never.elasto_adhesion_number)
+
+
+def test_jkr_finds_the_values_of_soft_spheres(monkeypatch):
+    monkeypatch.setattr(studies, "_POINTS", 100)
+    assert list(studies.fitted_by_jkr(0.0, 1.0, 10.0).values()) == pytest.approx([1.00632, 0.99938], abs=1e-4)
