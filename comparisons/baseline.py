@@ -44,18 +44,21 @@ from comparisons.runs.rows import CASE
 BASELINE = BASELINE_FOLDER
 
 _KEY = ["model", "quantity", *CASE]
-# Without the columns that depend on the machine or on the work done (seconds, iterations, residual).
-_TABLES = {
-    "quick.csv": (f"{RESULTS}.csv", [*_KEY, "value", "u_num", "status", "reason"]),
-    "curves.csv": (f"{CURVES}.csv", [*_KEY, "point", "x", "y", "u_distance", "status", "reason"]),
-}
-#: Files that are copied, by tier: the committed name, and the name in the folder of the run.
-_COPIES = {
+#: By tier, the committed name of each file and its name in the folder of the run.
+_FILES = {
     "quick": {
-        name: name
-        for name in (f"{LARGEST_KAPPA}.csv", f"{KAPPA_FIGURE}.png", f"{KAPPA_FIGURE}.pdf", f"{REFERENCES}.png")
+        "quick.csv": f"{RESULTS}.csv",
+        "curves.csv": f"{CURVES}.csv",
+        **{name: name for name in (f"{LARGEST_KAPPA}.csv", f"{KAPPA_FIGURE}.png", f"{KAPPA_FIGURE}.pdf")},
+        f"{REFERENCES}.png": f"{REFERENCES}.png",
     },
     "full": {f"references_agreement.{suffix}": f"{AGREEMENT}.{suffix}" for suffix in ("csv", "png")},
+}
+#: The columns of tables that are not copied: without those that depend on the machine or on the work done (seconds,
+#: iterations, residual).
+_COLUMNS = {
+    "quick.csv": [*_KEY, "value", "u_num", "status", "reason"],
+    "curves.csv": [*_KEY, "point", "x", "y", "u_distance", "status", "reason"],
 }
 
 #: A bound that is so many times the stored one, or so small a part of it, has drifted.  On one machine bounds repeat
@@ -82,13 +85,13 @@ def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
                 f"{folder} is of a run with --{option} {arguments[option]}: the baseline needs a run without it"
             )
     contents = {}
-    for name, (source, columns) in _TABLES.items() if arguments["tier"] == "quick" else ():
-        table = read_table(folder / source)
-        contents[name] = csv_text(table[[column for column in columns if column in table]]).encode()
-    for name, source in _COPIES[arguments["tier"]].items():
+    for name, source in _FILES[arguments["tier"]].items():
         if not (folder / source).exists():
             raise ValueError(f"{folder} lacks {source}: renew the baseline from the folder of a finished run")
         contents[name] = (folder / source).read_bytes()
+        if name in _COLUMNS:
+            table = read_table(folder / source)
+            contents[name] = csv_text(table[[column for column in _COLUMNS[name] if column in table]]).encode()
     target.mkdir(parents=True, exist_ok=True)
     for name, content in contents.items():
         write_file(target / name, content)
@@ -118,7 +121,7 @@ def read_baseline(target: Path | None = None) -> tuple[pd.DataFrame, pd.DataFram
     ValueError
         If they are not there.
     """
-    results, curves = (read_table(target / name if target else committed(name)) for name in _TABLES)
+    results, curves = (read_table(target / name if target else committed(name)) for name in _COLUMNS)
     return results, curves
 
 
@@ -206,13 +209,8 @@ def _task(arguments: Sequence[str]) -> int:
         different = paper_baseline.check(args.folder) if of_paper else check(args.folder)
         print(f"{args.folder} agrees with the baseline" if different.empty else csv_text(different))
         return 0 if different.empty else 1
-    if of_bench:
-        renewed = f"{len(bench.renew(args.folder))} files of {bench.BENCH_BASELINE}"
-    elif of_paper:
-        renewed = f"{len(paper_baseline.renew(args.folder))} files of {paper_baseline.PAPER_BASELINE}"
-    else:
-        renewed = ", ".join(map(str, renew(args.folder)))
-    print(f"{args.folder} renewed {renewed}; nothing else was changed.")
+    paths = (bench if of_bench else paper_baseline).renew(args.folder) if of_bench or of_paper else renew(args.folder)
+    print(f"{args.folder} renewed {len(paths)} files of {paths[0].parent}; nothing else was changed.")
     return 0
 
 

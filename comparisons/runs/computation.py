@@ -15,7 +15,7 @@ from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.reevaluation import drop_changed
 from comparisons.runs.rows import Row
 from comparisons.runs.store import rows_in
-from comparisons.runs.tasks import Task, batches, evaluate_task, lost_row
+from comparisons.runs.tasks import Task, batches, evaluate_task, failed_row
 from comparisons.runs.workers import each
 
 
@@ -123,7 +123,7 @@ def compute(tasks: list[Task], jobs: int) -> Generator[Row]:
         _evaluate_batch,
         batches(tasks),
         jobs,
-        lost=lambda batch: [lost_row(task) for task in batch],
+        lost=lambda batch: [failed_row(task) for task in batch],
         split=lambda batch: [[task] for task in batch],
     )
     with closing(finished) as batches_done:

@@ -166,47 +166,42 @@ def _row(model: Model | ExternalIdentity, quantity: str, problem: Problem, start
 def evaluate_task(task: Task) -> Row:
     """Return the row of a task, whatever happens: a problem that its model refuses as inadmissible is a failed row.
 
+    An external model is not even started outside the domain that it declares, and has failed if it is not what it was
+    at the start of the run.
+
     Examples
     --------
     >>> evaluate_task(Task("bradley", "pull_off_force", Problem.dimensionless(2, 0, 1))).value
     2.0
     """
     started = time.perf_counter()
-    model = task.external or create(task.model, task.problem.nu)
+    identity, problem = task.external, task.problem
     try:
-        if isinstance(model, ExternalIdentity):
-            return _evaluate_external(model, task)
-        return evaluate(model, task.quantity, task.problem)
+        if identity is None:
+            return evaluate(task.model, task.quantity, problem)
+        domain = identity.applies_to
+        if domain is not None and problem.is_of_the_paper() and not domain.contains(task.quantity, problem.numbers):
+            reason = domain.refusal(task.quantity)
+            return _row(identity, task.quantity, problem, started, status="not-applicable", reason=reason)
+        model = create(identity.spec, problem.nu)
+        if (model.name, model.version) != (identity.name, identity.version):
+            raise ValueError(contradiction((identity.name, identity.version), (model.name, model.version)))
+        return evaluate(model, task.quantity, problem)
     except ValueError as refusal:
-        return _row(model, task.quantity, task.problem, started, status="failed", reason=str(refusal))
+        return failed_row(task, str(refusal), started)
 
 
-def lost_row(task: Task) -> Row:
-    """Return the row of a task that has ended its process twice.
+def failed_row(task: Task, reason: str = LOST, started: float | None = None) -> Row:
+    """Return the row of a task that has failed since it was started; by default, one that has ended its process twice.
 
     Examples
     --------
-    >>> lost_row(Task("jkr", "pull_off_force", Problem.dimensionless(2, 0, 1))).status
+    >>> failed_row(Task("jkr", "pull_off_force", Problem.dimensionless(2, 0, 1))).status
     'failed'
     """
     model = task.external or create(task.model, task.problem.nu)
-    return _row(model, task.quantity, task.problem, time.perf_counter(), status="failed", reason=LOST)
-
-
-def _evaluate_external(identity: ExternalIdentity, task: Task) -> Row:
-    """Evaluate an external model; `ValueError` if it is not what it was at the start of the run.
-
-    Outside the domain that it declares it is not even started.
-    """
-    started = time.perf_counter()
-    domain, problem = identity.applies_to, task.problem
-    if domain is not None and problem.is_of_the_paper() and not domain.contains(task.quantity, problem.numbers):
-        reason = domain.refusal(task.quantity)
-        return _row(identity, task.quantity, problem, started, status="not-applicable", reason=reason)
-    model = create(identity.spec, problem.nu)
-    if (model.name, model.version) != (identity.name, identity.version):
-        raise ValueError(contradiction((identity.name, identity.version), (model.name, model.version)))
-    return evaluate(model, task.quantity, problem)
+    started = time.perf_counter() if started is None else started
+    return _row(model, task.quantity, task.problem, started, status="failed", reason=reason)
 
 
 def batches(tasks: Iterable[Task]) -> list[list[Task]]:

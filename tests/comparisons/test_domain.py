@@ -13,7 +13,7 @@ from comparisons.judging.summary import summarise
 from comparisons.pipeline.inputs import load_cases, read_gates
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
-from comparisons.registry import MODELS, create
+from comparisons.registry import MODELS, ExternalIdentity, create
 from comparisons.runs.cases import load_grids
 from comparisons.runs.frames import frame
 from comparisons.runs.tasks import Task, evaluate, evaluate_task
@@ -86,6 +86,16 @@ def test_a_model_is_not_evaluated_outside_its_domain(toys, monkeypatch):
     assert row.reason == "outside the domain that the model declares: pull_off_force for n = 2"
     row = evaluate_task(Task("ten-percent", "jump_in_gap", Problem.dimensionless(2, 0, 1)))
     assert row.reason == "outside the domain that the model declares: it has no jump_in_gap"
+
+
+def test_an_external_model_is_not_started_outside_its_domain_and_has_failed_if_it_has_changed():
+    unknown = ExternalIdentity(
+        "other", "1", "other.py:Other", "none", "all", applies_to=Domain.of({**FORCE, "n": [1, 1]})
+    )
+    changed = ExternalIdentity("jkr", "another", "jkr", "none", "all")
+    for identity, status in ((unknown, "not-applicable"), (changed, "failed")):
+        row = evaluate_task(Task(identity.name, "pull_off_force", Problem.dimensionless(2, 0, 1), identity))
+        assert (row.status, row.value, row.model_version) == (status, None, identity.version)
 
 
 def test_not_applicable_is_a_failure_inside_the_declared_domain_and_outside_it_nothing_counts():

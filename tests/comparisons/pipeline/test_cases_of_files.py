@@ -2,7 +2,6 @@
 
 import json
 import math
-import re
 
 import pandas as pd
 import pytest
@@ -62,26 +61,6 @@ def test_a_gate_selects_the_problems_by_their_keys_and_can_fail(run, tmp_path):
         assert len(verdicts(tmp_path)) == count
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        ('problem = "pad.toml"', 'problem = "../pad.toml"', ["../pad.toml"]),
-        ('problem = "pad.toml"', 'problem = "no.toml"', ["no.toml"]),
-        ('problem = "pad.toml"', 'problem = "pad.toml"\nn = [2]', ["problem", "n"]),
-        ('"solid.E"', '"solid.R"', ["solid", "R"]),
-        ('"1 MPa", ', '"1 nm", ', ["1 nm"]),
-        ('"1 MPa", ', '"2 MPa", ', ["solid.E", "twice"]),
-    ],
-)
-def test_wrong_grids_are_refused_in_one_sentence(run, tmp_path, capsys, old, new, words):
-    (tmp_path / "cases.toml").write_text(CASES.replace(old, new))
-    assert run() == 2
-    message = capsys.readouterr().err
-    assert message.count("\n") == 1
-    assert all(word in message for word in words)
-    assert not (tmp_path / "out").exists()
-
-
 def test_stored_results_count_only_for_the_content_of_the_file_and_the_folder_has_what_its_pages_need(run, tmp_path):
     assert run() == 0
     (tmp_path / "pad.toml").write_text(PAD.replace("1 um", "2 um"))
@@ -100,20 +79,6 @@ def test_stored_results_count_only_for_the_content_of_the_file_and_the_folder_ha
     assert "solid.E=2 MPa" in (tmp_path / "out" / "report.html").read_text()
     copy.write_text(PAD.replace("0.4}", "0.3}"))
     assert main(["judge", str(tmp_path / "out")]) == 2
-
-
-def test_a_comparison_has_the_problems(run, tmp_path, capsys):
-    command = ["compare", "jkr", "--grid", str(tmp_path / "cases.toml"), "--jobs", "1"]
-    assert main([*command, "--out", str(tmp_path / "compared")]) == 0
-    assert re.search(r"solid.E=1 MPa +314\.159\d*\(\d+\) nN", capsys.readouterr().out)
-    table = pd.read_csv(tmp_path / "compared" / "comparison.csv")
-    assert table["kappa"].to_numpy() == pytest.approx(-0.25, abs=1e-9)
-    assert table["problem"].isna().sum() == 1
-    # The keys beside their problem, the unit beside the value.
-    names = (
-        "quantity model n k mu nu problem solid.E value u_num unit reference reference_value u_reference kappa u_kappa"
-    )
-    assert [name.partition(" ")[0] for name in pd.read_csv(tmp_path / "compared" / "kappa.csv")] == names.split()
 
 
 def test_a_model_that_knows_the_problems_by_heart_is_wrong_in_fresh_ones(run, tmp_path):

@@ -125,12 +125,17 @@ def test_the_keys_of_a_problem_file_make_cases(tmp_path, capsys):
     vary = ["--problem", str(tmp_path / "pad.toml"), "--vary", "law.work_of_adhesion=1, 2 J/m^2"]
     out = ["--out", str(tmp_path / "out"), "--jobs", "1"]
     assert main(["compare", "dmt", *vary, "--reference", "bradley", *out]) == 0
+    assert re.search(r" 6\.28318\d*\(\d+\) µN", capsys.readouterr().out)
     table = read_table(tmp_path / "out" / "comparison.csv")
     assert table["problem"].str.extract(r"work_of_adhesion=(\d)")[0].tolist() == ["1", "2"]
     # The force is that of the punch alone, in newtons.
     assert table["value"][1] == pytest.approx(2.0 * table["value"][0])
     assert table["kappa"].tolist() == pytest.approx([0.0, 0.0], abs=1e-9)
     assert set(table["reference"]) == {"bradley"}
+    # The keys beside their problem, the unit beside the value.
+    names = "quantity model n k mu nu problem law.work_of_adhesion value u_num unit reference reference_value"
+    written = [name.partition(" ")[0] for name in read_table(tmp_path / "out" / "kappa.csv")]
+    assert written == [*names.split(), "u_reference", "kappa", "u_kappa"]
 
 
 CASE = ["--n", "2", "--k", "0", "--mu", "1"]

@@ -28,7 +28,7 @@ def test_a_sweep_has_the_record_of_a_run_and_no_verdicts_also_after_a_run(small_
     assert set(VERDICT_FILES) <= names(out)
     assert main(["sweep", str(tmp_path / "mine.toml"), "--jobs", "1", "--out", str(out)]) == 0
     record = read_record(out / "run.json")
-    assert (record["command_name"], record["verdicts"]) == ("sweep", {})
+    assert (record["command_name"], record["verdicts"], record["domains"]) == ("sweep", {}, {})
     assert record["arguments"]["tier"] is None
     assert record["arguments"]["grid"] == str(tmp_path / "mine.toml")
     assert (out / "grid.toml").read_text() == GRID

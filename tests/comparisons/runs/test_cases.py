@@ -6,7 +6,7 @@ import pytest
 
 from comparisons.problem import Problem
 from comparisons.runs.cases import grids, load_grids
-from tests.comparisons.grid_text import grid_text
+from tests.comparisons.grid_text import PAD, grid_text
 
 #: What a grid has besides its cases.
 REST = grid_text(["bradley"], "jkr", id="a", tier="quick")
@@ -45,6 +45,21 @@ def test_a_list_of_cases_is_taken_as_it_is():
 def test_wrong_grids_are_refused_with_the_key_and_the_value(text, named):
     with pytest.raises(ValueError, match=re.escape(named)):
         load_grids(text)
+
+
+@pytest.mark.parametrize(
+    ("cases", "named"),
+    [
+        ('problem = "../pad.toml"', "'../pad.toml' leads out of the folder"),
+        ('problem = "pad.toml"\nn = [2]', "it has problem and n together"),
+        ('problem = "pad.toml"\nvary = {"solid.E" = ["1 nm"]}', "solid.E=1 nm"),
+        ('problem = "pad.toml"\nvary = {"solid.E" = ["1 MPa", "1 MPa"]}', "one value twice"),
+    ],
+)
+def test_wrong_grids_of_problem_files_are_refused(tmp_path, cases, named):
+    (tmp_path / "pad.toml").write_text(PAD)
+    with pytest.raises(ValueError, match=f"grid a: .*{re.escape(named)}"):
+        load_grids(REST + cases, folder=tmp_path)
 
 
 def test_the_grids_of_a_sweep_have_no_tier():
