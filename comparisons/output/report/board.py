@@ -2,30 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import pandas as pd
 
 from comparisons.judging.report_card import overall
-from comparisons.output.errors import error_summary
+from comparisons.output.errors import worst_rows
 from comparisons.output.report.leaderboard import Entry, standing
 from comparisons.output.report.page import Block, Page, errors_and_plot
-from comparisons.output.table import Table, column, columns, laid_out
+from comparisons.output.table import LAYOUT, Table, column, columns, laid_out
 from comparisons.quantities import ALL_QUANTITIES
-
-#: Regions of the cases, by the headings of their columns.
-_REGIONS: dict[str, Callable[[pd.DataFrame], pd.Series]] = {
-    "μ ≤ 0.1": lambda kappa: kappa["mu"] <= 0.1,
-    "0.1 < μ < 2": lambda kappa: kappa["mu"].between(0.1, 2.0, inclusive="neither"),
-    "μ ≥ 2": lambda kappa: kappa["mu"] >= 2.0,
-    "k = 0": lambda kappa: kappa["k"] == 0.0,
-    "k > 0": lambda kappa: kappa["k"] > 0.0,
-    "n < 2": lambda kappa: kappa["n"] < 2.0,
-    "n = 2": lambda kappa: kappa["n"] == 2.0,
-    "n > 2": lambda kappa: kappa["n"] > 2.0,
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,11 +137,11 @@ def _regions(kappa: pd.DataFrame, newest: pd.DataFrame) -> Table:
     """Return the largest error of each model and quantity in each region, in the order of the newest versions."""
     keys = ["model", "quantity"]
     table = newest.loc[newest["cases"] > 0, keys]
-    for heading, inside in _REGIONS.items():
-        summary = error_summary(kappa[inside(kappa)].assign(status="ok"))
-        names = {"largest": f"kappa {heading}", "u_largest": f"u {heading}"}
-        table = table.merge(summary[[*keys, *names]].rename(columns=names), on=keys, how="left")
-    layout = [column(name, f"kappa {name}", "short percent", f"u {name}") for name in _REGIONS]
+    for heading, condition in LAYOUT["regions"].items():
+        worst = worst_rows(kappa.query(condition), keys)[[*keys, "kappa", "u_kappa"]]
+        names = {"kappa": f"kappa {heading}", "u_kappa": f"u {heading}"}
+        table = table.merge(worst.rename(columns=names), on=keys, how="left")
+    layout = [column(name, f"kappa {name}", "short percent", f"u {name}") for name in LAYOUT["regions"]]
     return Table("regions", "Largest |κ| in percent with its sign, by region", [*columns(*keys), *layout], table)
 
 
