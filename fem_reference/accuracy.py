@@ -34,6 +34,7 @@ class Level:
 #: the bound contain it, at a tenth of the cost.
 SEARCH_DEGREE = 4
 
+#: Degree, density and tolerance of the elements by relative error.
 _LEVELS = {
     1e-6: Level(6, 1.05, 1e-6),
     1e-7: Level(8, 1.25, 1e-7),

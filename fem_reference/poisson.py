@@ -14,6 +14,7 @@ from fem_reference.modulus import Interface
 
 __all__ = ["CoatingPoisson", "CustomPoisson", "PoissonRatio", "check_poisson", "poisson_at"]
 
+#: What a refused ratio is told.
 REMEDY = "displacement elements cannot keep the volume; take nu = 0.499 or less"
 
 #: Depths, relative to a length of the solid, between which a ratio is examined, and how many of them.

@@ -407,11 +407,11 @@ class CustomSolid:
     def modulus(self) -> CustomModulus:
         """E(z)."""
         exponents = self.surface_exponent, self.depth_exponent
-        return CustomModulus(self.E, *exponents, self.length, tuple(self.interfaces))  # type: ignore[arg-type]
+        return CustomModulus(self.E, *exponents, self.length, tuple(self.interfaces))  # type: ignore[arg-type]  # checked
 
     @property
     def poisson(self) -> float | CustomPoisson:
         """The one ratio, or that of depth."""
         if callable(self.nu):
-            return CustomPoisson(self.nu, tuple(self.interfaces))  # type: ignore[arg-type]
+            return CustomPoisson(self.nu, tuple(self.interfaces))  # type: ignore[arg-type]  # checked
         return self.nu

@@ -36,37 +36,37 @@ __all__ = [
     "resolving",
 ]
 
-# A pair of panels is merged when the merged panel would still be this much below the tolerance.
+#: A pair of panels is merged when the merged panel would still be this much below the tolerance.
 _MERGE_MARGIN = 0.02
-# Merged panels reach at most this many times as far from the axis as they start.
+#: Merged panels reach at most this many times as far from the axis as they start.
 _LARGEST_RATIO = 8.0
-# Share of a jump of the pressure between two panels that counts as a last coefficient.  On a resolved mesh a jump is
-# about ten coefficients, and this is a fifth of one; it is large where no node of a panel samples a feature on it.
-# (Gaps of 25 to 6e4 z0 were once on one panel, n = 2, k = 0, mu = 1e5: the pull-off force was wrong by 2e-3.)
+#: Share of a jump of the pressure between two panels that counts as a last coefficient.  On a resolved mesh a jump is
+#: about ten coefficients, and this is a fifth of one; it is large where no node of a panel samples a feature on it.
+#: (Gaps of 25 to 6e4 z0 were once on one panel, n = 2, k = 0, mu = 1e5: the pull-off force was wrong by 2e-3.)
 _JUMP = 0.02
-# Ends of the first panels of all meshes, in units of the radius at s = 1; farther out they grow by factors of four.
+#: Ends of the first panels of all meshes, in units of the radius at s = 1; farther out they grow by factors of four.
 _FIRST_ENDS = np.array([0.0, 0.5, 1.0, 2.0])
-# On a steep punch the gap rises by at most this factor over a panel of the first mesh.
+#: On a steep punch the gap rises by at most this factor over a panel of the first mesh.
 _RISE = 64.0
-# Above this number of panels, as at a very narrow edge, merging saves more than reusing the stored response does.
+#: Above this number of panels, as at a very narrow edge, merging saves more than reusing the stored response does.
 _MANY = 40
-# On a graded mesh neighbours differ by at most this factor in length: the pressure on a longer panel is no polynomial
-# next to a narrow edge, which its last coefficients do not show.  Without it, bounds at accuracy 1e-6 were up to 0.3
-# of the pull-off force (n = 2.1, k = 0.85, mu = 19).
+#: On a graded mesh neighbours differ by at most this factor in length: the pressure on a longer panel is no polynomial
+#: next to a narrow edge, which its last coefficients do not show.  Without it, bounds at accuracy 1e-6 were up to 0.3
+#: of the pull-off force (n = 2.1, k = 0.85, mu = 19).
 _GRADING = 8.0
-# A mesh is rebuilt to merge panels only if at least this share of its breaks is superfluous.
+#: A mesh is rebuilt to merge panels only if at least this share of its breaks is superfluous.
 _WORTH_MERGING = 0.2
-# Newton error relative to the error of the mesh.
+#: Newton error relative to the error of the mesh.
 _NEWTON_MARGIN = 0.01
 _MAX_ROUNDS = 60
-# Rounds of splitting for known gaps between two solves; for the gaps of a guess.
+#: Rounds of splitting for known gaps between two solves; for the gaps of a guess.
 _KNOWN_ROUNDS, _GUESS_ROUNDS = 6, 2
-# A break belongs to a kink that is closer than this share of its panels; a panel is wider than _SLIVER.
+#: A break belongs to a kink that is closer than this share of its panels; a panel is wider than _SLIVER.
 _NEAR_KINK, _SLIVER = 0.3, 1e-7
-# Largest distance of a kink to its break, in units of the root of the tolerance: its effect is of second order.
+#: Largest distance of a kink to its break, in units of the root of the tolerance: its effect is of second order.
 _OFF_KINK = 0.1
-# r^n at the tip of a punch is not smooth: coefficients of the innermost panel fall algebraically, so that the
-# omitted ones together exceed the last.  Measured on n = 1.5, k = 0.6, mu = 3: by up to 10.
+#: r^n at the tip of a punch is not smooth: coefficients of the innermost panel fall algebraically, so that the
+#: omitted ones together exceed the last.  Measured on n = 1.5, k = 0.6, mu = 3: by up to 10.
 _ALGEBRAIC = 30.0
 
 

@@ -10,12 +10,12 @@ from fscm.problem import Problem
 
 __all__ = ["ArcLength", "Point", "parameter_control", "parameter_of", "rate_of", "rates_of"]
 
-# Share of a large displacement or compressive load that is its unit.
+#: Share of a large displacement or compressive load that is its unit.
 _SHARE = 0.1
-# The unit of the load is at least this share of the load: near n = 2/3 the tail alone carries loads of 1e3 and more,
-# relative to which steps in the unit of the contact are negligible.
+#: The unit of the load is at least this share of the load: near n = 2/3 the tail alone carries loads of 1e3 and more,
+#: relative to which steps in the unit of the contact are negligible.
 _SHARE_OF_LOAD = 0.05
-# Attribute of each continuation parameter in a state (but log c) and in its rates.
+#: Attribute of each continuation parameter in a state (but log c) and in its rates.
 _NAMES = {"gap": "central_gap", "log_scale": "log_scale", "displacement": "displacement", "load": "load"}
 
 

@@ -38,7 +38,7 @@ from fscm._typing import Array
 
 __all__ = ["AzimuthalKernel", "azimuthal_kernel"]
 
-# Terms of the expansion in x^2 < 0.03, far from the ring; the last is below 1e-20 for every m in use.
+#: Terms of the expansion in x^2 < 0.03, far from the ring; the last is below 1e-20 for every m in use.
 _FAR_TERMS = 14
 
 

@@ -27,23 +27,24 @@ from fscm.solution import Parts
 
 __all__ = ["EventErrors", "bounds", "root_shift"]
 
-# Share of the error that the finer mesh may not see: measured at most 0.02 over 60 problems (n = 0.8 to 10, k = 0 to
-# 0.9, mu = 0.005 to 20), against meshes of order 18.
+#: Share of the error that the finer mesh may not see: measured at most 0.02 over 60 problems (n = 0.8 to 10, k = 0 to
+#: 0.9, mu = 0.005 to 20), against meshes of order 18.
 _LEFT = 0.5
-# The error of the tail is computed to first order: its square remains.
+#: The error of the tail is computed to first order: its square remains.
 _SECOND_ORDER = 1.1
-# Steps of the continuation parameter, relative to its unit: for the rate of an error, and for the curvature at an
-# extreme, which varies fast near a critical Tabor number.  A step of 1e-2 gave a rate that was 7 times too small at
-# contact initiation (n = 3.75, k = 0.82, mu = 1.9); 1e-3 and 1e-4 agree.
+#: Steps of the continuation parameter, relative to its unit: for the rate of an error, and for the curvature at an
+#: extreme, which varies fast near a critical Tabor number.  A step of 1e-2 gave a rate that was 7 times too small at
+#: contact initiation (n = 3.75, k = 0.82, mu = 1.9); 1e-3 and 1e-4 agree.
 _ERROR_STEP, _CURVATURE_STEP = 1e-3, 1e-4
-# Rate of the error of the response per unit of the continuation parameter, in units of the bound of that error.  The
-# error at the scale c is c int eps(xi) K(xi c) d(xi), and its derivative by log c the same integral of -xi eps'(xi):
-# measured worst 7.7 and 11.3 times the bound of eps on two processors, over a quarter of a decade, on a smooth coating
-# (test_graded_kernel.py).
-# The pressure and the adjoint, which weigh it, change by about their sizes each.
+#: Rate of the error of the response per unit of the continuation parameter, in units of the bound of that error.  The
+#: error at the scale c is c int eps(xi) K(xi c) d(xi), and its derivative by log c the same integral of -xi eps'(xi):
+#: measured worst 7.7 and 11.3 times the bound of eps on two processors, over a quarter of a decade, on a smooth coating
+#: (test_graded_kernel.py).
+#: The pressure and the adjoint, which weigh it, change by about their sizes each.
 _KERNEL_RATE = 14.0
-# Error that the finer mesh leaves of the difference of two states on one panel, in units of that of one of them times
-# the relative change of the pressure: a value of a power law of the gap, and its derivatives, change by a few times it.
+#: Error that the finer mesh leaves of the difference of two states on one panel, in units of that of one of them times
+#: the relative change of the pressure: a value of a power law of the gap, and its derivatives, change by a few times
+#: it.
 _CHANGE = 10.0
 _FUNCTIONALS = ("load", "displacement", "central_gap")
 

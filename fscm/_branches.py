@@ -21,9 +21,9 @@ __all__ = ["LARGEST_DEVIATION", "checked_orientation", "edge_elsewhere", "follow
 
 #: Largest deviation from the trapezoidal rule, relative to the distance of a gap to the singular gap.
 LARGEST_DEVIATION = 0.5
-# The gaps within this multiple of the edge radius determine the orientation of the path.
+#: The gaps within this multiple of the edge radius determine the orientation of the path.
 _NEAR_EDGE = 2.0
-# Times that the panels of a new mesh are split at the edge: it may be 1e-22 of the contact radius.
+#: Times that the panels of a new mesh are split at the edge: it may be 1e-22 of the contact radius.
 _HAND_OVER_ROUNDS = 80
 
 

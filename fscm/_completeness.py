@@ -26,23 +26,24 @@ from fscm.punch import kinks_of
 
 __all__ = ["completed", "least_loads", "may_hide"]
 
-# The bulge of the cubic is wrong by the fourth derivative of f, which the factor stands for.
+#: The bulge of the cubic is wrong by the fourth derivative of f, which the factor stands for.
 _MARGIN = 2.0
-# Largest number of halvings of an interval, and the change of load or displacement that may then be missed in it,
-# relative to 1 + |f|: below the error of the meshes of the path.
+#: Largest number of halvings of an interval, and the change of load or displacement that may then be missed in it,
+#: relative to 1 + |f|: below the error of the meshes of the path.
 _HALVINGS, _NEGLIGIBLE = 12, 1e-7
-# Places between two points where the load is bounded from below.
+#: Places between two points where the load is bounded from below.
 _PLACES = 65
-# A change below this is rounding: measured up to 2e-16 relative to 1 + |f| at contact initiation (n = 2, k = 0.98,
-# mu = 1), where load and displacement stay the same to 1e-14.
+#: A change below this is rounding: measured up to 2e-16 relative to 1 + |f| at contact initiation (n = 2, k = 0.98,
+#: mu = 1), where load and displacement stay the same to 1e-14.
 _ROUNDING = 1e-14
-# Resolution of the pressure on a punch with kinks, to which a mesh has to move with the edge.
+#: Resolution of the pressure on a punch with kinks, to which a mesh has to move with the edge.
 _FINE = 1e-8
-# Newton error relative to the error of the mesh, and the smallest step towards a midpoint, in units of its distance.
+#: Newton error relative to the error of the mesh, and the smallest step towards a midpoint, in units of its distance.
 _NEWTON_MARGIN, _SMALLEST = 0.01, 1e-3
-# Last step of Newton's method where only the least load is sought; the remaining error is about its square.
+#: Last step of Newton's method where only the least load is sought; the remaining error is about its square.
 _SHARP = 1e-5
 
+#: Rates whose zeros are the turning points of a path.
 _RATES = ("load", "displacement")
 
 

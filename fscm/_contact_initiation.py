@@ -8,11 +8,12 @@ from fscm._equilibrium import Rates, State
 
 __all__ = ["gap_at_first_contact"]
 
-# Above this k contact begins at a radius many decades smaller than that of the punch, with a gap at its edge above that
-# of largest tension until it has grown: this edge is followed.  Below, contact initiation takes few points of a path.
+#: Above this k contact begins at a radius many decades smaller than that of the punch, with a gap at its edge above
+#: that of largest tension until it has grown: this edge is followed.  Below, contact initiation takes few points of a
+#: path.
 _NARROW = 0.8
-# The first contact is inside the share _SMALL of the radius at which the punch has the height _FLAT_HEIGHT; its gap is
-# below the gap there by the share _DEEP of its distance to the singular gap; log c grows at least by _GROWING.
+#: The first contact is inside the share _SMALL of the radius at which the punch has the height _FLAT_HEIGHT; its gap is
+#: below the gap there by the share _DEEP of its distance to the singular gap; log c grows at least by _GROWING.
 _FLAT_HEIGHT, _SMALL, _DEEP, _GROWING = 0.02, 0.05, 0.2, 0.3
 
 

@@ -40,39 +40,39 @@ from fscm.punch import PowerPunch, kinks_of
 
 __all__ = ["Tracking", "equilibrium_path", "moved", "usual_start"]
 
-_FIRST_STEP = 0.5
-_SMALLEST_STEP = 1e-6
-# Newton iterations after which the next step is longer or shorter.
+#: Steps of arc length: the first one, and the smallest one that is tried.
+_FIRST_STEP, _SMALLEST_STEP = 0.5, 1e-6
+#: Newton iterations after which the next step is longer or shorter.
 _EASY, _HARD = 6, 10
-# Largest number of iterations of a step of the path.
+#: Largest number of iterations of a step of the path.
 _MOST_ITERATIONS = 14
-_NEWTON_MARGIN = 0.01  # Newton error relative to the error of the mesh
+_NEWTON_MARGIN = 0.01  #: Newton error relative to the error of the mesh
 _LONGER, _SHORTER, _RETRY = 2.0, 0.7, 0.4
-# Beyond the largest tension the path of a power-law punch is smooth: steps grow with the compression, at most to this
-# multiple.  Measured: cubics through the points are as near to a path of small steps as without it (loads to 1000).
+#: Beyond the largest tension the path of a power-law punch is smooth: steps grow with the compression, at most to this
+#: multiple.  Measured: cubics through the points are as near to a path of small steps as without it (loads to 1000).
 _LONGER_IN_COMPRESSION = 8.0
-# A step over which the tangent turns by more than this cosine is repeated with a shorter length: a fold pair turns the
-# path twice and must not be stepped over.  The turn of steps below _UNCHECKED_STEP is not checked.
+#: A step over which the tangent turns by more than this cosine is repeated with a shorter length: a fold pair turns the
+#: path twice and must not be stepped over.  The turn of steps below _UNCHECKED_STEP is not checked.
 _LARGEST_TURN, _UNCHECKED_STEP = 0.85, 0.02
-# The same for any other punch than a power law: a cavity that snaps shut turns the path within 0.01 (measured).
+#: The same for any other punch than a power law: a cavity that snaps shut turns the path within 0.01 (measured).
 _UNCHECKED_STEP_OF_ASPERITIES = 0.002
-# Before contact, where the displacement makes up less than this share of the tangent, steps have this largest length:
-# the tangent hardly turns over several shallow folds.  Measured: n = 2, k = 0.6, mu = 3 has three folds within 0.015 of
-# displacement, and steps of 0.5 missed the first two.
+#: Before contact, where the displacement makes up less than this share of the tangent, steps have this largest length:
+#: the tangent hardly turns over several shallow folds.  Measured: n = 2, k = 0.6, mu = 3 has three folds within 0.015
+#: of displacement, and steps of 0.5 missed the first two.
 _FLAT_SHARE, _FLAT_STEP = 0.5, 0.2
-# At a fold of its parameter the path continues in another one, as long as that makes up this share of the tangent.
+#: At a fold of its parameter the path continues in another one, as long as that makes up this share of the tangent.
 _LEAST_SHARE = 0.3
-# If the mesh moves with kinks, the parameter is prescribed instead of the arc length above this share of the tangent.
+#: If the mesh moves with kinks, the parameter is prescribed instead of the arc length above this share of the tangent.
 _GIVEN_SHARE = 0.05
-# The edge is followed once the central gap is below the gap of largest tension by this share of its distance to the
-# singular gap: before, the edge radius is a poor variable, since it starts as a square root.
+#: The edge is followed once the central gap is below the gap of largest tension by this share of its distance to the
+#: singular gap: before, the edge radius is a poor variable, since it starts as a square root.
 _HAND_OVER = 0.05
-# The edge is followed beyond this multiple of the radius of the last kink: a fixed mesh allows steps of the width of
-# the edge only.  Measured: 800 points in place of over 1800 up to a displacement of 91 (random punch 24).
+#: The edge is followed beyond this multiple of the radius of the last kink: a fixed mesh allows steps of the width of
+#: the edge only.  Measured: 800 points in place of over 1800 up to a displacement of 91 (random punch 24).
 _BEYOND_KINKS = 1.2
-# A path whose central gap exceeds that of its first state by this much runs backwards.
+#: A path whose central gap exceeds that of its first state by this much runs backwards.
 _RETURNED = 1.0
-# Largest number of successive changes of the parameter without a step between them.
+#: Largest number of successive changes of the parameter without a step between them.
 _MOST_TURNS = 6
 
 

@@ -12,9 +12,9 @@ from fscm._events import Between
 
 __all__ = ["turning_slowly"]
 
-# Largest number of halvings of an interval: the folds of the smallest observed loops need 4.
+#: Largest number of halvings of an interval: the folds of the smallest observed loops need 4.
 _MOST_HALVINGS = 6
-# A picture of the contact ends at a compression of this share of the pull-off force, and begins at this tension.
+#: A picture of the contact ends at a compression of this share of the pull-off force, and begins at this tension.
 _SHOWN_COMPRESSION, _SHOWN_TENSION = 0.5, 0.05
 
 

@@ -26,17 +26,17 @@ from fscm._typing import Array
 
 __all__ = ["Defect", "Errors", "finer"]
 
-# The finer mesh has more nodes a panel, and its innermost panel is cut at this share of its length: at the tip the
-# pressure follows r^n, so that its error falls with the length, on all other panels with the order.
+#: The finer mesh has more nodes a panel, and its innermost panel is cut at this share of its length: at the tip the
+#: pressure follows r^n, so that its error falls with the length, on all other panels with the order.
 _MORE_NODES, _TIP = 4, 0.125
-# A panel longer than this many times its neighbour is cut at their common end into panels that grow by this factor: its
-# own nodes are too far from that end to sample the pressure there.
+#: A panel longer than this many times its neighbour is cut at their common end into panels that grow by this factor:
+#: its own nodes are too far from that end to sample the pressure there.
 _GROWTH = 16.0
-# Relative rounding of a few operations; in units of it, those of an entry of the response matrix (kernel and sums of
-# products) and of a pressure times an area.
+#: Relative rounding of a few operations; in units of it, those of an entry of the response matrix (kernel and sums of
+#: products) and of a pressure times an area.
 _ROUNDOFF = 2.0**-51
 _ENTRY, _WEIGHT = 8.0, 4.0
-# Relative step of the derivatives of the tail's energy.
+#: Relative step of the derivatives of the tail's energy.
 _STEP = 1e-5
 
 

@@ -23,13 +23,13 @@ from fscm._typing import Array
 
 __all__ = ["Pieces", "axis_row", "moments", "response_blocks", "response_matrix"]
 
-# A panel is near when it is closer than its own length.  Farther away the error of the Gauss rule of q nodes is at most
-# (3 + sqrt 8)^-2q times the strength of the singularity.
+#: A panel is near when it is closer than its own length.  Farther away the error of the Gauss rule of q nodes is at
+#: most (3 + sqrt 8)^-2q times the strength of the singularity.
 _NEAR = 1.0
-# Nodes of the rule on a piece; exact for the panel polynomial (degree q-1) times a factor that is analytic
-# to one piece length on either side, whose coefficients fall like 5.8^-m.
+#: Nodes of the rule on a piece; exact for the panel polynomial (degree q-1) times a factor that is analytic
+#: to one piece length on either side, whose coefficients fall like 5.8^-m.
 _EXTRA_NODES = 10
-# Rows that are computed at a time: larger temporary arrays are out of the cache, and their memory is requested anew.
+#: Rows that are computed at a time: larger temporary arrays are out of the cache, and their memory is requested anew.
 _NEAR_ROWS, _FAR_ROWS = 400, 2000
 
 

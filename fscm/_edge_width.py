@@ -11,9 +11,9 @@ from fscm.problem import Problem
 
 __all__ = ["check_edge", "log_edge_width"]
 
-# The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the least width, relative
-# to a contact radius, that is computed.  Measured: 26 s of CPU at 10^-16 (n = 2, k = 0.98, mu = 1) and 55 s and 3 GB at
-# 10^-21 (k = 0.985; half the memory since); the number of panels grows with the logarithm.
+#: The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the least width, relative
+#: to a contact radius, that is computed.  Measured: 26 s of CPU at 10^-16 (n = 2, k = 0.98, mu = 1) and 55 s and 3 GB
+#: at 10^-21 (k = 0.985; half the memory since); the number of panels grows with the logarithm.
 _EDGE, _NARROWEST = 1.03, -22.0
 
 

@@ -33,15 +33,15 @@ __all__ = ["STEEP", "Control", "Discretisation", "Linearisation", "Rates", "Stat
 #: Growth of a punch above which its height is not linear in log c within a step, and so much larger than the
 #: deformation that their difference loses digits: the unknowns are then the deformations w instead of the gaps.
 STEEP = 10.0
-# Bound on the heights of a steep punch: the tension there is negligible, 1e-180 for the 9-3 law.
+#: Bound on the heights of a steep punch: the tension there is negligible, 1e-180 for the 9-3 law.
 _HIGHEST = 1e60
-# Largest row sum of the difference of two tangents for which the factors of one serve the other.
+#: Largest row sum of the difference of two tangents for which the factors of one serve the other.
 _NEAR = 0.1
-# Rounding of a few operations, and that of an entry of the response in units of it (see `_defect`).
+#: Rounding of a few operations, and that of an entry of the response in units of it (see `_defect`).
 _ROUNDOFF, _ENTRY = 2.0**-51, 8.0
-# A tangent from the factors of a neighbouring state is corrected as long as each correction is smaller than the one
-# before by _CONVERGING; it is exact to rounding when the last one is below _ROUNDED, relative to its largest component
-# (of gaps relative to 1 + |H|).
+#: A tangent from the factors of a neighbouring state is corrected as long as each correction is smaller than the one
+#: before by _CONVERGING; it is exact to rounding when the last one is below _ROUNDED, relative to its largest component
+#: (of gaps relative to 1 + |H|).
 _CONVERGING, _ROUNDED, _CORRECTIONS = 0.1, 1e-14, 12
 
 

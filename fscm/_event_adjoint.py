@@ -28,7 +28,7 @@ from fscm.punch import kinks_of
 
 __all__ = ["Adjoint", "AtExtreme", "parameter"]
 
-# Step of the continuation parameter for the rate of a change, relative to its unit; both states are exact to 1e-13.
+#: Step of the continuation parameter for the rate of a change, relative to its unit; both states are exact to 1e-13.
 _PATH_STEP = 1e-4
 
 

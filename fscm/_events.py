@@ -39,30 +39,31 @@ __all__ = [
 Condition = Callable[[State, Rates], float]
 Bracket = tuple[Point, Point]
 
-# The secant method ends with a step of the continuation parameter below this share of the tolerance of the mesh, within
-# these limits: the remaining error is the product of the last two steps.  Unless the condition is the rate at an
-# extreme, one step follows: without it the displacement at zero load was off by 1.5e-11 (n = 3.2, k = 0.06, mu = 6.6).
+#: The secant method ends with a step of the continuation parameter below this share of the tolerance of the mesh,
+#: within these limits: the remaining error is the product of the last two steps.  Unless the condition is the rate at
+#: an extreme, one step follows: without it the displacement at zero load was off by 1.5e-11 (n = 3.2, k = 0.06, mu =
+#: 6.6).
 _PARAMETER_SHARE, _LEAST_PARAMETER, _LARGEST_PARAMETER = 0.1, 1e-9, 1e-6
 _SECANT_STEPS = 20
 #: An extreme is reached when the functional differs from it by less than this share of 1 + its size; four roundings.  A
 #: small step does not suffice: under a flat end with a rounded edge the load, of curvature 2e5, was wrong by 4e-12.
 MISSED_EXTREME = 2.0**-51
-# First step of the secant method: large against rounding of the derivative, small against its curvature.
+#: First step of the secant method: large against rounding of the derivative, small against its curvature.
 _FIRST_SECANT_STEP = 1e-4
 _COARSE_PARAMETER_TOLERANCE = 1e-6
-# The mesh is refined again when the indicator at the root exceeds the tolerance by this factor, at most _REFITS times.
-# Measured: once at n = 300, k = 0, where the force was wrong by 4e-8.
+#: The mesh is refined again when the indicator at the root exceeds the tolerance by this factor, at most _REFITS times.
+#: Measured: once at n = 300, k = 0, where the force was wrong by 4e-8.
 _UNRESOLVED, _REFITS = 10.0, 4
-# Above this tolerance the indicator underestimates the error of a panel next to a much shorter one: meshes are graded.
-# So they are at any tolerance for edges narrower than _NARROW, relative to their radius (n = 2, k = 0.98, mu = 1).
+#: Above this tolerance the indicator underestimates the error of a panel next to a much shorter one: meshes are graded.
+#: So they are at any tolerance for edges narrower than _NARROW, relative to their radius (n = 2, k = 0.98, mu = 1).
 _SEEN, _NARROW = 1e-6, 1e-9
-# Tolerance of the root on the coarse mesh that is only a starting point.
+#: Tolerance of the root on the coarse mesh that is only a starting point.
 _ROUGH = 1e-2
-# An end of a bracket is the starting point if the condition is below this share of that at the other end.
+#: An end of a bracket is the starting point if the condition is below this share of that at the other end.
 _CLOSE = 0.02
-# Largest first step of the secant method that is Newton's with an estimated derivative.
+#: Largest first step of the secant method that is Newton's with an estimated derivative.
 _LARGEST_FIRST = 0.1
-# Step of the continuation parameter after which the mesh is adapted again.
+#: Step of the continuation parameter after which the mesh is adapted again.
 _FAR = 1e-3
 
 
@@ -81,7 +82,7 @@ def zero_load(state: State, rates: Rates) -> float:
     return state.load
 
 
-# The functional that is extreme where a condition vanishes.
+#: The functional that is extreme where a condition vanishes.
 _FUNCTIONALS: dict[Condition, str] = {load_fold: "load", displacement_fold: "displacement"}
 
 

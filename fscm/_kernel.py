@@ -35,21 +35,21 @@ from fscm._typing import Array
 
 __all__ = ["Kernel", "Phi", "Psi", "box_cox", "kernel_of", "ring_response"]
 
-# The near form is expanded on 0 <= y <= 1/2; its nearest singularity is y = 1, so Chebyshev coefficients
-# fall like (3 + sqrt 8)^-m and 24 of them reach 1e-18.
+#: The near form is expanded on 0 <= y <= 1/2; its nearest singularity is y = 1, so Chebyshev coefficients
+#: fall like (3 + sqrt 8)^-m and 24 of them reach 1e-18.
 _NEAR_DEGREE = 24
 _NEAR_LIMIT = 0.5
-# Terms of the Taylor series summed in extended precision at y <= 1/2: 2^-110 < 1e-33.
+#: Terms of the Taylor series summed in extended precision at y <= 1/2: 2^-110 < 1e-33.
 _SERIES_TERMS = 110
-# Below this exponent the k = 0 limit is exact in double precision even for distances of 1e-300, where the
-# relative change of the kernel is k log(1e300) < 700 k.
+#: Below this exponent the k = 0 limit is exact in double precision even for distances of 1e-300, where the
+#: relative change of the kernel is k log(1e300) < 700 k.
 _SMALLEST_K = 1e-22
-# Stand-in for k = 0: the O(k) remainder is below double precision.
+#: Stand-in for k = 0: the O(k) remainder is below double precision.
 _ZERO_K = "1e-30"
-# Digits of D where none are lost; it loses 2 log10(1/k): k - 1 rounds relative to 1, then the gamma function has its
-# pole there.
+#: Digits of D where none are lost; it loses 2 log10(1/k): k - 1 rounds relative to 1, then the gamma function has its
+#: pole there.
 _DIGITS = 40
-# Binary digits with which D and C, of the size of 1, are summed before they are rounded.
+#: Binary digits with which D and C, of the size of 1, are summed before they are rounded.
 _BITS = 128
 
 

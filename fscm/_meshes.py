@@ -12,7 +12,7 @@ __all__ = ["ACCURACIES", "Accuracy", "Mesh", "Meshes"]
 
 #: Relative errors by name.
 ACCURACIES = {"quick": 1e-6, "default": 1e-8, "fine": 1e-10}
-# Coarser meshes may miss the events of a soft solid; on finer ones rounding stops the refinement.
+#: Coarser meshes may miss the events of a soft solid; on finer ones rounding stops the refinement.
 _FINEST, _COARSEST = 1e-10, 1e-4
 
 
@@ -23,12 +23,12 @@ class Mesh(NamedTuple):
     tolerance: float
 
 
-# Meshes of the accuracy "default".
+#: Meshes of the accuracy "default".
 _PATH, _CHECK, _VALUE = Mesh(8, 3e-3), Mesh(10, 3e-7), Mesh(12, 1e-7)
 _CURVE = Mesh(10, 1e-6)
-# Meshes of events at a lower accuracy: two nodes fewer for each digit down to the order of the path, and a tolerance
-# that grows with the power _POWER.  Measured over 19 random problems at 1e-6 (order 8, tolerance 1e-4): bounds of the
-# pull-off force from 1e-13 to 3e-7 of it, in the median 6e-10.
+#: Meshes of events at a lower accuracy: two nodes fewer for each digit down to the order of the path, and a tolerance
+#: that grows with the power _POWER.  Measured over 19 random problems at 1e-6 (order 8, tolerance 1e-4): bounds of the
+#: pull-off force from 1e-13 to 3e-7 of it, in the median 6e-10.
 _FEWER, _POWER, _LARGEST_TOLERANCE = 2, 1.5, 1e-3
 
 

@@ -19,24 +19,25 @@ __all__ = ["STEP_TOLERANCE", "newton", "shifted"]
 #: Newton's method ends when a step changes no gap by more than this, relative to 1 + |H|; the next step would be at the
 #: level of rounding, since convergence is quadratic.
 STEP_TOLERANCE = 1e-9
-_MAX_ITERATIONS = 80  # with old or new factors; measured: 41 at n = 2, k = 0.98, mu = 1
-# After a step below _CHORD the factors are reused, as long as each step is smaller than the one before by _CONTRACTION;
-# such steps end when the remaining error is below this power of the tolerance (its square after a Newton step).
+_MAX_ITERATIONS = 80  #: with old or new factors; measured: 41 at n = 2, k = 0.98, mu = 1
+#: After a step below _CHORD the factors are reused, as long as each step is smaller than the one before by
+#: _CONTRACTION; such steps end when the remaining error is below this power of the tolerance (its square after a Newton
+#: step).
 _CHORD, _CONTRACTION, _REMAINDER = 0.5, 0.1, 1.8
-# In one iteration a gap may fall to this fraction of its distance to the singular gap, but not below _LOWEST times the
-# singular gap: there the 9-3 law reaches 7e5 times its strength.
+#: In one iteration a gap may fall to this fraction of its distance to the singular gap, but not below _LOWEST times the
+#: singular gap: there the 9-3 law reaches 7e5 times its strength.
 _SHRINK = 0.4
 _LOWEST = 0.25
-# Largest change of the logarithm of the scale in one iteration: a factor of two.
+#: Largest change of the logarithm of the scale in one iteration: a factor of two.
 _LARGEST_GROWTH = 0.7
-# Bound on any change of log c, against overflow of iterates that Newton's method rejects.
+#: Bound on any change of log c, against overflow of iterates that Newton's method rejects.
 _LARGEST_CHANGE = 50.0
-# Least fraction of a step.
+#: Least fraction of a step.
 _SMALLEST_DAMPING = 1e-3
-# A full step that is smaller than the one before by less than this factor, from residuals at the level of rounding, is
-# rounding: at large Tabor numbers it exceeds the tolerance (2.7e-9 at n = 2, k = 0, mu = 5e5).
+#: A full step that is smaller than the one before by less than this factor, from residuals at the level of rounding, is
+#: rounding: at large Tabor numbers it exceeds the tolerance (2.7e-9 at n = 2, k = 0, mu = 5e5).
 _STALLED = 4.0
-# Change of a gap by a step, relative to 1 + |H|, above which the iteration diverges.
+#: Change of a gap by a step, relative to 1 + |H|, above which the iteration diverges.
 _DIVERGED = 1e6
 
 

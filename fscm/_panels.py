@@ -19,9 +19,9 @@ from fscm._typing import Array
 
 __all__ = ["GaussRule", "PanelMesh", "gauss_rule"]
 
-# Binary digits with which Gauss rules are computed before they are rounded.
+#: Binary digits with which Gauss rules are computed before they are rounded.
 _BITS = 120
-# Stands for a distance of zero from a node.
+#: Stands for a distance of zero from a node.
 _ZERO = 1e-200
 
 

@@ -39,23 +39,23 @@ from fscm.punch import PowerPunch
 
 __all__ = ["LeastLoad", "PathEnd", "depth", "displacement_of_compression"]
 
-# Number of radii at which the shape is evaluated; every _EVERY-th is the radius of a flat punch.
+#: Number of radii at which the shape is evaluated; every _EVERY-th is the radius of a flat punch.
 _RADII, _EVERY = 3000, 24
-# Smallest radius, in units of the largest: features below it carry less than 1e-9 of any load.
+#: Smallest radius, in units of the largest: features below it carry less than 1e-9 of any load.
 _FIRST_RADIUS = 1e-7
-# Largest displacement, in units of the height of the punch at the largest radius: small enough for the closed tail.
+#: Largest displacement, in units of the height of the punch at the largest radius: small enough for the closed tail.
 _LARGEST = 1e-2
-# Relative decrease of r f' that counts as rounding: a slope by differences has an error of 1e-11 of f / r.
+#: Relative decrease of r f' that counts as rounding: a slope by differences has an error of 1e-11 of f / r.
 _LEVEL = 1e-6
-# Ratio of successive displacements in the search.
+#: Ratio of successive displacements in the search.
 _RATIO = 1.05
-# Iterations for the deformation by tension: they decrease, so that each is a bound.
+#: Iterations for the deformation by tension: they decrease, so that each is a bound.
 _ITERATIONS = 60
-# The modulus for a contact of radius a is that at wave numbers around 1/a, within this factor; number of points there.
+#: The modulus for a contact of radius a is that at wave numbers around 1/a, within this factor; number of points there.
 _WINDOW, _IN_WINDOW = 3.0, 25
-# Change of log D that is negligible; largest radius, in units of the deepest change, and number of radii.
+#: Change of log D that is negligible; largest radius, in units of the deepest change, and number of radii.
 _UNCHANGED, _LAYERS, _LATER = 0.02, 10.0, 200
-# Factor for the tension beyond the largest radius, where H is smaller than f.
+#: Factor for the tension beyond the largest radius, where H is smaller than f.
 _TAIL_MARGIN = 1.5
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Columns", "with_bound"]
 
-# Significant digits of a number without a bound: all of them.
+#: Significant digits of a number without a bound: all of them.
 _ALL_DIGITS = 17
 
 
@@ -39,7 +39,8 @@ class Columns:
         """Return the arrays as columns, one row a point, in the units of the problem."""
         import pandas as pd
 
-        arrays: dict[str, Any] = {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
+        names = [field.name for field in fields(self)]  # type: ignore[arg-type]  # each subclass is a dataclass
+        arrays: dict[str, Any] = {name: getattr(self, name) for name in names}
         return pd.DataFrame({name: array for name, array in arrays.items() if isinstance(array, np.ndarray)})
 
     def plot(self, axes: Axes | None = None) -> Axes:

@@ -28,20 +28,20 @@ from fscm.punch import PowerPunch
 
 __all__ = ["pull_off_path", "rigid_tension"]
 
-# Heights of the punch at which the tension is evaluated: least, largest, number.
+#: Heights of the punch at which the tension is evaluated: least, largest, number.
 _LOWEST, _HIGHEST, _HEIGHTS = 1e-4, 1e6, 500
-# Share of the tension of the rigid solid in contact above which the pull-off is expected: up to n = 2 it is at least
-# the (3 + k)/4 of JKR, for flatter punches on soft solids less.  If it is below, the whole path is followed.
+#: Share of the tension of the rigid solid in contact above which the pull-off is expected: up to n = 2 it is at least
+#: the (3 + k)/4 of JKR, for flatter punches on soft solids less.  If it is below, the whole path is followed.
 _SHARE, _SHARE_OF_FLAT = 0.6, 0.3
-# Newton's method starts from the rigid solid where the deformation is at most this multiple of the gap's distance to
-# the singular gap.  Measured over 440 states: it never fails below 1, and in 8 of 35 between 2 and 5.
+#: Newton's method starts from the rigid solid where the deformation is at most this multiple of the gap's distance to
+#: the singular gap.  Measured over 440 states: it never fails below 1, and in 8 of 35 between 2 and 5.
 _NEAR = 1.0
-# Ratio of successive central gaps in the search.
+#: Ratio of successive central gaps in the search.
 _RATIO = 1.2
-# Height at which the mesh ends: the error of the closed tail beyond, 1e-6 of the tail, does not affect a bracket.
+#: Height at which the mesh ends: the error of the closed tail beyond, 1e-6 of the tail, does not affect a bracket.
 _END = 1e3
-# A step is rejected only if the tangent turns by more than 60 degrees, because `completed` finds folds between points.
-# The last step of Newton's method is below 1e-3 of the gaps, the remaining error about its square.
+#: A step is rejected only if the tangent turns by more than 60 degrees, because `completed` finds folds between points.
+#: The last step of Newton's method is below 1e-3 of the gaps, the remaining error about its square.
 _TRACKING = Tracking(newton=1e-3, largest_turn=0.5, prescribed=True)
 
 

@@ -23,11 +23,11 @@ __all__ = ["BLOCKS_MEMORY", "ResponseBlocks", "clear", "known_blocks", "memory"]
 
 #: Largest memory of all stored blocks, in bytes; temporarily, while a table grows, one half more.
 BLOCKS_MEMORY = 96_000_000
-# Largest table, in percent of that.
+#: Largest table, in percent of that.
 _TABLE_SHARE = 50
-# Number of panels in a new table.
+#: Number of panels in a new table.
 _FIRST = 32
-# Ends with more binary digits do not come from the initial panels: their blocks are not stored.
+#: Ends with more binary digits do not come from the initial panels: their blocks are not stored.
 _DIGITS = 40
 
 Compute = Callable[[PanelMesh, NDArray[np.intp], NDArray[np.intp]], Array]

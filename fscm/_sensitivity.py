@@ -24,9 +24,9 @@ __all__ = ["SENSITIVE", "ValueSensitivity", "sensitivity"]
 #: Quantities that have a sensitivity: those that are functionals of the state at one event.
 SENSITIVE = tuple(name for name, row in TABLE.items() if isinstance(row, AtEvent))
 
-# Step of a parameter, relative to its unit, and points of the differences in steps.  The rule _MANY is of fourth order.
-# A new solid needs a new kernel, for which there are two points only: their error is 1e-7 of the third derivative, and
-# that of the fit of the kernel, 1e-10, contributes 1e-7.
+#: Step of a parameter, relative to its unit, and points of the differences in steps.  The rule _MANY is of fourth
+#: order. A new solid needs a new kernel, for which there are two points only: their error is 1e-7 of the third
+#: derivative, and that of the fit of the kernel, 1e-10, contributes 1e-7.
 _STEP, _MANY, _FEW = 1e-3, (-2.0, -1.0, 1.0, 2.0), (-1.0, 1.0)
 _MANY_ONE_SIDED, _FEW_ONE_SIDED = (1.0, 2.0, 3.0, 4.0), (1.0, 2.0)
 

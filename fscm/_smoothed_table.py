@@ -13,13 +13,13 @@ from fscm._typing import Array
 
 __all__ = ["smoothed_table"]
 
-# Points of the curve, enough for the quintic interpolation of a law to 1e-6.
+#: Points of the curve, enough for the quintic interpolation of a law to 1e-6.
 _POINTS = 200
-# Errors are relative to the traction, but at least to this share of the largest tension.
+#: Errors are relative to the traction, but at least to this share of the largest tension.
 _FLOOR = 0.1
-# Excess of the exponent of the repulsion, and exponent of the attraction: initial and largest values of the fit.
+#: Excess of the exponent of the repulsion, and exponent of the attraction: initial and largest values of the fit.
 _EXPONENTS, _LARGEST = (6.0, 3.0), (60.0, 60.0)
-# Least distance of the fit from the wall, and largest number of evaluations.
+#: Least distance of the fit from the wall, and largest number of evaluations.
 _NEAREST, _EVALUATIONS = 1e-2, 2000
 
 

@@ -27,17 +27,17 @@ from fscm.problem import Problem
 
 __all__ = ["RingLimit", "RingsForm", "check_rings", "ring_limit"]
 
-# Gaps at which the slope of the law is evaluated: distances from the gap of largest tension, in units of its distance
-# to the singular gap.
+#: Gaps at which the slope of the law is evaluated: distances from the gap of largest tension, in units of its distance
+#: to the singular gap.
 _GAPS = np.concatenate([[0.0], np.geomspace(1e-3, 1e2, 2000)])
-# Stiffness of the softest wave over that of a longer one, above which contact begins at one radius nevertheless.
-# Measured: sharp films of nu = 0.3 and 0.35 have 0.991 and 0.929 and are, and are not, traced (mu = 100).
+#: Stiffness of the softest wave over that of a longer one, above which contact begins at one radius nevertheless.
+#: Measured: sharp films of nu = 0.3 and 0.35 have 0.991 and 0.929 and are, and are not, traced (mu = 100).
 _SOFTER = 0.97
-# Rings need a wave of at most this share of the radius at which the height of the punch is the range of the unstable
-# gaps.  Measured: 0.04 and less on films that are not traced, 0.7 on one that is.
+#: Rings need a wave of at most this share of the radius at which the height of the punch is the range of the unstable
+#: gaps.  Measured: 0.04 and less on films that are not traced, 0.7 on one that is.
 _ROOM = 0.25
-# Decrease of the gap outwards, in z0, that indicates a ring.  Measured: up to 0.09, the dent of the surface beside the
-# contact, on paths that were traced to their end; 0.1 to 0.8 on those that were not.
+#: Decrease of the gap outwards, in z0, that indicates a ring.  Measured: up to 0.09, the dent of the surface beside the
+#: contact, on paths that were traced to their end; 0.1 to 0.8 on those that were not.
 _FALL = 0.2
 
 

@@ -16,16 +16,16 @@ from fscm.problem import Problem
 
 __all__ = ["Tail", "tail_energy", "tail_errors", "tail_of"]
 
-# Quadrature behind the mesh: pieces on which the radius grows by _FARTHER (less for steep punches), nodes of each.
+#: Quadrature behind the mesh: pieces on which the radius grows by _FARTHER (less for steep punches), nodes of each.
 _FARTHER, _PIECES = 4.0, 3
 _GAUSS = np.polynomial.legendre.leggauss(20)
-# A steeper punch overflows at _FARTHER times the radius; its tail is negligible.
+#: A steeper punch overflows at _FARTHER times the radius; its tail is negligible.
 _STEEPEST = 150.0
-# Rounding of a number of pieces.
+#: Rounding of a number of pieces.
 _SAME = 1e-9
-# Approximate height above which the energy takes the punch for a power of the radius; a rounded cone is one to 1e-12.
+#: Approximate height above which the energy takes the punch for a power of the radius; a rounded cone is one to 1e-12.
 _FARTHEST = 1e12
-# Height above which the tail is neglected: the tension there is below 1e-60 for m > 1.
+#: Height above which the tail is neglected: the tension there is below 1e-60 for m > 1.
 _ZERO = 1e60
 
 

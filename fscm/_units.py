@@ -15,7 +15,7 @@ from fscm.solids import PowerLaw
 
 __all__ = ["DIMENSIONLESS", "log_tabor_number", "modulus_for", "number_from_log", "units_of"]
 
-# Natural logarithm of 1e304: within the range of floating-point numbers.
+#: Natural logarithm of 1e304: within the range of floating-point numbers.
 _LOG_RANGE = 700.0
 
 _KINDS = ("displacement", "gap", "radius", "traction", "load", "energy", "stiffness", "energy_per_area", "number")

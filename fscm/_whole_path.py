@@ -25,12 +25,12 @@ __all__ = ["MAX_POINTS", "bracketing_path", "path_by_any_mesh", "path_end", "pat
 #: Largest number of points of a path.  Measured: at most 120 of a bracketing path for n >= 1, but 300 to 750 at
 #: n = 0.67.  Each takes 2 MB on such meshes.
 MAX_POINTS = 1500
-# Decimal logarithm of the width of the cohesive edge, in units of the initial radius, above which a mesh of fixed scale
-# resolves it along the path.
+#: Decimal logarithm of the width of the cohesive edge, in units of the initial radius, above which a mesh of fixed
+#: scale resolves it along the path.
 _WIDE = -1.5
-# Mesh for a path that fails on the coarser one.  Measured: 4 of 700 problems, all with k > 0.78 and mu > 2.
+#: Mesh for a path that fails on the coarser one.  Measured: 4 of 700 problems, all with k > 0.78 and mu > 2.
 _FINER = Mesh(10, 1e-4)
-# Measured: two of a hundred random punches, a ring and waves, need _CAREFUL, because two branches come close.
+#: Measured: two of a hundred random punches, a ring and waves, need _CAREFUL, because two branches come close.
 _FIXED, _CAREFUL = Tracking(follow=False), Tracking(False, 0.1 * LARGEST_DEVIATION, 0.2)
 
 

@@ -31,10 +31,10 @@ from fscm.stability import stable_sections
 
 __all__ = ["EVENTS", "EXTREMAL", "Analysis"]
 
-# Extremes of load or displacement that differ by less than this, relative to 1 + |f|, are compared on the value mesh.
+#: Extremes of load or displacement that differ by less than this, relative to 1 + |f|, are compared on the value mesh.
 _NEAR = 1e-2
-# Mesh of a second path where the usual one, which resolves 3e-3 of a load of at least 1, leads to no event.  Measured:
-# a tall asperity with a force of 2.9e-3, which is the same to 3e-13 down to a tolerance of 1e-7.
+#: Mesh of a second path where the usual one, which resolves 3e-3 of a load of at least 1, leads to no event.  Measured:
+#: a tall asperity with a force of 2.9e-3, which is the same to 3e-13 down to a tolerance of 1e-7.
 _FINER_PATH = Mesh(8, 1e-4)
 
 
@@ -382,7 +382,7 @@ class Analysis:
         return analyses
 
 
-# Bracket and condition of each event.
+#: Bracket and condition of each event.
 _EVENTS: dict[str, tuple[Callable[[Analysis], Bracket], Condition]] = {
     "pull_off": (Analysis._least_load, events.load_fold),
     "jump_in": (lambda analysis: analysis._folds[0][0], events.displacement_fold),
@@ -391,7 +391,7 @@ _EVENTS: dict[str, tuple[Callable[[Analysis], Bracket], Condition]] = {
 }
 #: The functional that is extreme at an event; None if the load is prescribed.
 EXTREMAL = {"pull_off": "load", "jump_in": "displacement", "jump_out": "displacement", "zero_load": None}
-# Index of the event among the jumps of an approach or a retreat: the first one into contact, the last one out of it.
+#: Index of the event among the jumps of an approach or a retreat: the first one into contact, the last one out of it.
 _NAMED = {"jump_in": 0, "jump_out": -1}
 
 #: Named points of the equilibrium path.

@@ -27,13 +27,13 @@ from fscm.solution import Parts, Solution
 
 __all__ = ["critical_tabor_number"]
 
-# Start of the search, its growth and its limit; critical Tabor numbers of power-law punches are near 0.7.
+#: Start of the search, its growth and its limit; critical Tabor numbers of power-law punches are near 0.7.
 _FIRST_GUESS, _WIDEN, _WIDEST = 0.75, 1.25, 30.0
-# Tolerance of log mu on the coarse mesh, which only selects the mesh.
+#: Tolerance of log mu on the coarse mesh, which only selects the mesh.
 _COARSE_ROOT_TOLERANCE = 1e-3
 _FIRST_SECANT_STEP, _SECANT_STEPS, _TOLERANCE = 1e-4, 15, 1e-9
-# Spacing of the three rates in the continuation parameter; measured: halving it moves mu by at most 4e-11
-# (n = 1, k = 0).
+#: Spacing of the three rates in the continuation parameter; measured: halving it moves mu by at most 4e-11
+#: (n = 1, k = 0).
 _SPACING = 2e-4
 _VERTEX_TOLERANCE = 1e-4
 

@@ -13,31 +13,31 @@ from fscm._validation import real_number
 
 __all__ = ["CustomPunch"]
 
-# Height at which the shape has to grow as stated: the tail beyond carries less than 1e-8 of any load integral with
-# m g - 2 >= 1.
+#: Height at which the shape has to grow as stated: the tail beyond carries less than 1e-8 of any load integral with
+#: m g - 2 >= 1.
 _FAR_HEIGHT = 1e8
-# An exponent off by 1 % changes that part by about 1 %.  The exponent of r^2 + r is off by 1e-4 there.
+#: An exponent off by 1 % changes that part by about 1 %.  The exponent of r^2 + r is off by 1e-4 there.
 _GROWTH_TOLERANCE = 1e-2
-# Largest number of doublings of the radius up to _FAR_HEIGHT: enough for r^0.17, which a 12th-power tail admits.
+#: Largest number of doublings of the radius up to _FAR_HEIGHT: enough for r^0.17, which a 12th-power tail admits.
 _DOUBLINGS = 160
-# Largest height of the tip, by rounding in f: the displacement is measured from there.
+#: Largest height of the tip, by rounding in f: the displacement is measured from there.
 _TIP_TOLERANCE = 1e-12
-# Small radii at which the function is evaluated as a check.
+#: Small radii at which the function is evaluated as a check.
 _SMALL_RADII = 2.0 ** -np.arange(40.0, 0.0, -1.0)
-# Ridders' extrapolation: steps h = _FIRST_STEP r / _RATIO^i.  At order 10 a power of r is exact to rounding
-# from r / 32 on; 19 reductions resolve features 1e-5 of r wide, beyond which rounding in f dominates
-# anyway.  Steps in the golden ratio cannot all fall on multiples of one wavelength, as dyadic ones do for
-# cos(100 r) at r = 32.
+#: Ridders' extrapolation: steps h = _FIRST_STEP r / _RATIO^i.  At order 10 a power of r is exact to rounding
+#: from r / 32 on; 19 reductions resolve features 1e-5 of r wide, beyond which rounding in f dominates
+#: anyway.  Steps in the golden ratio cannot all fall on multiples of one wavelength, as dyadic ones do for
+#: cos(100 r) at r = 32.
 _FIRST_STEP = 1.0 / 32.0
 _RATIO = (1.0 + math.sqrt(5.0)) / 2.0
 _REDUCTIONS = 19
-# Columns of the extrapolation table: order 2 * 5 = 10 balances truncation and rounding near 1e-12.
+#: Columns of the extrapolation table: order 2 * 5 = 10 balances truncation and rounding near 1e-12.
 _COLUMNS = 5
-# Radii at which a stated derivative is compared with differences; the tolerance is far above their error, and far below
-# that of a wrong formula.
+#: Radii at which a stated derivative is compared with differences; the tolerance is far above their error, and far
+#: below that of a wrong formula.
 _COMPARED_RADII = 2.0 ** np.arange(-8.0, 4.0)
 _DERIVATIVE_TOLERANCE = 1e-3
-# Stands in for r = 0, where only one side exists: there the slope is the secant over this radius.
+#: Stands in for r = 0, where only one side exists: there the slope is the secant over this radius.
 _TIP_RADIUS = 1e-7
 
 

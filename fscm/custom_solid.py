@@ -14,7 +14,7 @@ from fscm.solids import ELASTIC, POSITIVE, elastic_ratio
 
 __all__ = ["CustomSolid"]
 
-# Depths below the surface, in units of the length, at which the functions are checked.
+#: Depths below the surface, in units of the length, at which the functions are checked.
 _CHECKED = np.geomspace(1e-6, 1e6, 25)
 
 

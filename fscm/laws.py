@@ -343,7 +343,7 @@ def dimensionless_law(law: SurfaceLaw) -> SurfaceLaw:
         return law
     # A subclass may override anything: that of its base would be another law.
     if "dimensionless" in vars(type(law)):
-        scaled: SurfaceLaw = law.dimensionless  # type: ignore[attr-defined]
+        scaled: SurfaceLaw = law.dimensionless  # type: ignore[attr-defined]  # looked up above
         return scaled
     return ScaledLaw(law)
 

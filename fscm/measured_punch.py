@@ -13,7 +13,7 @@ from fscm._validation import real_number
 
 __all__ = ["MeasuredPunch"]
 
-# Segments whose slopes differ by less than this, relative to their size, make no kink.
+#: Segments whose slopes differ by less than this, relative to their size, make no kink.
 _STRAIGHT = 1e-12
 
 

@@ -31,12 +31,12 @@ __all__ = ["EquilibriumPath", "trace"]
 
 Mask: TypeAlias = NDArray[np.bool_]
 
-# Curves are drawn and integrated: shorter steps than on the path that brackets events.
+#: Curves are drawn and integrated: shorter steps than on the path that brackets events.
 _LONGEST_STEP = 0.15
-# The errors are computed at every _CHECK_EVERY-th point; the largest bounds hold for all, since meshes change little.
+#: The errors are computed at every _CHECK_EVERY-th point; the largest bounds hold for all, since meshes change little.
 _CHECK_EVERY = 12
 _MAX_POINTS = 5000
-# Degrees by which a polygon may turn at each point to look like a curve.
+#: Degrees by which a polygon may turn at each point to look like a curve.
 _LARGEST_TURN = 5.0
 
 

@@ -22,14 +22,14 @@ from fscm.solids import GradedHalfSpace, PowerLaw, ScaledSolid, Solid
 
 __all__ = ["Problem"]
 
-# m * growth has to exceed this for the load integral of p ~ r^(-m growth) times r dr to converge.
+#: m * growth has to exceed this for the load integral of p ~ r^(-m growth) times r dr to converge.
 _LOAD_INTEGRAL = 2.0
 
-# Steeper punches overflow within a few contact radii: 10^300 is near the largest double.
+#: Steeper punches overflow within a few contact radii: 10^300 is near the largest double.
 _LARGEST_N = 300.0
 
-# Range of M = 2 mu^((2n+k-1)/n).  Below, the solid is rigid to every digit of a double; above, the cohesive edge, of a
-# relative width of at most 1 / M, is as narrow as the rounding of a radius.
+#: Range of M = 2 mu^((2n+k-1)/n).  Below, the solid is rigid to every digit of a double; above, the cohesive edge, of a
+#: relative width of at most 1 / M, is as narrow as the rounding of a radius.
 _LEAST_M, _LARGEST_M = 1e-30, 1e15
 
 
@@ -281,7 +281,7 @@ class Problem:
 
         It needs Poisson's ratio: AttributeError for a problem that is not of a power law in physical units.
         """
-        nu = self.solid.power_law.nu  # type: ignore[union-attr]
+        nu = self.solid.power_law.nu  # type: ignore[union-attr]  # None: AttributeError
         return self.mu * response_factor_per_rest(self.k, nu) ** (-self.n / (2.0 * self.n + self.k - 1.0))
 
     @property

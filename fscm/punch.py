@@ -19,12 +19,12 @@ from fscm.errors import NotConverged
 
 __all__ = ["Ball", "PowerPunch", "PowerSum", "PunchShape", "RoundedCone"]
 
-# Least radius in the search for the unit of radii of a custom shape, and number of bisections: the choice of the unit
-# changes no result.
+#: Least radius in the search for the unit of radii of a custom shape, and number of bisections: the choice of the unit
+#: changes no result.
 _NEAREST, _HALVINGS = 1e-30, 20
 
 
-# Radius, in units of that of a ball, up to which its profile is the sphere.
+#: Radius, in units of that of a ball, up to which its profile is the sphere.
 _REACH = 0.95
 
 

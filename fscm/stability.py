@@ -38,10 +38,10 @@ __all__ = ["Stability", "margins", "stability_of", "stable_sections"]
 
 #: Modes cos(m theta) of a state.
 MODES = (0, 1, 2, 3, 4)
-# Largest number of unstable directions that is counted at the initial state of a path.
+#: Largest number of unstable directions that is counted at the initial state of a path.
 _MOST = 6
-# Distance of two folds, relative to 1 + abs(delta), whose order is that of rounding: the tolerance of the path.  Folds
-# that are counted wrong without such a pair are a path that may have missed some.
+#: Distance of two folds, relative to 1 + abs(delta), whose order is that of rounding: the tolerance of the path.  Folds
+#: that are counted wrong without such a pair are a path that may have missed some.
 _COIL = 1e-8
 
 

@@ -32,15 +32,15 @@ _FUNCTIONALS: dict[str, Callable[[State], float]] = {
     "load": lambda state: state.load,
 }
 _KINDS = {"central_gap": "gap", "displacement": "displacement", "load": "load"}
-# Conditions that are zero where the control is extreme along the path.
+#: Conditions that are zero where the control is extreme along the path.
 _FOLDS: dict[str, events.Condition] = {
     "central_gap": lambda state, rates: rates.central_gap,
     "displacement": events.displacement_fold,
     "load": events.load_fold,
 }
-# An extreme this close to the value, relative to 1 + |value|, is first solved on the value mesh.
+#: An extreme this close to the value, relative to 1 + |value|, is first solved on the value mesh.
 _NEAR = 1e-2
-# Step of the continuation parameter for the curvature at an extreme.
+#: Step of the continuation parameter for the curvature at an extreme.
 _SPACING = 1e-4
 
 

@@ -20,13 +20,13 @@ from fscm._validation import real_number
 
 __all__ = ["TabulatedLaw"]
 
-# A quintic spline needs six points; four more for wall, well and tail.
+#: A quintic spline needs six points; four more for wall, well and tail.
 _FEWEST_POINTS = 10
-# Repulsion between half-spaces of atoms with an r^-12 pair potential (Eq. 10).
+#: Repulsion between half-spaces of atoms with an r^-12 pair potential (Eq. 10).
 _WALL_EXPONENT = 9.0
-# Fewest points that the tail is fitted to; otherwise all of the last octave of the distance from the wall.
+#: Fewest points that the tail is fitted to; otherwise all of the last octave of the distance from the wall.
 _TAIL_POINTS = 4
-# Rounding of the curve, relative to the largest traction.
+#: Rounding of the curve, relative to the largest traction.
 _ROUNDOFF = 2.0**-52
 
 

@@ -98,7 +98,7 @@ def _written(folder: Path, part: Part, table: pd.DataFrame) -> list[str]:
     if finished.empty:
         return []
     for figure_file in figure_files:
-        save(part.draw(finished), figure_file)  # type: ignore[misc]
+        save(part.draw(finished), figure_file)  # type: ignore[misc]  # it has a file
     lines = part.summary(finished).to_string(index=False, float_format="%.3g", na_rep="")
     return [f"{part.title}:", *lines.splitlines()]
 

@@ -95,7 +95,7 @@ class PaperValue:
 
 def _of_digits(value: Decimal, stated: Decimal) -> str:
     """Return how an exact value relates to the digits stated; a tie may be rounded either way."""
-    step = Decimal(1).scaleb(stated.as_tuple().exponent)  # type: ignore[arg-type]
+    step = Decimal(1).scaleb(stated.as_tuple().exponent)  # type: ignore[arg-type]  # a finite number
     if abs(value - stated) <= step / 2:
         return "agrees"
     return TRUNCATED if stated < value < stated + step else "differs"

@@ -81,6 +81,7 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
 
 def _surface_deviation(problem: Problem, spectrum: EnergySpectrum) -> float:
     solid = problem.posed.graded
-    E, nu = (float(of_depth(np.zeros(1))[0]) for of_depth in (solid.modulus, solid.poisson))  # type: ignore[union-attr]
+    of_depth = solid.modulus, solid.poisson  # type: ignore[union-attr]  # it is not a power law
+    E, nu = (float(values(np.zeros(1))[0]) for values in of_depth)
     surface = 2.0 * (1.0 - nu**2) / E
     return float(np.sqrt(spectrum.shares @ np.log(spectrum.compliances / surface) ** 2))

@@ -195,7 +195,7 @@ def power_law_of(problem: Problem, spectrum: EnergySpectrum) -> Problem:
     the fit.
     """
     k, _, _, compliance = least_wrong(spectrum)
-    nu = float(problem.posed.graded.poisson(np.zeros(1))[0])  # type: ignore[union-attr]
+    nu = float(problem.posed.graded.poisson(np.zeros(1))[0])  # type: ignore[union-attr]  # it is not a power law
     middle = math.exp(-float(spectrum.shares @ np.log(spectrum.wave_numbers)))
     c0 = problem.solid.get("c0", middle)
     # xi C = 2 b (1 - nu^2)/E0 (xi c0/2)^k Gamma((1-k)/2)/Gamma((1+k)/2)

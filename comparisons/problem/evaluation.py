@@ -48,7 +48,7 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     if quantity in QUANTITIES and only_the_solid_differs and is_closed_form:
         return _with_equivalent_solid(problem, model, quantity)
     _check(problem, model, quantity)
-    return row.in_units(row.evaluate(model, problem), problem.units)  # type: ignore[arg-type]
+    return row.in_units(row.evaluate(model, problem), problem.units)  # type: ignore[arg-type]  # of its own kind
 
 
 def _with_equivalent_solid(problem: Problem, model: Model, quantity: str) -> Result:

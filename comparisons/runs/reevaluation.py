@@ -39,7 +39,7 @@ def drop_changed(planned: Mapping[Key, Task], store: Store[Row]) -> dict[str, An
         again = {task: evaluate_task(task) for task in sample}
         differing = [task for task, row in again.items() if not same(stored[task.key], row)]
         for task in differing[:1]:
-            dropped = store.drop(lambda row, model=model: row.model == model)  # type: ignore[misc]
+            dropped = store.drop(lambda row, model=model: row.model == model)  # type: ignore[misc]  # bound now
             log(
                 f"{model} has changed ({task.quantity} at {task.problem.label} was {_text(stored[task.key])} and is "
                 f"{_text(again[task])}): its stored results ({dropped}) are all computed again"

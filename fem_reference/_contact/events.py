@@ -58,6 +58,7 @@ JUMP_IN = "jump_in"
 #: The last fold on retreat.
 JUMP_OUT = "jump_out"
 
+#: Why a solid has no jumps.
 STIFF = "the displacement rises all along the path: this solid is too stiff for jumps"
 
 #: The point where the two folds merge, at the modulus at which they do; its compliance has that modulus.

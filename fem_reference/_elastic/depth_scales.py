@@ -190,6 +190,7 @@ def _resolve(modulus: Modulus, a: float, b: float) -> list[tuple[float, float]] 
     return resolved
 
 
+#: Points of Chebyshev on [-1, 1], the polynomials there, and what a fit by these leaves of a function.
 _X = np.cos(np.pi * (np.arange(SAMPLES) + 0.5) / SAMPLES)
 _BASIS = np.polynomial.chebyshev.chebvander(_X, DEGREE)
 _REMAINDER = np.eye(SAMPLES) - _BASIS @ np.linalg.pinv(_BASIS)

@@ -15,6 +15,7 @@ from fem_reference._typing import Array
 
 __all__ = ["ENDS", "FEATURES", "VariantSpec", "variant"]
 
+#: Name of the variant whose innermost element is larger and whose mesh ends earlier.
 ENDS = "ends"
 #: What a variant makes coarser: the first layer takes in the second, or the innermost element takes in its neighbour
 #: and the mesh ends earlier.  The latter two share a variant, because they do not cancel: the innermost element changes

@@ -28,8 +28,8 @@ def _import_without_docstrings() -> None:
         sys.modules[name] = module
         modules.append(module)
     for module in reversed(modules):
-        module.__spec__.loader.exec_module(module)  # type: ignore[union-attr]
-    modules[0].util = modules[1]  # type: ignore[attr-defined]
+        module.__spec__.loader.exec_module(module)  # type: ignore[union-attr]  # checked above
+    modules[0].util = modules[1]  # type: ignore[attr-defined]  # as the import does
 
 
 if sys.flags.optimize >= 2 and "pyamg" not in sys.modules:

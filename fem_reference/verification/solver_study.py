@@ -56,6 +56,7 @@ class SolverRow:
     agreement: float
 
 
+#: Width of the edge, depth of the surface layer and extent of the meshes: of a smooth load, and of one with an edge.
 _SMOOTH = (0.5, 0.05, 32.0)
 _EDGE = (1e-3, 1e-4, 128.0)
 
@@ -70,6 +71,7 @@ def _cases(
 #: Four systems of about 1e4 unknowns.
 QUICK_STUDY = _cases(_SMOOTH, (0.45,), ((0.0, 0.25), (0.8, 0.45))) + _cases(_EDGE, (0.9,), ((0.0, 0.25), (0.8, 0.45)))
 
+#: Pairs of gradient exponent and Poisson's ratio.
 _CORNERS = ((0.0, 0.0), (0.4, 0.25), (0.8, 0.45))
 
 #: 1e4 to 3e5 unknowns, with and without an edge a thousandth of its radius wide.

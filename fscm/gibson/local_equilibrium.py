@@ -18,9 +18,9 @@ from fscm.laws import SurfaceLaw
 
 __all__ = ["Front", "LocalEquilibrium", "root"]
 
-# Relative accuracy of roots: brentq takes no less than 4 eps.
+#: Relative accuracy of roots: brentq takes no less than 4 eps.
 _ROOT = 4.0 * sys.float_info.epsilon
-# Absolute accuracy of roots, for that at zero (the equilibrium gap): M p is then exact to 16 M times as much.
+#: Absolute accuracy of roots, for that at zero (the equilibrium gap): M p is then exact to 16 M times as much.
 _ROOT_FLOOR = 1e-20
 
 

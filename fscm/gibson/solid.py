@@ -39,11 +39,11 @@ from fscm.solution import Parts, Solution
 __all__ = ["GibsonSolid"]
 
 _EPS = sys.float_info.epsilon
-# Tolerance of the quadrature; its error estimate enters u_num.
+#: Tolerance of the quadrature; its error estimate enters u_num.
 _QUADRATURE = 1e-13
-# Rounding of all results, in units of eps (1 + M) |value|; measured worst 3 against the closed forms of n = 2.
+#: Rounding of all results, in units of eps (1 + M) |value|; measured worst 3 against the closed forms of n = 2.
 _ROUNDING = 16.0
-# Step of the search for extremes of the load, in units of 1 + |delta|, its largest number, and the largest separation.
+#: Step of the search for extremes of the load, in units of 1 + |delta|, its largest number, and the largest separation.
 _SEARCH_STEP, _SEARCH_STEPS, _FARTHEST = 0.05, 2000, 10.0
 
 Number = tuple[float, float]
@@ -280,7 +280,7 @@ class GibsonSolid:
         return opened - closed, error + wrong
 
 
-# Value and error of each quantity.
+#: Value and error of each quantity.
 _QUANTITIES: dict[str, Callable[[GibsonSolid], Number]] = {
     "pull_off_force": GibsonSolid._pull_off_force,
     "pull_off_displacement": GibsonSolid._pull_off_displacement,

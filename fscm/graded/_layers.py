@@ -13,12 +13,12 @@ from fscm.solids import GradedHalfSpace
 
 __all__ = ["resolved_depths"]
 
-# Degree of the polynomials, and largest size of the last two coefficients of log E and nu: the remainder is below the
-# error of the integration.
+#: Degree of the polynomials, and largest size of the last two coefficients of log E and nu: the remainder is below the
+#: error of the integration.
 _DEGREE, _LEFT = 10, 1e-11
-# First depth of the geometric division, in units of the length of the solid, and its ratio.
+#: First depth of the geometric division, in units of the length of the solid, and its ratio.
 _FIRST, _RATIO = 1.0 / 64.0, 2.0
-# An interval shorter than this share of its depth is a jump that is not among the interfaces of the solid.
+#: An interval shorter than this share of its depth is a jump that is not among the interfaces of the solid.
 _SHORTEST = 1e-9
 
 

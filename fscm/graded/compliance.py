@@ -28,7 +28,7 @@ __all__ = ["START", "compliance"]
 
 #: Depth of the initial state, in 1/xi: the solid below changes C by exp(-2 START) = 1e-20.
 START = 24.0
-# Longest step, and stages of the collocation: the error of a step is below 1e-15 (order 12).
+#: Longest step, and stages of the collocation: the error of a step is below 1e-15 (order 12).
 _STEP, _STAGES = 0.75, 6
 
 

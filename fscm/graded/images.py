@@ -27,30 +27,30 @@ from fscm.solids import GradedHalfSpace, contact_modulus
 
 __all__ = ["Images", "images_of"]
 
-# Wave numbers of the fit: least and largest, in units of the inverse of the deepest and of the shallowest change of the
-# constants, and their number for each decade: _MANY from _AFTER to _BEFORE times these inverses, else _WAVES.
+#: Wave numbers of the fit: least and largest, in units of the inverse of the deepest and of the shallowest change of
+#: the constants, and their number for each decade: _MANY from _AFTER to _BEFORE times these inverses, else _WAVES.
 _LOW, _HIGH, _WAVES, _MANY, _AFTER, _BEFORE = 1e-10, 1e13, 10, 40, 0.01, 500.0
-# Least wave number, in units of the inverse of the deepest change, and number for each decade of those at which the
-# largest compliance is sought; at longer waves it is that of the substrate.
+#: Least wave number, in units of the inverse of the deepest change, and number for each decade of those at which the
+#: largest compliance is sought; at longer waves it is that of the substrate.
 _SOFTEST, _FEW = 1e-6, 4
-# Depths of the images, from _SHALLOW times the inverse of the largest wave number to _DEEP times that of the least:
-# _SPARSE real ones for each decade, and _DENSE from _FROM times the shallowest to _TO times the deepest change, where
-# the complex ones are, from _FROM_COMPLEX times the shallowest on.  Measured: error 1e-11 of D or less on sharp and
-# smooth coatings with contrasts of 1e-4 to 1e4, 1e-10 on three layers stiff, soft, stiff, 3e-8 on five.  A ray of 55
-# degrees has 4e-10 there, but the error for a modulus that rises 1000 times is then larger between the waves.
+#: Depths of the images, from _SHALLOW times the inverse of the largest wave number to _DEEP times that of the least:
+#: _SPARSE real ones for each decade, and _DENSE from _FROM times the shallowest to _TO times the deepest change, where
+#: the complex ones are, from _FROM_COMPLEX times the shallowest on.  Measured: error 1e-11 of D or less on sharp and
+#: smooth coatings with contrasts of 1e-4 to 1e4, 1e-10 on three layers stiff, soft, stiff, 3e-8 on five.  A ray of 55
+#: degrees has 4e-10 there, but the error for a modulus that rises 1000 times is then larger between the waves.
 _SHALLOW, _DEEP, _SPARSE, _DENSE, _FROM, _TO = 10.0, 10.0, 7, 10, 0.05, 30.0
 _FROM_COMPLEX, _COMPLEX, _RAY = 0.3, 20, cmath.exp(0.25j * math.pi)
-# Errors are relative to D, or to _RELATIVE where D is smaller; smaller singular values than this share are omitted.
+#: Errors are relative to D, or to _RELATIVE where D is smaller; smaller singular values than this share are omitted.
 _RELATIVE, _SINGULAR = 1e-4, 3e-15
-# Longest distance for which the images hold, in units of the deepest change, and its product with the least wave
-# number: with 1e-4 the kernel of E ~ (z + z_s)^0.2 at a tenth of that distance was wrong by 1e-8, with 1e-6 by 1e-10.
+#: Longest distance for which the images hold, in units of the deepest change, and its product with the least wave
+#: number: with 1e-4 the kernel of E ~ (z + z_s)^0.2 at a tenth of that distance was wrong by 1e-8, with 1e-6 by 1e-10.
 _LONGEST, _REACH = 1e6, 1e-6
-# The sum is not controlled at the least wave numbers: those within this factor are omitted from the result.
+#: The sum is not controlled at the least wave numbers: those within this factor are omitted from the result.
 _MARGIN = 10.0
-# Bound of the error between the waves, in units of that measured there; at every _EVERY-th wave the compliance is also
-# computed with half the step length.
+#: Bound of the error between the waves, in units of that measured there; at every _EVERY-th wave the compliance is also
+#: computed with half the step length.
 _BETWEEN, _EVERY = 2.0, 12
-# Rounding of each term of the sum.
+#: Rounding of each term of the sum.
 _ROUNDOFF = 2.0**-53
 
 

@@ -18,13 +18,13 @@ from fscm.solids import GradedHalfSpace
 
 __all__ = ["GradedKernel", "image_ring", "image_sum"]
 
-# Points of the bound of the error for each decade of the wave number, and decades beyond the waves of the fit.
+#: Points of the bound of the error for each decade of the wave number, and decades beyond the waves of the fit.
 _POINTS, _DECADES = 40, 6
-# Pairs of radii evaluated together: their products with the images take 4 MB.
+#: Pairs of radii evaluated together: their products with the images take 4 MB.
 _CHUNK = 1000
-# Relative difference of both means below which the next one is exact to rounding.
+#: Relative difference of both means below which the next one is exact to rounding.
 _EQUAL = 1e-8
-# |J0(x)| <= min(1, sqrt(_BESSEL / x)).
+#: |J0(x)| <= min(1, sqrt(_BESSEL / x)).
 _BESSEL = 2.0 / np.pi
 
 

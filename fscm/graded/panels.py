@@ -22,15 +22,15 @@ from fscm.graded.patches import ImageTable
 
 __all__ = ["Remainder", "remainder"]
 
-# Longest panel beside the kink for which the Gauss rule is used, in units of the length of the solid.
+#: Longest panel beside the kink for which the Gauss rule is used, in units of the length of the solid.
 _SHORT = 0.02
-# Longest piece at the kink, in units of that length, and of the radius of the target, but at least _SHORT: F is smooth
-# there as a function of the root v of the distance, in which u^2 log u is v^4 log v^2.
+#: Longest piece at the kink, in units of that length, and of the radius of the target, but at least _SHORT: F is smooth
+#: there as a function of the root v of the distance, in which u^2 log u is v^4 log v^2.
 _FIRST, _MIRROR = 0.5, 2.0
-# Ratio of the length of a piece farther out to its distance; the last one may be _LAST times longer.  The coefficients
-# of F on it fall like (2 + sqrt 3)^-m.
+#: Ratio of the length of a piece farther out to its distance; the last one may be _LAST times longer.  The coefficients
+#: of F on it fall like (2 + sqrt 3)^-m.
 _GROWTH, _LAST = 2.0, 1.25
-# Nodes of a piece, in addition to those of a panel at the kink, and to half of them farther out.
+#: Nodes of a piece, in addition to those of a panel at the kink, and to half of them farther out.
 _AT_KINK, _AWAY = 8, 9
 
 

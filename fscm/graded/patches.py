@@ -18,31 +18,31 @@ from fscm.graded.kernel import image_ring, image_sum
 
 __all__ = ["ImageTable"]
 
-# Size of a patch: singularities are at a distance of pi/4 or more, so that coefficients fall like 4.7^-m.
+#: Size of a patch: singularities are at a distance of pi/4 or more, so that coefficients fall like 4.7^-m.
 _SIZE = math.log(2.0)
-# Least distance, in units of the length of the solid.
+#: Least distance, in units of the length of the solid.
 _LEAST = 1e-11
-# Where A is larger than B by _APART patches, all patches of short distances, down to zero, are joined to one with a
-# polynomial in B.  The shallow images depend on B down to the length over which the modulus changes at the surface:
-# the short distances begin where the polynomial is accurate to _ERROR, at the patch _SHORT, or by steps _LOWER lower.
+#: Where A is larger than B by _APART patches, all patches of short distances, down to zero, are joined to one with a
+#: polynomial in B.  The shallow images depend on B down to the length over which the modulus changes at the surface:
+#: the short distances begin where the polynomial is accurate to _ERROR, at the patch _SHORT, or by steps _LOWER lower.
 _SHORT, _APART, _LOWER, _LOWEST = -14, 4, 4, -50
-# Images shallower than this share of B, or deeper than A over this share, are lumped: the error of their expansion in
-# the square of the ratio is its fourth power.
+#: Images shallower than this share of B, or deeper than A over this share, are lumped: the error of their expansion in
+#: the square of the ratio is its fourth power.
 _FAR = 7e-4
-# Error of a table of degree _HIGHEST, relative to the largest D, at least 1, and rounding and truncation for each unit
-# of the strengths of the images.  Measured worst 7e-14 over coatings with contrasts of 1e-4 to 1e4.  The coefficients
-# fall by factors of _FALL, so that the last ones exceed the truncation error.
+#: Error of a table of degree _HIGHEST, relative to the largest D, at least 1, and rounding and truncation for each unit
+#: of the strengths of the images.  Measured worst 7e-14 over coatings with contrasts of 1e-4 to 1e4.  The coefficients
+#: fall by factors of _FALL, so that the last ones exceed the truncation error.
 _HIGHEST, _ERROR, _PER_STRENGTH, _FALL = 15, 2e-13, 2e-15, 5.0
-# On the joined patches images may be shallower than the smallest node, which the coefficients do not show: the
-# polynomial is compared with the sum at _COMPARED distances, from the share _FROM of the longest one on.  The error is
-# _OF_COMPARED times the largest difference: measured at most 1.05 times (offset power laws, k = 0.4 and 0.8).
+#: On the joined patches images may be shallower than the smallest node, which the coefficients do not show: the
+#: polynomial is compared with the sum at _COMPARED distances, from the share _FROM of the longest one on.  The error is
+#: _OF_COMPARED times the largest difference: measured at most 1.05 times (offset power laws, k = 0.4 and 0.8).
 _COMPARED, _FROM, _OF_COMPARED = 25, 1e-8, 2.0
-# Range of the index of a patch in each direction: a pair of indices is one integer.
+#: Range of the index of a patch in each direction: a pair of indices is one integer.
 _MOST = 256
-# Index of the joined patches.
+#: Index of the joined patches.
 _JOINED = 0
-# Points evaluated together: fewer take more calls, more are out of the cache (measured: 71, 64 and 59 ns a point with
-# 2048, 4096 and 8192 points of degree 11).
+#: Points evaluated together: fewer take more calls, more are out of the cache (measured: 71, 64 and 59 ns a point with
+#: 2048, 4096 and 8192 points of degree 11).
 _AT_A_TIME = 8192
 
 

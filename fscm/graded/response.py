@@ -16,17 +16,17 @@ from fscm.solids import GradedHalfSpace
 
 __all__ = ["GradedResponse", "response_of"]
 
-# Longest distance for which the images hold, in the unit of the radii: the pressure farther out is that of the tail.
+#: Longest distance for which the images hold, in the unit of the radii: the pressure farther out is that of the tail.
 _LONGEST = 1e6
-# Wave numbers for each decade where the error of the kernel is summed.
+#: Wave numbers for each decade where the error of the kernel is summed.
 _POINTS = 12
-# Decades beyond the waves of the fit.
+#: Decades beyond the waves of the fit.
 _BEYOND = 4
 _BESSEL = 2.0 / math.pi
-# Largest change of log c for which the response is updated by its rate: the error is below that of the table.
+#: Largest change of log c for which the response is updated by its rate: the error is below that of the table.
 _SAME = 1e-12
-# Degree of the table for meshes of up to _COARSE nodes a panel, whose states have errors of 1e-7 and more, and for
-# finer ones.  Its own bound of its error is in that of every value (measured worst 5e-8 and 9e-11 of the largest D).
+#: Degree of the table for meshes of up to _COARSE nodes a panel, whose states have errors of 1e-7 and more, and for
+#: finer ones.  Its own bound of its error is in that of every value (measured worst 5e-8 and 9e-11 of the largest D).
 _COARSE, _LOW_DEGREE, _HIGH_DEGREE = 10, 11, 15
 
 

@@ -19,7 +19,7 @@ __all__ = ["ATLAS_QUANTITIES", "AtlasValue", "atlas"]
 
 #: Quantities of the atlas.
 ATLAS_QUANTITIES = (*QUANTITIES, CRITICAL)
-# Powers of w with which a component starts at the critical Tabor number (`fscm.interpolation.forms`).
+#: Powers of w with which a component starts at the critical Tabor number (`fscm.interpolation.forms`).
 _POWERS = {"power_1_2": 0.5, "power_3_2": 1.5, "quarter": 2.0}
 
 

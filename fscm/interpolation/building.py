@@ -25,16 +25,16 @@ __all__ = ["FACTOR", "build", "layouts", "tail_bound", "write"]
 
 #: A bound is at least this many times the largest deviation: the nodes of a cell are few.
 FACTOR = 3.0
-# Share of the sample above the threshold, and its least number of members.
+#: Share of the sample above the threshold, and its least number of members.
 _UPPER, _FEWEST = 1.0 / 3.0, 6
-# Probability that a point of the cell has a larger deviation.
+#: Probability that a point of the cell has a larger deviation.
 _EXCEEDED = 1e-5
-# A cell with fewer nodes has the bound of the patch.
+#: A cell with fewer nodes has the bound of the patch.
 _FEWEST_IN_CELL = 18
-# The bound of a cell is at least this share of that of its neighbours: the deviation grows within a cell towards the
-# worse neighbour.  Measured without: one of 85 random problems, in the corner of a cell, was outside by 1.3 times.
+#: The bound of a cell is at least this share of that of its neighbours: the deviation grows within a cell towards the
+#: worse neighbour.  Measured without: one of 85 random problems, in the corner of a cell, was outside by 1.3 times.
 _BESIDE = 0.5
-# Decimals of a coefficient.  The rounding changes a series of 4000 coefficients by 2e-10 at most, by 2e-12 usually.
+#: Decimals of a coefficient.  The rounding changes a series of 4000 coefficients by 2e-10 at most, by 2e-12 usually.
 _DECIMALS = 13
 
 

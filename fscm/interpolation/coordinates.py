@@ -36,7 +36,7 @@ LEAST_MU, MOST_MU = BOX["mu"]
 CELLS = 3
 #: Numbers of the cells of n, of k and, but for the critical Tabor number, of mu.
 Cells = tuple[NDArray[np.int_], ...]
-# Reciprocals of the shape index; the load integral of the 9-3 law diverges at n = 2/3.
+#: Reciprocals of the shape index; the load integral of the 9-3 law diverges at n = 2/3.
 _LEAST_NU, _MOST_NU = 1.0 / BOX["n"][1], 1.0 / BOX["n"][0]
 _MOST_K = BOX["k"][1]
 
@@ -123,6 +123,7 @@ def _linear_or_log(x: Array, low: float, high: float, pole: float) -> Array:
     return 2.0 * (-np.log(high + pole - x) - start) / (end - start) - 1.0
 
 
+#: Coordinates in which nothing is transformed.
 _LINEAR = Coordinates((0.0, 0.0, 0.0, 0.0, 0.0), math.inf, math.inf)
 
 

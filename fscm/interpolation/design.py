@@ -17,13 +17,13 @@ from fscm.interpolation.coordinates import BOX, LEAST_MU, MOST_MU, seam
 
 __all__ = ["Node", "critical_nodes", "lower_nodes", "rounded", "sobol", "sweep_text", "upper_nodes"]
 
-# Seeds of the Sobol sequences.
+#: Seeds of the Sobol sequences.
 _LOWER, _UPPER, _CRITICAL = 20261122, 20261123, 20261124
-# Digits of a parameter, as in a Latin hypercube of a sweep.
+#: Digits of a parameter, as in a Latin hypercube of a sweep.
 _DIGITS = 6
-# Relative distance of upper nodes from the critical Tabor number, where the two folds merge.
+#: Relative distance of upper nodes from the critical Tabor number, where the two folds merge.
 _DISTANCE = 5e-4
-# Factor of the compliance in the coordinate of the even lower nodes.
+#: Factor of the compliance in the coordinate of the even lower nodes.
 _C = 20.0
 #: A node (n, k, mu).
 Node = tuple[float, ...]

@@ -22,13 +22,13 @@ from fscm.interpolation.series import Series, degrees_within, design_matrix
 
 __all__ = ["Fit", "Layout", "fit_component", "fit_critical", "least_squares", "usable_nodes"]
 
-# Terms for each node; rates at which coefficients may fall; squared noise of the nodes, relative to the series.
+#: Terms for each node; rates at which coefficients may fall; squared noise of the nodes, relative to the series.
 _TERMS, _RATES, _RIDGE = 1.6, (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2), 1e-11
-# Relative bound of a node above which it has a smaller weight.
+#: Relative bound of a node above which it has a smaller weight.
 _NOISE = 1e-7
-# Near the critical Tabor number the solver may find one fold twice: then the gaps differ by rounding only.
+#: Near the critical Tabor number the solver may find one fold twice: then the gaps differ by rounding only.
 _DISTINCT = 1e-6
-# Step of a smooth form for the slope of its value.
+#: Step of a smooth form for the slope of its value.
 _STEP = 1e-6
 
 

@@ -16,7 +16,7 @@ from fscm._typing import Array
 
 __all__ = ["FORMS", "Form", "Points", "critical_of_smooth", "smooth_of_critical"]
 
-# Pole beyond n = 1, in 1/n: the load integral of the 9-3 law diverges at n = 2/3.
+#: Pole beyond n = 1, in 1/n: the load integral of the 9-3 law diverges at n = 2/3.
 _DIVERGES = 1.5
 
 

@@ -13,7 +13,7 @@ from fscm._typing import Array
 
 __all__ = ["Series", "degrees_within", "design_matrix"]
 
-# Points evaluated together: their basis functions fit into the cache of the processor.
+#: Points evaluated together: their basis functions fit into the cache of the processor.
 _CHUNK = 4096
 
 

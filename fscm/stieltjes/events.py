@@ -16,8 +16,8 @@ from fscm.stieltjes.scheme import CentralGapRates, StieltjesScheme, StieltjesSta
 
 __all__ = ["find_event"]
 
-# Tolerance of the central gap of an event; load and displacement are stationary there, or exact to 100 times this at
-# zero load.
+#: Tolerance of the central gap of an event; load and displacement are stationary there, or exact to 100 times this at
+#: zero load.
 _EVENT_TOLERANCE = 1e-11
 _SIMPLE_FOLDS = (0, 2)
 

@@ -24,17 +24,17 @@ from fscm.problem import Problem
 
 __all__ = ["CentralGapRates", "StieltjesScheme", "StieltjesState"]
 
-# Stopping rule of the paper: max |H_new / H_old - 1| < 1e-6.
+#: Stopping rule of the paper: max |H_new / H_old - 1| < 1e-6.
 _TOLERANCE = 1e-6
-# The rule of the paper divides by gaps that cross zero.  An absolute change below this is always accepted; it is the
-# rounding of M p for M up to 100 at |dp/dH| = 16.
+#: The rule of the paper divides by gaps that cross zero.  An absolute change below this is always accepted; it is the
+#: rounding of M p for M up to 100 at |dp/dH| = 16.
 _SMALLEST_CHANGE = 1e-12
-# Newton converges quadratically from a neighbouring solution: 3 to 6 iterations were seen.
+#: Newton converges quadratically from a neighbouring solution: 3 to 6 iterations were seen.
 _ITERATIONS = 30
-# In contact the displacement changes by 40 (mu = 1, k = 0) and far more per unit of the central gap, and the paper does
-# not state its step: largest number of halvings.
+#: In contact the displacement changes by 40 (mu = 1, k = 0) and far more per unit of the central gap, and the paper
+#: does not state its step: largest number of halvings.
 _HALVINGS = 12
-# Rows of the table evaluated together, to bound the memory of temporaries.
+#: Rows of the table evaluated together, to bound the memory of temporaries.
 _BLOCK = 200
 
 

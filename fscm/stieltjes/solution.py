@@ -18,9 +18,9 @@ from fscm.stieltjes.scheme import StieltjesScheme, StieltjesState
 
 __all__ = ["STIELTJES_QUANTITIES", "stieltjes_solution"]
 
-# From N/2 to N segments the error falls fourfold, so that the difference is three times the error at N if the edge is
-# resolved; the factor covers coarser meshes.  Measured worst error / u_num is 0.65 over n = 1 to 5, k = 0, 0.3, 0.6,
-# mu = 0.2, 0.8, 1.4 on 160 segments, wherever it converges.
+#: From N/2 to N segments the error falls fourfold, so that the difference is three times the error at N if the edge is
+#: resolved; the factor covers coarser meshes.  Measured worst error / u_num is 0.65 over n = 1 to 5, k = 0, 0.3, 0.6,
+#: mu = 0.2, 0.8, 1.4 on 160 segments, wherever it converges.
 _SAFETY = 2.0
 
 #: The quantities at one event of the path.

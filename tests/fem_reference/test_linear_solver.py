@@ -85,11 +85,11 @@ def test_the_hierarchy_has_the_same_numbers_in_every_run():
     b = np.random.default_rng(4).normal(size=half_space.free.size)
     applied = []
     for seed in (1, 2):
-        np.random.seed(seed)  # noqa: NPY002
-        drawn = np.random.random()  # noqa: NPY002
-        np.random.seed(seed)  # noqa: NPY002
+        np.random.seed(seed)  # noqa: NPY002  # that of pyamg
+        drawn = np.random.random()  # noqa: NPY002  # that of pyamg
+        np.random.seed(seed)  # noqa: NPY002  # that of pyamg
         applied.append(ElasticPreconditioner(half_space)(b))
-        assert np.random.random() == drawn  # noqa: NPY002
+        assert np.random.random() == drawn  # noqa: NPY002  # that of pyamg
     assert np.array_equal(*applied)
 
 

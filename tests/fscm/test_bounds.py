@@ -82,9 +82,9 @@ def test_the_parts_sum_to_the_bound_and_are_read_only() -> None:
     assert all(part >= 0.0 for part in solution.parts.values())
     assert pickle.loads(pickle.dumps(solution)) == solution
     with pytest.raises(TypeError):
-        solution.parts["mesh"] = 0.0  # type: ignore[index]
+        solution.parts["mesh"] = 0.0  # type: ignore[index]  # refused
     with pytest.raises(FrozenInstanceError):
-        solution.parts.mesh = 0.0  # type: ignore[misc]
+        solution.parts.mesh = 0.0  # type: ignore[misc]  # refused
     with pytest.raises(KeyError):
         solution.parts["total"]
 

@@ -29,7 +29,7 @@ def test_a_solver_computes_the_pull_off_force(model, setting, error):
 def test_no_problem_comes_twice_the_first_output_counts_and_a_long_one_is_not_repeated(monkeypatch):
     """The first problem is a neighbour, the second that of the measurement; the clock ticks before and after each."""
     solved = []
-    solver = lambda problem, setting: solved.append(problem.mu) or {"value": problem.mu, "unknowns": 7}  # noqa: E731
+    solver = lambda problem, setting: solved.append(problem.mu) or {"value": problem.mu, "unknowns": 7}  # noqa: E731  # one line
     monkeypatch.setitem(work_precision._SOLVERS, "fscm", solver)
     for ticks, count, seconds in (([0, 5, 10, 10.5, 20, 20.25, 30, 31], 4, 0.25), ([0, 5, 10, 15], 2, 5)):
         solved.clear()
