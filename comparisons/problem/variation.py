@@ -161,7 +161,7 @@ def problems_of(path: Path, variations: Mapping[str, Values], name: str = "") ->
 
 
 def _parts(name: str, values: Values) -> list[str]:
-    """Section, key and perhaps number of an entry; refuse values of which one is empty or there twice."""
+    """Section, key and perhaps number of an entry; refuse values of which one is there twice."""
     section, _, key = name.partition(".")
     where = f"vary {shown(name)}"
     if not key:
@@ -169,8 +169,8 @@ def _parts(name: str, values: Values) -> list[str]:
     known_name("section", section, SECTIONS, where)
     if key == "kind":
         raise ValueError(f"{where}: a kind is not varied, since its keys differ; write one file for each")
-    if "" in values or len(set(map(str, values))) < len(values):
-        raise ValueError(f"{where} has an empty value or one value twice; give each value once")
+    if len(set(map(str, values))) < len(values):
+        raise ValueError(f"{where} has one value twice; give each value once")
     return name.split(".", 2)
 
 

@@ -143,6 +143,25 @@ def test_pull_off(softness: float, share: float) -> None:
     assert 0.0 < result.u_num < 1e-12 * result.value
 
 
+@pytest.mark.parametrize("softness", [1e-6, 1e-3, 1e-2])
+def test_displacements_of_a_ball_are_those_of_the_extremes_of_its_curve(softness: float) -> None:
+    """Sneddon's sphere in 30 digits, the radius and the work of adhesion 1: roots of derivatives, without theta."""
+
+    def load(a: mp.mpf) -> mp.mpf:
+        return (1 + a**2) * mp.atanh(a) - a - mp.sqrt(8 * mp.pi * softness * a**3)
+
+    def delta(a: mp.mpf) -> mp.mpf:
+        return a * mp.atanh(a) - mp.sqrt(2 * mp.pi * softness * a)
+
+    slopes = {"pull_off": partial(mp.diff, load), "jump_out": partial(mp.diff, delta), "zero_load": load}
+    with mp.workdps(30):
+        jkr = mp.cbrt(9 * mp.pi * softness / 8)
+        for (event, slope), share in zip(slopes.items(), (1.0, 0.3, 1.6), strict=True):
+            exact = delta(mp.findroot(slope, share * jkr))
+            result = result_of(ball(softness), "jkr-sphere", f"{event}_displacement")
+            assert abs(result.value - exact) <= result.u_num < 1e-13
+
+
 @pytest.mark.parametrize("quantity", EVENTS)
 def test_a_large_ball_is_the_paraboloid(quantity: str) -> None:
     """The difference falls as (a/R)^2, with the power 2/3 of w/(E* R)."""

@@ -16,6 +16,7 @@ from comparisons.model import Result
 from comparisons.problem import Problem, Section
 from comparisons.problem.punch_shapes import SmoothedProfile
 from comparisons.problem.reading import load_problem
+from comparisons.problem.variation import problems_of
 from comparisons.quantities import QUANTITIES
 from comparisons.runs.tasks import evaluate
 
@@ -191,6 +192,8 @@ def test_entries_of_a_list_count_from_one_and_problems_of_files_stand_after_thos
     file = written(solid="layers", punch="sphere", law="mie")
     assert [file[f"solid.thickness.{number}"] for number in range(4)] == [None, 1e-8, 2e-8, None]
     assert file["solid.thickness"] == (1e-8, 2e-8)
+    (varied,) = problems_of(file.path, {"solid.thickness.2": ["30 nm"]})
+    assert varied["solid.thickness"] == (1e-8, 3e-8)
     first, second = Problem.dimensionless(1, 0, 5.0), Problem.dimensionless(2, 0, 1.0)
     assert sorted([file, second, first]) == [first, second, file]
 
