@@ -102,9 +102,9 @@ def values_in_si(
         power = values["n"] - 1.0 if form.unit == "m^(n-1)" else 1.0
         try:
             if form.is_file:
-                values[key] = _file_name(written)
+                values[key] = _filled(written, str, "name")
             elif form.is_list:
-                values[key] = tuple(_value(entry, form, power)[0] for entry in _entries(written))
+                values[key] = tuple(_value(entry, form, power)[0] for entry in _filled(written, list, "list of values"))
             else:
                 values[key], spread = _value(written, form, power)
                 uncertain |= {key: spread} if spread else {}
@@ -114,15 +114,10 @@ def values_in_si(
     return values, uncertain
 
 
-def _file_name(written: object) -> str:
-    if not isinstance(written, str) or not written:
-        raise NotAValue("is not a name")
-    return written
-
-
-def _entries(written: object) -> list[Any]:
-    if not isinstance(written, list) or not written:
-        raise NotAValue("is not a list of values")
+def _filled(written: Any, wanted: type, name: str) -> Any:
+    """A name or a list as it is written; `NotAValue` if it is none, or empty."""
+    if not isinstance(written, wanted) or not written:
+        raise NotAValue(f"is not a {name}")
     return written
 
 

@@ -50,14 +50,14 @@ def test_both_fields_end_at_the_same_gap_and_have_their_own_bound():
     assert pressure.y == pytest.approx(problem.posed.law.traction(np.array(gap.y)).tolist())
 
 
-@pytest.mark.parametrize("package", [fscm, fem_reference])
-def test_a_solver_that_does_not_converge_has_failed(monkeypatch, package):
+@pytest.mark.parametrize(("name", "package"), [("fscm", fscm), ("fem", fem_reference)])
+def test_a_solver_that_does_not_converge_has_failed(monkeypatch, name, package):
     def stuck(*_, **__):
         raise package.NotConverged("50 iterations were not enough")
 
     monkeypatch.setattr(package, "solve", stuck)
     monkeypatch.setattr(package, "trace", stuck)
-    model, problem = create({fscm: "fscm", fem_reference: "fem"}[package]), Problem.dimensionless(2, 0, 1)
+    model, problem = create(name), Problem.dimensionless(2, 0, 1)
     for call in (lambda: model.evaluate(problem, "pull_off_force"), lambda: model.curve(problem)):
         with pytest.raises(ComputationFailed, match="50 iterations"):
             call()
