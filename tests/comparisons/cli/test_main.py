@@ -97,6 +97,9 @@ def with_case(**changed):
             (["run", *words.split()], "--random")
             for words in ("--model jkr --random -1", "--model jkr --seed 1", "--random 3")
         ],
+        *[(["sweep", "no.toml", "--out", "out", "--shard", shard], shard) for shard in ("4/3", "0/3", "2", "1/0")],
+        (["sweep", "no.toml", "--shard", "1/2"], "--out DIR"),
+        (["sweep", "no.toml", "--vary", "solid.k=0"], "--vary is for --problem FILE"),
         (["fem"], "nothing to do"),
         (["fem", "--vtu", "x.vtu", "--n", "2"], "--k, --mu"),
         (["fem", *CASE, "--vtu", "x.vtk"], "vtu"),

@@ -131,10 +131,3 @@ def test_what_is_not_merged(sweep, tmp_path, refused):
     for arguments, named in NOT_MERGED:
         refused(["merge", *arguments, *([] if "--out" in arguments else ["--out", "merged"])], named)
     assert (tmp_path / "mine" / "grid.toml").read_text() == "# mine"
-
-
-def test_a_wrong_shard_is_refused(sweep, tmp_path, refused):
-    for shard in ("4/3", "0/3", "2", "1/0"):
-        refused(["sweep", "mine.toml", "--out", "out", "--shard", shard], shard)
-    assert not (tmp_path / "out").exists()
-    refused(["sweep", "mine.toml", "--shard", "1/2"], "--out DIR")
