@@ -27,7 +27,7 @@ def plain(text):
 
 
 def test_every_character_is_one_that_latex_has():
-    codes = [*range(0, sys.maxunicode + 1, 47), *range(0x3000)]
+    codes = [*range(0, sys.maxunicode + 1, 997), *range(0x3000)]
     assert [code for code in codes if not plain(escaped(chr(code)))] == []
 
 
