@@ -19,7 +19,7 @@ from comparisons.data.contained_paths import path_inside
 from comparisons.domain import Domain, declared_domain
 from comparisons.judging.fresh_points import REACH, named_problem, sample
 from comparisons.judging.gates import GIVEN, Gate
-from comparisons.judging.selection import cases_of, relevant
+from comparisons.judging.selection import cases_of, promised, relevant
 from comparisons.problem import Problem
 from comparisons.problem.problem import split_name
 from comparisons.registry import create
@@ -194,5 +194,4 @@ def _reference(gate: Gate, case: Problem) -> str:
     width = min(abs(limit) for limit in (gate.lower, gate.upper) if math.isfinite(limit))
     if gate.reference != _FSCM or gate.candidate == _ATLAS or gate.metric == "en" or width < _WIDER * _ATLAS_BOUND:
         return gate.reference
-    atlas = declared_domain(create(_ATLAS))
-    return _ATLAS if atlas is not None and atlas.contains(gate.quantity, case.parameters) else gate.reference
+    return _ATLAS if promised(declared_domain(create(_ATLAS)), gate.quantity, case) else gate.reference

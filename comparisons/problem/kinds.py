@@ -117,9 +117,12 @@ class Kind:
 
     def build(self, solver: ModuleType, section: Section) -> Any:
         """Return the solid, punch or law by the classes of a solver, `fscm` or `fem_reference`, in SI."""
-        if isinstance(self.builds, str):
-            return getattr(solver, self.builds)(*(section[key] for key in self.keys))
-        return self.builds(solver, section)
+        if not isinstance(self.builds, str):
+            return self.builds(solver, section)
+        built = getattr(solver, self.builds, None)
+        if built is None:
+            raise ValueError(f"{solver.__name__} has no class for the kind {section.kind}: {self.formula}")
+        return built(*(section[key] for key in self.keys))
 
 
 def _coating(solver: ModuleType, solid: Section) -> Any:
@@ -178,7 +181,7 @@ def _forms(names: Mapping[str, str]) -> dict[str, Form]:
 def _kind(section: str, name: str, row: Mapping[str, Any]) -> Kind:
     forms = {"keys": _forms(row["keys"]), "columns": _forms(row.get("columns", {}))}
     choices = tuple(map(tuple, row.get("choices", ())))
-    return Kind(**{"builds": _BUILDERS.get(f"{section}.{name}"), **row, **forms, "choices": choices})
+    return Kind(**{"builds": _BUILDERS.get(f"{section}.{name}", ""), **row, **forms, "choices": choices})
 
 
 #: The kinds of each section, by name.

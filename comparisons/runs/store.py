@@ -196,7 +196,7 @@ class Store(Generic[_Item]):
 
     def _safe(self) -> str:
         folder = quote(str(self.path.parent))
-        return f"{len(self._entries)} finished computations are safe; go on with --out {folder}"
+        return f"computations that are safe: {len(self._entries)}; go on with --out {folder}"
 
     def _read(self) -> None:
         lines: list[tuple[str, str, str, float, str]] = []
@@ -230,7 +230,7 @@ class Store(Generic[_Item]):
 
     def _write(self, entries: Iterable[_Entry[_Item]]) -> None:
         written = {json.dumps(self._form.key(entry.item), allow_nan=False): entry for entry in entries}
-        with _explained(self.path), self._connection:
+        with _explained(self.path, f"; {self._safe()}"), self._connection:
             for key, entry in written.items():
                 content = json.dumps(self._form.write(entry.item), allow_nan=False)
                 values = (key, content, entry.part, entry.seconds)
@@ -268,8 +268,8 @@ def _files(path: Path) -> list[Path]:
 
 
 @contextmanager
-def _explained(path: Path) -> Iterator[None]:
-    """Say in one sentence why the database cannot be used."""
+def _explained(path: Path, safe: str = "") -> Iterator[None]:
+    """Say in one sentence why the database cannot be used, and if it is full what is safe."""
     try:
         yield
     except sqlite3.Error as error:
@@ -279,7 +279,7 @@ def _explained(path: Path) -> Iterator[None]:
                 f"another process is computing into {path.parent}: wait for it, or choose another folder with --out"
             ) from None
         if isinstance(error, sqlite3.OperationalError) and code != sqlite3.SQLITE_ERROR:
-            raise OSError(f"the file {path} cannot be written ({error})") from error
+            raise OSError(f"the file {path} cannot be written ({error}){safe}") from error
         raise ValueError(
             f"{path} is not a store of this version, or it is damaged ({error}); choose another --out"
         ) from None

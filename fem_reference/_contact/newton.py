@@ -89,6 +89,8 @@ class State:
         return float(self.y[0] - self.y[-2])
 
 
+# A trial state may be beyond what numbers hold: a step from it that is not finite is refused.
+@np.errstate(over="ignore", invalid="ignore")
 def newton(contact: Contact, y: Array, fixed: Control, varied: Control) -> State:
     """Solve the equilibrium equations under two controls.
 
@@ -98,8 +100,8 @@ def newton(contact: Contact, y: Array, fixed: Control, varied: Control) -> State
         The problem.
     y : ndarray, shape (m + 2,)
         Starting point.
-    first, second : Control
-        Closing equations; the rates of the returned state are with respect to the second.
+    fixed, varied : Control
+        Closing equations; the rates of the returned state are with respect to the second one.
 
     Returns
     -------

@@ -78,7 +78,7 @@ def test_an_interrupted_run_goes_on_where_it_was(small_grid, tmp_path, monkeypat
         patch.setattr(computing, "compute", interrupt_after(5, error))
         patch.setattr("comparisons.runs.store.computing_environment", lambda: other_machine)
         assert run(tmp_path / "cut") == status
-    assert "5 finished computations are safe" in capsys.readouterr().err
+    assert "computations that are safe: 5; go on with --out " in capsys.readouterr().err
     assert run(tmp_path / "cut") == 0
     assert "7 computations on 1 processes, 5 are stored" in capsys.readouterr().err
     assert read(tmp_path / "cut") == read(tmp_path / "whole")

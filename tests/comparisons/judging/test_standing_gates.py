@@ -8,6 +8,7 @@ row lost, a NaN.
 
 import math
 from collections import Counter
+from dataclasses import replace
 from functools import cache
 from itertools import product
 from pathlib import Path
@@ -18,13 +19,16 @@ import pytest
 
 from comparisons.baseline import BASELINE, drift, read_baseline
 from comparisons.judging.decision import Verdict, roll_up
+from comparisons.judging.fresh_cases import _reference
 from comparisons.judging.gates import GIVEN, gates_text, load_gates
 from comparisons.judging.judge import judge
 from comparisons.judging.selection import cases_of, key_of, needed_keys, relevant
+from comparisons.problem import Problem
 from comparisons.quantities import CURVES
 from comparisons.runs.cases import VERIFICATION, grids, grids_for
 from comparisons.runs.frames import curve_frame, frame, keys_in
 from comparisons.runs.tasks import evaluate_task, plan
+from tests.comparisons.problems import on_solid
 from tests.comparisons.rows import row
 
 FOLDER = Path(__file__).parents[3] / BASELINE
@@ -279,3 +283,9 @@ def test_the_code_computes_what_is_committed():
     selected += of("fscm", "jump_in_displacement", mu=5.0)[::2] + of("fscm-stieltjes-400")[:1]
     difference = drift(rows, frame(evaluate_task(task) for task in selected))
     assert difference.empty, difference.to_string()
+
+
+def test_the_series_stand_for_the_reference_of_fresh_cases_in_their_box_alone():
+    coated = on_solid("coating", {"E_coating": 1e9, "E_substrate": 1e6, "thickness": 1e-8, "nu": 0.3})
+    cases = {Problem.dimensionless(2, 0.4, 1): "atlas", Problem.dimensionless(2, 0.4, 20): "fscm", coated: "fscm"}
+    assert {case: _reference(replace(OF_GIVEN, candidate="jkr"), case) for case in cases} == cases
