@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import ChainMap
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -37,18 +38,15 @@ def column(table: str, name: str) -> Column | None:
     >>> column("results", "depth_of_my_own") is None
     True
     """
-    by_file = _tables().get(table)
-    layers = [by_file["table"][table].get("column", {}), by_file.get("column", {})] if by_file else []
-    described = next((layer[name] for layer in [*layers, _contents()[0]["column"]] if name in layer), None)
+    contents = _contents()
+    layers = [contents[0]["column"]]
+    for content in contents:
+        if table in content["table"]:
+            layers[:0] = [content["table"][table].get("column", {}), content.get("column", {})]
+    described = ChainMap(*layers).get(name)
     return Column(**described) if described else None
 
 
 @lru_cache(maxsize=1)
 def _contents() -> list[dict[str, Any]]:
     return list(map(shipped, FILES))
-
-
-@lru_cache(maxsize=1)
-def _tables() -> dict[str, dict[str, Any]]:
-    """Return the content of the file that describes a table, by the name of the table."""
-    return {table: content for content in _contents() for table in content["table"]}

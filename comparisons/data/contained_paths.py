@@ -29,18 +29,13 @@ def path_inside(folder: Path, name: str) -> Path:
     Traceback (most recent call last):
     ValueError: the path '../pad.toml' leads out of the folder results
     """
-    path = folder / name
-    if _leads_out(folder, PurePath(name)):
-        raise ValueError(f"the path {name!r} leads out of the folder {folder}")
-    return path
-
-
-def _leads_out(folder: Path, name: PurePath) -> bool:
-    if name.is_absolute() or ".." in name.parts or "\0" in str(name):
-        return True
+    path, written = folder / name, PurePath(name)
+    leads_out = written.is_absolute() or ".." in written.parts or "\0" in name
     # Not Path.resolve(), which raises RuntimeError at a loop of links in Python 3.11 and 3.12.
     root = os.path.realpath(folder)
-    return os.path.commonpath([root, os.path.realpath(folder / name)]) != root
+    if leads_out or os.path.commonpath([root, os.path.realpath(path)]) != root:
+        raise ValueError(f"the path {name!r} leads out of the folder {folder}")
+    return path
 
 
 def refuse_link(path: Path) -> None:

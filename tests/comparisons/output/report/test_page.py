@@ -41,6 +41,7 @@ def test_the_first_lines_are_the_largest_error_and_the_verdict(laid_out, stored)
     summary = laid_out.tables["summary"]
     assert texts(summary, "model") == [*largest.index, "jkr"]
     assert texts(summary, "coverage") == ["88 of 88", "88 of 88", "0 of 88 (88 failed)"]
+    assert texts(summary, "largest |κ| (%)")[0] == "50.0(4)"
     # A page sorts by the size of an error, whatever its sign.
     (by,) = (column.number for column in summary.columns if column.heading == "largest |κ| (%)")
     assert summary.stored[by].tolist()[:2] == largest.tolist()
