@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -19,7 +19,7 @@ from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.numerics.number_text import LEAST_SHOWN, case_text, value_text
 from comparisons.paper.figures.functions import LAST_K, insensitive_regions, largest_chi
-from comparisons.paper.paper_figure import Plan, Reading, Tables, paper_figure, result_of, together
+from comparisons.paper.paper_figure import Plan, Reading, Tables, cases, paper_figure, result_of, rows_of, together
 from comparisons.paper.scheme_forces import HEIGHT, exact_force
 from comparisons.paper.statements.measures import case_of, measured
 from comparisons.paper.tasks import SHAPES
@@ -153,14 +153,12 @@ def _stresses(paper_value: PaperValue) -> tuple[float, float]:
 def _largest_relative_error(paper_value: PaperValue) -> Plan[Computed]:
     """The scheme is the paper's own: nothing beyond f(r_max), and sigma_0 as printed."""
     n, (exact_stress, printed_stress) = paper_value.n, _stresses(paper_value)
-    plans: dict[Any, Plan[Any]] = {mu: result_of(exact_force, n, _K, mu) for mu in tabor_numbers(_EXACT_DEGREE)}
-    plans |= {"model": result_of(cohesive_forces, n, _K, exact_stress)}
-    plans |= {"printed": result_of(cohesive_forces, n, _K, printed_stress)}
-    results = yield from together(plans)
-    points = [results[mu] for mu in tabor_numbers(_EXACT_DEGREE)]
-    force, beyond = (np.array([point[name] for point in points]) for name in ("force", "beyond"))
-    u = max(point["u_num"] / point["force"] for point in points)
-    model, printed = (TaborCurve.through(np.array(results[name])) for name in ("model", "printed"))
+    exact = rows_of(exact_force, cases(mu=tabor_numbers(_EXACT_DEGREE)), n=n, k=_K)
+    cohesive = {stress: result_of(cohesive_forces, n, _K, stress) for stress in (exact_stress, printed_stress)}
+    results = yield from together({"exact": exact, **cohesive})
+    force, beyond, u_num = results["exact"][["force", "beyond", "u_num"]].to_numpy().T
+    u = float((u_num / force).max())
+    model, printed = (TaborCurve.through(np.array(results[stress])) for stress in cohesive)
     kappa, u_kappa, at_mu = largest_error(model, TaborCurve.through(force, u))
     by_scheme, u_scheme, _ = largest_error(printed, TaborCurve.through(force - beyond, u))
     scheme = f"f(r_max) = {HEIGHT:g}, nothing beyond; sigma_0 = {printed_stress:g} as printed"

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
+from itertools import product
 from operator import attrgetter
 from typing import Any
 
@@ -25,7 +26,7 @@ from comparisons.runs.tasks import Task, evaluate_task
 from fscm import Analysis, solve
 from fscm import Problem as FscmProblem
 from fscm.laws import LennardJones
-from fscm.solution import FLOOR, SAFETY, EventPair, State
+from fscm.solution import FLOOR, SAFETY, State
 
 Json = dict[str, Any]
 #: Displacement, radii, and columns over them with their bounds.
@@ -217,16 +218,12 @@ def named_points(n: float, k: float, mu: float) -> dict[str, dict[str, float]]:
             "C": analysis.event("pull_off"),
             "D": analysis.event("zero_load"),
         }
-    return {name: _coordinates(pair) for name, pair in pairs.items()}
-
-
-def _coordinates(pair: EventPair) -> dict[str, float]:
-    point: dict[str, float] = {}
-    for name in ("central_gap", "displacement", "load"):
-        of = attrgetter(name)
+    points: dict[str, dict[str, float]] = {name: {} for name in pairs}
+    for (name, pair), coordinate in product(pairs.items(), ("central_gap", "displacement", "load")):
+        of = attrgetter(coordinate)
         value = float(of(pair.value))
-        point |= {name: value, f"u_{name}": float(bound(pair.difference(of), value))}
-    return point
+        points[name] |= {coordinate: value, f"u_{coordinate}": float(bound(pair.difference(of), value))}
+    return points
 
 
 def jumps(n: float, k: float, mu: float) -> dict[str, float]:

@@ -17,7 +17,6 @@ from matplotlib.ticker import LogLocator, MaxNLocator
 from comparisons.output.errors import relative_error
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
 from comparisons.paper.drawing import (
-    LABELS,
     banded,
     beside_fem,
     by_model,
@@ -214,13 +213,13 @@ def finding_cohesive_errors() -> Plan[Tables]:
 
 
 def _falls_first(figure: Figure, table: pd.DataFrame) -> None:
-    left, right = panels(figure, (held(n=_FALLING_N), held(n=_FALLING_N, k=0.4)), "mu")
+    left, right = panels(figure, (held(n=_FALLING_N), held(n=_FALLING_N, k=0.4)), "mu", "force")
     for axes, name in ((left, _FORCE), (right, _PLACE)):
         for k, line in table[table["quantity"] == name].groupby("k"):
             style: Any = {"label": f"{held(k=k)}, crosses: fem", **dashed(GRADIENTS.index(k))}
             beside_fem(axes, line, "mu", "value", column="model", **style)
         axes.set(xscale="log")
-    left.set(ylabel=LABELS["force"], ylim=(2.1, 2.3))
+    left.set(ylim=(2.1, 2.3))
     right.set(ylabel=r"displacement at pull-off $\delta_c/z_0$")
     legend_below(figure, 5)
 

@@ -24,7 +24,6 @@ from comparisons.fitting.fit import fit_record
 from comparisons.fitting.machine import Machine
 from comparisons.fitting.parameters import free_keys
 from comparisons.fitting.record import Record
-from comparisons.model import Array
 from comparisons.numerics.bounds import relative_difference, relative_uncertainty
 from comparisons.output.style import COLOURS, LINES
 from comparisons.paper.drawing import banded, dashed, held, legend_below, level, of_model, panels
@@ -158,18 +157,14 @@ def fitted_by_jkr(k: float, largest_load: float, mu: float) -> dict[str, float]:
     problem = sphere_of_tabor_number(k, mu)
     force = float(evaluate("fscm", "pull_off_force", problem))
     retreat = Machine.of(by_fscm(problem, largest_load * force, True), math.inf)
-    x = np.linspace(retreat.contact[0, 0], np.interp(largest_load * force, *_rising(retreat.contact)), _POINTS)[::-1]
+    # From pull-off into compression load and displacement rise.
+    displacement, load = retreat.contact[:, int(np.argmin(retreat.contact[1])) :]
+    x = np.linspace(retreat.contact[0, 0], np.interp(largest_load * force, load, displacement), _POINTS)[::-1]
     beyond = np.linspace(x[-1], x[-1] - float(np.ptp(x)), _POINTS)[1:]
     loads = [np.interp(x, *retreat.contact), np.interp(beyond, *retreat.far)]
     record = Record("retreat", np.concatenate([x, beyond]), np.concatenate(loads), np.zeros(x.size + beyond.size, bool))
     fitted = fit_record(record, problem, free_keys(problem, [*_KEYS.values()]), "jkr")
     return {column: fitted.parameters[key].value / problem[key] for column, key in _KEYS.items()}
-
-
-def _rising(path: Array) -> tuple[Array, Array]:
-    """Load and displacement from pull-off into compression."""
-    lowest = int(np.argmin(path[1]))
-    return path[1, lowest:], path[0, lowest:]
 
 
 def _fit(figure: Figure, table: pd.DataFrame) -> None:

@@ -31,7 +31,7 @@ def test_no_problem_comes_twice_the_first_output_counts_and_a_long_one_is_not_re
     solved = []
     solver = lambda problem, setting: solved.append(problem.mu) or {"value": problem.mu, "unknowns": 7}  # noqa: E731  # one line
     monkeypatch.setitem(work_precision._SOLVERS, "fscm", solver)
-    for ticks, count, seconds in (([0, 5, 10, 10.5, 20, 20.25, 30, 31], 4, 0.25), ([0, 5, 10, 15], 2, 5)):
+    for ticks, count, seconds in (([0, 0.125, 10, 10.5, 20, 20.25, 30, 31], 4, 0.25), ([0, 0.125, 10, 15], 2, 5)):
         solved.clear()
         clock = iter(ticks)
         monkeypatch.setattr("comparisons.bench.work_precision.time.process_time", lambda clock=clock: next(clock))
@@ -39,7 +39,7 @@ def test_no_problem_comes_twice_the_first_output_counts_and_a_long_one_is_not_re
         assert solved[:2] == pytest.approx([3.3, 3.0], rel=1e-12)
         assert len(set(solved)) == len(solved) == count
         assert (numbers["value"], numbers["unknowns"]) == (3.0, 7)
-        assert (numbers["cold_seconds"], numbers["cpu_seconds"]) == (5, seconds)
+        assert (numbers["cold_seconds"], numbers["cpu_seconds"]) == (0.125, seconds)
 
 
 def test_the_earlier_elements_are_drawn_beside_those_of_today():

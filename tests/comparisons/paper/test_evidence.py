@@ -103,7 +103,7 @@ def arrays(**columns):
     return {name: np.array(values, float) for name, values in columns.items()}
 
 
-PATH = arrays(central_gap=[20, 10, 0], displacement=[-19, -9.8, 0], load=[-0.1, -0.2, -2])
+PATH = arrays(central_gap=[20, 10, 0], displacement=[-19.9, -9.8, 0], load=[-0.1, -0.2, -2])
 PATH |= {"u_displacement": 1e-3, "u_load": 1e-3}
 #: The edge is at r = 2, the pile-up at r = 2, and the gap is linear inside.
 SHAPE = arrays(radius=[0, 1, 2, 3], deformation=[0.5, 0.2, -0.3, -0.1])
@@ -125,7 +125,7 @@ ONSET = [
     ("measure", "place", "made", "value", "u"),
     [
         (equilibria.gap_step, at(), [PATH], -10.0, 2e-3),
-        (equilibria.far_deformation, at(), [PATH], 0.05, 1e-4),
+        (equilibria.far_deformation, at(), [PATH], 0.02, 1e-4),
         (equilibria.far_load, at(), [PATH], 0.1, 1e-3),
         (equilibria.pile_up_height, at(), [SHAPE], 0.8, 2e-3),
         (equilibria.centre_deformation, at(), [SHAPE], 0.5, 1e-3),

@@ -95,6 +95,8 @@ def against(error):
         ("errors-vanish", against(lambda mu: 1.0 / mu), "true"),
         # Small, but not zero.
         ("errors-vanish", against(lambda mu: 0.003 + 1.0 / mu), "not decided"),
+        # H_0 + delta is zero.
+        ("jump-in-deformation", lambda model, name, *_: 1.0 if name.endswith("gap") else -1.0, "true"),
         ("mu-decides-hysteresis", lambda *_: 1.0, "true"),
         ("mu-decides-hysteresis", lambda *_: None, "true"),
     ],

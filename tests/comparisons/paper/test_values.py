@@ -8,18 +8,9 @@ import pytest
 from comparisons.data.paper_values import paper_values
 from comparisons.models.cohesive_models import MaugisDugdaleImproved
 from comparisons.models.cohesive_stress import eta
+from comparisons.paper import printed_values as values
 from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.paper_figure import FIGURES
-from comparisons.paper.printed_values import (
-    RANGE,
-    Computed,
-    TaborCurve,
-    cohesive_forces,
-    computed_again,
-    judged,
-    largest_error,
-    tabor_numbers,
-)
 from comparisons.paper.scheme_forces import exact_force, scheme_force
 from comparisons.problem import Problem
 from comparisons.registry import create
@@ -47,7 +38,7 @@ LONG = {"insensitive_region", "critical_tabor_number"}
 def test_a_number_has_the_committed_verdicts(name, made_of, table):
     for printed, stored in zip(paper_values(), table.itertuples(), strict=True):
         if printed.name == name:
-            row = judged(printed, made_of(lambda printed=printed: computed_again(printed)))
+            row = values.judged(printed, made_of(lambda printed=printed: values.computed_again(printed)))
             assert (row["verdict"], row["scheme_verdict"]) == (stored.verdict, stored.scheme_verdict)
             assert row["computed"] == pytest.approx(stored.computed, rel=1e-9)
             assert row["u"] < 1e-7 * abs(row["computed"])
@@ -55,7 +46,9 @@ def test_a_number_has_the_committed_verdicts(name, made_of, table):
 
 def test_the_committed_verdicts_are_those_of_the_committed_numbers(table):
     for printed, row in zip(paper_values(), table.itertuples(), strict=True):
-        again = judged(printed, Computed(row.computed, row.u, row.at_mu, row.scheme, row.by_scheme, row.u_scheme))
+        again = values.judged(
+            printed, values.Computed(row.computed, row.u, row.at_mu, row.scheme, row.by_scheme, row.u_scheme)
+        )
         assert (again["verdict"], again["scheme_verdict"]) == (row.verdict, row.scheme_verdict)
     for suffix, page in FIGURES["numbers"].texts({"": table}).items():
         assert (FOLDER / f"paper_values{suffix}").read_text(encoding="utf-8") == page
@@ -63,21 +56,24 @@ def test_the_committed_verdicts_are_those_of_the_committed_numbers(table):
 
 @pytest.mark.parametrize("n", [1.5, pytest.param(5.0, marks=pytest.mark.heavy)])
 def test_between_the_points_a_curve_over_the_tabor_number_is_the_model(n):
-    curve = TaborCurve.through(np.array(cohesive_forces(n, 0.4, eta(n))))
-    mu = np.exp(np.random.default_rng(7).uniform(*np.log(RANGE), 12))
+    curve = values.TaborCurve.through(np.array(values.cohesive_forces(n, 0.4, eta(n))))
+    mu = np.exp(np.random.default_rng(7).uniform(*np.log(values.RANGE), 12))
     direct = [MaugisDugdaleImproved().evaluate(Problem.dimensionless(n, 0.4, x), "pull_off_force").value for x in mu]
     np.testing.assert_allclose(curve(mu), direct, rtol=curve.error + 1e-13)
     assert curve.error < 1e-8
     # A series that is too short has a large error.
-    kink, at = TaborCurve.through(np.maximum(np.array(tabor_numbers(40)), 0.7)), np.geomspace(*RANGE, 999)
+    kink, at = (
+        values.TaborCurve.through(np.maximum(np.array(values.tabor_numbers(40)), 0.7)),
+        np.geomspace(*values.RANGE, 999),
+    )
     assert 1e-3 < np.max(np.abs(kink(at) / np.maximum(at, 0.7) - 1)) < 10 * kink.error
 
 
 def test_the_largest_error_is_found_between_samples():
     """kappa = 0.1 / (1 + log(mu / 0.3)^2 / 2), largest at mu = 0.3."""
-    mu = np.array(tabor_numbers(80))
-    model = TaborCurve.through(1.0 + 0.1 / (1.0 + 0.5 * np.log(mu / 0.3) ** 2))
-    kappa, u, at_mu = largest_error(model, TaborCurve.through(np.ones(81), 1e-3))
+    mu = np.array(values.tabor_numbers(80))
+    model = values.TaborCurve.through(1.0 + 0.1 / (1.0 + 0.5 * np.log(mu / 0.3) ** 2))
+    kappa, u, at_mu = values.largest_error(model, values.TaborCurve.through(np.ones(81), 1e-3))
     assert (kappa, at_mu) == (pytest.approx(0.1, abs=1e-8), pytest.approx(0.3, rel=1e-5))
     assert u >= 1.1e-3
 
