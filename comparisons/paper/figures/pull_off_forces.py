@@ -123,7 +123,12 @@ def by_limit(limit: str) -> Plan[Tables]:
 def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str) -> None:
     lattice = panels(figure, [held(n=n, k=_K) for n in _SHAPES], "mu", label, rows=2, sharex=True)
     for axes, (_, of_shape) in zip(lattice, table.groupby("n"), strict=True):
-        _limits(axes, of_shape, y)
+        # A ratio to a limiting model has the limit 1.
+        if y == "ratio":
+            level(axes, 1.0, color="0.55", lw=0.9, ls="-.")
+        for name, dashes in (("bradley", "-."), ("jkr", ":")) if y == "value" else ():
+            (line,) = of_model(of_shape, name)
+            axes.plot(line["mu"], line[y], color="0.55", lw=0.9, ls=dashes, label=name)
         by_model(axes, of_shape, "mu", y)
         forces_of_models = of_shape.loc[of_shape["model"].isin(MODEL_LINES), y]
         axes.set(xscale="log", xlim=(0.008, 12.0))
@@ -131,16 +136,6 @@ def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str) -
         beyond = max((forces_of_models.max() / forces_of_models.min()) ** 0.1, 1.02)
         _log_forces(axes, forces_of_models.min() / beyond, forces_of_models.max() * beyond)
     legend_below(figure, 5)
-
-
-def _limits(axes: Axes, table: pd.DataFrame, y: str) -> None:
-    """Draw the limiting models; a ratio to one of them has the limit 1."""
-    if y == "ratio":
-        level(axes, 1.0, color="0.55", lw=0.9, ls="-.")
-        return
-    for name, dashes in (("bradley", "-."), ("jkr", ":")):
-        (line,) = of_model(table, name)
-        axes.plot(line["mu"], line[y], color="0.55", lw=0.9, ls=dashes, label=name)
 
 
 _forces = partial(_panels_of_models, y="value", label="force")
