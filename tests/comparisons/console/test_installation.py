@@ -44,14 +44,17 @@ def test_the_program_starts_unless_a_package_of_the_same_name_is_found_first(tmp
         assert str(tmp_path / package) in done.stderr
 
 
-@pytest.mark.parametrize(("package", "jobs"), [("comparisons", "2"), ("fscm_bench", "1")])
-def test_no_module_of_the_working_folder_is_imported_by_any_process_of_the_program(tmp_path, package, jobs):
+@pytest.mark.parametrize(
+    ("package", "command"),
+    [("comparisons", ["sweep", "grid.toml", "--jobs", "2", "--out", "out"]), ("fscm_bench", ["list", "models"])],
+)
+def test_no_module_of_the_working_folder_is_imported_by_any_process_of_the_program(tmp_path, package, command):
     """Of the standard library, of a dependency, and of this program; started by ``python -m``, perhaps with workers."""
     for name in ("typing", "random", "signal", "socket", "pickle", "pandas", "mpmath", "fem_reference"):
         (tmp_path / f"{name}.py").write_text(f"open({str(tmp_path / 'imported')!r}, 'a').write({name!r})\n1 / 0")
     (tmp_path / "grid.toml").write_text(grid_text(["jkr", "dmt"], n=[2], k=[0, 0.4], mu=[1]))
     done = subprocess.run(
-        [sys.executable, "-m", package, "sweep", "grid.toml", "--jobs", jobs, "--out", "out"],
+        [sys.executable, "-m", package, *command],
         cwd=tmp_path, env=os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{ENTRY}"}, capture_output=True, text=True,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
