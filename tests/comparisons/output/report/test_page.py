@@ -71,6 +71,7 @@ def test_the_worst_cases_come_first_with_commands_that_find_the_model(laid_out):
     table = laid_out.tables["offenders"]
     assert texts(table, "verdict") == ["ERROR", "FAIL", "FAIL", "INCONCLUSIVE", "PASS", "PASS", "PASS"]
     assert table.stored["error"].tolist()[1:3] == [0.2, 0.123456789]
+    assert "Cases that pass are here too" in table.note
     commands = texts(table, "computed again by")
     assert commands[1] == "fscm-bench solve --model plain.py:Model --quantity pull_off_force --n 2 --k 0.4 --mu 3"
     assert """--model 'my models/it'"'"'s.py:Model' --quantity""" in commands[3]
@@ -192,6 +193,7 @@ def test_every_choice_of_a_plot_shows_the_stored_numbers(compared, page_of_files
     assert set(page.plots["plot-kappa"].points["x"]) == {1, 2, 3, 4, 5, 6}
     stored = read_table(compared / "results.csv").query("status == 'ok'")
     over_radius, over_work = page.plots["plot-1"], page.plots["plot-2"]
+    assert over_radius.controls[0] == ("quantity", ["pull-off force", "jump-out displacement"])
     assert (over_radius.x_label, over_radius.x_scale) == ("punch.R (µm)", "log")
     assert (over_work.x_label, over_work.x_scale) == ("law.work_of_adhesion (mJ/m^2)", "linear")
     for plot, key, power in ((over_radius, RADIUS, 1e-6), (over_work, WORK, 1e-3)):
