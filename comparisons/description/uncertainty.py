@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from functools import partial
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import fscm
@@ -96,12 +95,12 @@ def _slopes(problem: Problem, quantity: str, uncertain: _Uncertain) -> tuple[flo
     for name, spread in uncertain.items():
         form, stated = problem.form(name), problem[name]
         size = max(abs(stated), spread.size)
-        slopes[name] = solved.derivative(partial(_posed, problem, name), stated, size, form.low, form.high)
+        slopes[name] = solved.derivative(_varied(problem, name), stated, size, form.low, form.high)
     return solved.solution.value, solved.solution.u_num, slopes
 
 
-def _posed(problem: Problem, name: str, value: float) -> fscm.Problem:
-    return problem.with_value(name, value).build(fscm)
+def _varied(problem: Problem, name: str) -> Callable[[float], fscm.Problem]:
+    return lambda value: problem.with_value(name, value).build(fscm)
 
 
 def _range(problem: Problem, quantity: str, value: float, intervals: _Uncertain, slopes: Mapping[str, float]) -> Json:
