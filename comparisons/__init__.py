@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
-# Not imported from typing: `python -m comparisons` would look for it in the working folder first.
+#: Not imported from typing: `python -m comparisons` would look for it in the working folder first.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any

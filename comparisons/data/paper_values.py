@@ -14,7 +14,7 @@ from comparisons.data.toml_text import shipped
 #: Verdict on a number that has the printed digits only if its further digits are dropped.
 TRUNCATED = "agrees if truncated"
 
-# Of a formula written as a decimal here.
+#: Of a formula written as a decimal here.
 _ROUNDING = 2.0**-52
 
 

@@ -13,10 +13,11 @@ import platform
 import sys
 from pathlib import Path
 
-# The numbers of the system calls are the same on every architecture but Alpha.
+#: The numbers of the system calls are the same on every architecture but Alpha.
 _CREATE_RULESET, _ADD_RULE, _RESTRICT_SELF = 444, 445, 446
 _VERSION_FLAG, _RULE_PATH_BENEATH, _NO_NEW_PRIVILEGES = 1, 1, 38
 
+#: Rights of files: writing, moving to another folder, truncation.
 _WRITE_FILE, _REFER, _TRUNCATE = 1 << 1, 1 << 13, 1 << 14
 #: Write, remove folder and file, make device, folder, file, socket, fifo, block device and link.
 _CHANGES = _WRITE_FILE | sum(1 << bit for bit in range(4, 13))

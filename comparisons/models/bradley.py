@@ -20,7 +20,7 @@ from comparisons.model import FARTHEST_GAP, Curve, Result
 from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, POINTS, ClosedForm, Limits, monomial
 from comparisons.problem import Problem
 
-# The curve ends this factor of H0 + 1 inside the zero-load gap, where the load has turned compressive.
+#: The curve ends this factor of H0 + 1 inside the zero-load gap, where the load has turned compressive.
 _INSIDE = 0.97
 
 

@@ -12,10 +12,11 @@ from comparisons.model import Curve, NotApplicable, Result
 from comparisons.problem import Problem
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES
 
+#: Distance of 1 to the next number.
 EPS = 2.0**-52
 
-# Relative error of one Gamma or Beta function of scipy over the arguments in use: measured worst 2e-15
-# (7 eps) on B(3 - 2/n, 2/n), 0.7 <= n <= 20; 16 leaves a factor of two.
+#: Relative error of one Gamma or Beta function of scipy over the arguments in use: measured worst 2e-15
+#: (7 eps) on B(3 - 2/n, 2/n), 0.7 <= n <= 20; 16 leaves a factor of two.
 FACTOR_ROUNDING = 16.0 * EPS
 
 #: Points of a curve.

@@ -44,9 +44,10 @@ from comparisons.model import Array, ComputationFailed
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.quadrature import COARSE, FINE, UnitRule
 
+#: Most Newton steps.
 _NEWTON_STEPS = 60
-# Newton on a convex increasing function from its right-hand side stops where rounding stops it; the sum of
-# the two parts of Griffith's relation is then 1 to a few rounding errors times the size of its logarithms.
+#: Newton on a convex increasing function from its right-hand side stops where rounding stops it; the sum of
+#: the two parts of Griffith's relation is then 1 to a few rounding errors times the size of its logarithms.
 _GRIFFITH_TOLERANCE = 1e-14
 
 

@@ -16,18 +16,18 @@ from comparisons.models.closed_form import EPS
 from comparisons.models.cohesive_contact import CohesiveContact, ContactState
 from comparisons.models.quadrature import COARSE
 
-# Rounding of displacement, load and Griffith's relation relative to the magnitude of their terms: measured
-# worst 6e-15 against 40-digit arithmetic over 0.8 <= n <= 10, 0 <= k <= 0.95, 1e-3 <= Lambda <= 20.  The
-# bounds built on it were never below 4 times the true error of 350 random events.
+#: Rounding of displacement, load and Griffith's relation relative to the magnitude of their terms: measured
+#: worst 6e-15 against 40-digit arithmetic over 0.8 <= n <= 10, 0 <= k <= 0.95, 1e-3 <= Lambda <= 20.  The
+#: bounds built on it were never below 4 times the true error of 350 random events.
 STATE_ROUNDING = 1e-14
 
-# Below a / c = exp(-30) = 1e-13 the contact is the end point a = 0 to rounding.
+#: Below a / c = exp(-30) = 1e-13 the contact is the end point a = 0 to rounding.
 _SMALLEST_W = -30.0
 _WIDEST_SCAN = 100.0
 _SCAN_STEP = 0.25
-# The scan reaches 1.5 times the larger contact radius of JKR and DMT at a load compressive like the pull-off.
+#: The scan reaches 1.5 times the larger contact radius of JKR and DMT at a load compressive like the pull-off.
 _REACH = 1.5
-# The quadrature of the scan is good to 1e-13, its slopes to less; a smaller relative slope has no sign.
+#: The quadrature of the scan is good to 1e-13, its slopes to less; a smaller relative slope has no sign.
 _SCAN_NOISE = 1e-11
 _LOAD_MARGIN = 1e-10
 _DIFFERENCE = 1e-4

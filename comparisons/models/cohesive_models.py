@@ -31,9 +31,9 @@ from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
 
-# The curve starts at a = 0 and then at this fraction of its largest contact radius.
+#: The curve starts at a = 0 and then at this fraction of its largest contact radius.
 _FIRST_RADIUS = 1e-4
-# Hertz's load at pull-off has fallen to exp(-3) of itself this far (over n) below in log(a).
+#: Hertz's load at pull-off has fallen to exp(-3) of itself this far (over n) below in log(a).
 _NEAR = 3.0
 
 

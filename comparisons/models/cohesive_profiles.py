@@ -23,13 +23,13 @@ from comparisons.models.quadrature import FINE
 #: Bound on the error of pressure and gap as a fraction of their ranges: measured worst 1.2e-13 against 25 digits.
 PROFILE_ROUNDING = 1e-12
 
-# The profiles end beyond this many cohesive radii and beyond this gap, in z0.
+#: The profiles end beyond this many cohesive radii and beyond this gap, in z0.
 _FARTHEST = 3.0
-# The radius nearest to the axis, over c: a cone on a homogeneous half-space has infinite pressure at r = 0.
+#: The radius nearest to the axis, over c: a cone on a homogeneous half-space has infinite pressure at r = 0.
 _NEAREST = 1e-6
-# Still two different numbers after the change of units.
+#: Still two different numbers after the change of units.
 _BELOW_EDGE = 1e-15
-# The square of L / c must not underflow.
+#: The square of L / c must not underflow.
 _NARROWEST = 1e-150
 
 

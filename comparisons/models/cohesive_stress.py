@@ -22,7 +22,7 @@ THEORETICAL_STRENGTH = 16.0 * math.sqrt(3.0) / 27.0
 #: At n <= 2/3 the tail -(8/3) H^-3 of the 9-3 law integrates to an infinite load over r^n / n.
 SMALLEST_SHAPE_INDEX = 2.0 / 3.0
 
-# Below this e the even term is summed from its Taylor series, of which 16 terms leave 0.25^32 = 5e-20.
+#: Below this e the even term is summed from its Taylor series, of which 16 terms leave 0.25^32 = 5e-20.
 _SERIES_BELOW = 0.25
 _SERIES_TERMS = 16
 

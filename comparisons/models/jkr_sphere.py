@@ -27,7 +27,7 @@ from comparisons.problem import Problem
 #: Largest contact radius in radii of the ball, as in both references.
 LARGEST_CONTACT = 0.95
 
-# Below this alpha the series of h has no cancellation; 20 terms leave 1e-22.
+#: Below this alpha the series of h has no cancellation; 20 terms leave 1e-22.
 _SERIES_BELOW, _TERMS = 0.3, 20
 
 
@@ -39,7 +39,7 @@ def _sneddon(alpha: ArrayLike) -> NDArray[np.float64]:
     return np.where(x < _SERIES_BELOW, series, (1.0 + x**2) * np.arctanh(x) - x)
 
 
-# Of each event: the function that rises as `start` alpha^(3/2) or faster, `start`, and theta.
+#: Of each event: the function that rises as `start` alpha^(3/2) or faster, `start`, and theta.
 _EVENTS: dict[str, tuple[Callable[[float], float], float, float]] = {
     "pull_off": (lambda a: (2.0 * math.atanh(a) + 2.0 * a / (1.0 - a * a)) * math.sqrt(a), 4.0, 3.0),
     "jump_out": (lambda a: (math.atanh(a) + a / (1.0 - a * a)) * math.sqrt(a), 2.0, 0.5),

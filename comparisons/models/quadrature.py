@@ -13,7 +13,7 @@ import numpy as np
 
 from comparisons.model import Array
 
-# exp(-40) = 4e-18 truncates a bounded end, exp(-76/2) = 3e-17 an end as singular as 1 / sqrt(1 - z).
+#: exp(-40) = 4e-18 truncates a bounded end, exp(-76/2) = 3e-17 an end as singular as 1 / sqrt(1 - z).
 _LEFT, _RIGHT = -40.0, 76.0
 
 
@@ -59,10 +59,10 @@ class UnitRule:
         return cls(z, complement, -np.logaddexp(0.0, -u), step * z * complement)
 
 
-# The nearest singularity of the integrands in use is pi / 2 from the real line: the error exp(-pi^2 / step)
-# is 1e-16 at a step of 0.27.
+#: The nearest singularity of the integrands in use is pi / 2 from the real line: the error exp(-pi^2 / step)
+#: is 1e-16 at a step of 0.27.
 #: The rule of every value: exact to rounding.
 FINE = UnitRule.with_step(0.25)
-# exp(-3 pi^2) = 1e-13: enough to see where a slope changes sign, never used for a value.
+#: exp(-3 pi^2) = 1e-13: enough to see where a slope changes sign, never used for a value.
 #: The rule of searches, whose results are no values.
 COARSE = UnitRule.with_step(1.0 / 3.0)

@@ -49,9 +49,9 @@ from comparisons.problem import Problem
 #: Maugis's lambda over the Tabor number, with the theoretical strength as cohesive stress.
 LAMBDA_OVER_MU = THEORETICAL_STRENGTH * (9.0 / (2.0 * math.pi)) ** (1.0 / 3.0)
 
-# Below this alpha the fit of S turns negative: -2.160 and 2.7531 belong to powers that differ by 0.045 alone.
+#: Below this alpha the fit of S turns negative: -2.160 and 2.7531 belong to powers that differ by 0.045 alone.
 _SMALLEST_ALPHA = 0.01
-# Maugis's unit of the displacement over (R dgamma^2 / E*^2)^(1/3), the unit of the tilde variables.
+#: Maugis's unit of the displacement over (R dgamma^2 / E*^2)^(1/3), the unit of the tilde variables.
 _UNIT = (9.0 * math.pi**2 / 16.0) ** (1.0 / 3.0)
 
 

@@ -23,7 +23,7 @@ _ELEMENTS = {
     Verdict.XFAIL: "skipped",
     Verdict.NOT_APPLICABLE: "skipped",
 }
-# XML 1.0 has no place for these characters, escaped or not.
+#: XML 1.0 has no place for these characters, escaped or not.
 _UNPRINTABLE = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 

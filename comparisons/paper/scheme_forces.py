@@ -19,10 +19,10 @@ from fscm.stieltjes import StieltjesScheme, StieltjesState
 #: f(r_max) of the paper, and the segments of its mesh.
 HEIGHT, SEGMENTS = 50.0, 2500
 
-# Of the neglected traction, over log(r): measured error below 1e-8 of the force.
+#: Of the neglected traction, over log(r): measured error below 1e-8 of the force.
 _QUADRATURE_POINTS = 4001
-# First step and tolerance of the central gap at pull-off, over its size: the force is stationary in it, and an
-# error of 1e-3 of it is 3e-7 of the force.
+#: First step and tolerance of the central gap at pull-off, over its size: the force is stationary in it, and an
+#: error of 1e-3 of it is 3e-7 of the force.
 _GAP_STEP, _GAP_TOLERANCE = 0.02, 1e-3
 
 

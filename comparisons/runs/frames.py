@@ -94,7 +94,7 @@ def in_case_order(table: pd.DataFrame, *leading: str) -> pd.DataFrame:
     return ordered.sort_values(order, ignore_index=True)[list(table.columns)]
 
 
-# What was evaluated, in either table.
+#: What was evaluated, in either table.
 _EVALUATION = ("model", "model_version", "quantity", *PARAMETERS, "problem")
 
 #: Columns of the table of results, in order; those without a unit in `comparisons.data.columns` are texts.

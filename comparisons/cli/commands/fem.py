@@ -27,7 +27,7 @@ _FORMATS = {"error": ".1e", "limit": ".2g", "residual": ".0e", "agreement": ".0e
     **dict.fromkeys(("setup_seconds", "solve_seconds", "direct_seconds"), ".2f"),
     **dict.fromkeys(("megabytes", "direct_megabytes"), ".0f"),
 }
-# The picture extends to so many contact radii, and its largest displacement is this share of that.
+#: The picture extends to so many contact radii, and its largest displacement is this share of that.
 _EXTENT, _SHARE = 2.0, 0.15
 
 

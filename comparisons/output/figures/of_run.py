@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 #: Quantity, gradient exponent and models of the figure of errors, as in Fig. 16(b) of the paper.
 _QUANTITY, _K, _MODELS = "pull_off_force", 0.4, ("md-original", "md-improved")
 
+#: Panels in a row.
 _COLUMNS = 4
 
 #: More panels are too small a part of a figure; room in the legend of a character, a line and its height in inches.

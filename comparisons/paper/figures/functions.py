@@ -43,6 +43,7 @@ _SEARCHED = np.linspace(0.0, 1.0, 21)
 #: Of the gradient exponent where chi is largest; chi is stationary there, or it is an end.
 _PLACE_TOLERANCE = 1e-9
 
+#: Gaps at which the laws are drawn.
 _GAPS = np.linspace(-0.08, 4.0, 409)
 #: Shape index whose improved law is drawn.
 _DRAWN = 2.0

@@ -15,6 +15,7 @@ from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, re
 from comparisons.paper.statements.measures import table_of_terms
 from comparisons.paper.tasks import GRADIENTS, SHAPES, jumps, near_critical, quantity
 
+#: Shape index and gradient exponent of the figures of jumps.
 _N, _K = 2.0, 0.4
 #: Above the critical Tabor numbers, which are between 0.69 and 0.79.
 TABOR_NUMBERS = (0.85, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0)

@@ -16,6 +16,7 @@ from comparisons.paper.drawing import LABELS, by_model, held, legend_below, leve
 from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, result_of, rows_of, table_of, together
 from comparisons.paper.tasks import COHESIVE, GRADIENTS, cohesive_surface, profile, quantity, surface
 
+#: Of the surfaces at pull-off.
 _TABOR_NUMBERS = (0.1, 0.3, 0.5, 1.0, 2.0, 3.0)
 _CASE = {"n": 2.0, "k": 0.4, "mu": 1.0}
 _N, _K, _MU = _CASE.values()
