@@ -98,18 +98,24 @@ LAYERS = {
 }
 
 
+def dotted(path: Path) -> str:
+    """The name of the module in a file."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
 @cache
 def modules() -> dict[str, Path]:
     """Every module of the three packages, by dotted name."""
-    paths = {}
-    for package in PACKAGES:
-        for path in sorted((ROOT / package).rglob("*.py")):
-            parts = path.relative_to(ROOT).with_suffix("").parts
-            paths[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
-    return paths
+    return {dotted(path): path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py"))}
 
 
 @cache
+def imports_of(path: Path) -> set[str]:
+    """Every module that a file imports."""
+    return imported(dotted(path), path.read_text(encoding="utf-8"), path.name == "__init__.py")
+
+
 def imported(name: str, source: str, is_package: bool = False) -> set[str]:
     """Every module that `source` imports, also inside functions, relatively, or by a call such as `files("...")`."""
     names = set()
@@ -141,11 +147,7 @@ def within(name: str, starts: tuple[str, ...]) -> bool:
 def ours(name: str, path: Path) -> set[str]:
     """The modules of the three packages that a module imports (not the names in them)."""
     all_modules = modules()
-    return {
-        module
-        for module in imported(name, path.read_text(encoding="utf-8"), path.name == "__init__.py")
-        if module in all_modules and module != name
-    }
+    return {module for module in imports_of(path) if module in all_modules and module != name}
 
 
 def test_packages_import_only_what_they_may():
@@ -156,7 +158,7 @@ def test_packages_import_only_what_they_may():
         # "from fscm.problem import ..." also names the package itself.
         wrong += [(name, module) for module in of_others if "." in module and not within(module, rule)]
         if not any("." not in allowed for allowed in rule):
-            bare = imported(name, path.read_text(encoding="utf-8")) & {*PACKAGES} - {name.split(".")[0]}
+            bare = imports_of(path) & {*PACKAGES} - {name.split(".")[0]}
             wrong += [(name, package) for package in bare]
     assert wrong == []
 
@@ -187,8 +189,8 @@ def test_the_solver_does_not_load_the_verification():
 
 @pytest.mark.parametrize("name", ["fscm/ring_code", "fem_reference/hankel_reference", "solvers/layered_jkr"])
 def test_a_code_of_the_tests_that_is_a_reference_imports_nothing_of_the_packages(name):
-    source = (ROOT / "tests" / f"{name}.py").read_text(encoding="utf-8")
-    assert {module.partition(".")[0] for module in imported(name, source)} & {*PACKAGES, "tests"} == set()
+    imports = imports_of(ROOT / "tests" / f"{name}.py")
+    assert {module.partition(".")[0] for module in imports} & {*PACKAGES, "tests"} == set()
 
 
 def test_every_way_to_import_is_seen():

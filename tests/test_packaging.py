@@ -16,7 +16,7 @@ import pytest
 import yaml
 
 from comparisons.runs.environment import NOT_INSTALLED, code_digest
-from tests.test_independence import PACKAGES, imported
+from tests.test_independence import PACKAGES, imports_of
 
 ROOT = Path(__file__).resolve().parent.parent
 CONFIGURATION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -35,8 +35,8 @@ def canonical(requirement: str) -> str:
 
 def external(*folders: str) -> set[str]:
     """The distributions from which the modules of some folders import."""
-    sources = [path.read_text(encoding="utf-8") for folder in folders for path in (ROOT / folder).rglob("*.py")]
-    names = {name.partition(".")[0] for source in sources for name in imported("", source)} - sys.stdlib_module_names
+    paths = [path for folder in folders for path in (ROOT / folder).rglob("*.py")]
+    names = {name.partition(".")[0] for path in paths for name in imports_of(path)} - sys.stdlib_module_names
     names -= {*PACKAGES, "__main__", "fscm_bench", ""}
     installed = packages_distributions()
     return {canonical(installed.get(name, [name])[0]) for name in names}

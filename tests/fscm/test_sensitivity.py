@@ -110,8 +110,8 @@ AT = {"thickness": 1.0, "E_coating": 1.0, "E_substrate": 9.0, "nu": 0.3}
 
 def test_a_coating_that_is_slightly_thicker_changes_the_force():
     thin, thicker = (Problem(2, 0.0, 0.5, graded=Coating(1.0, 9.0, x, 0.0, 0.3)) for x in (1.0, 1.0 + STEP))
-    rates = sensitivity(thin, "pull_off_force")
-    change = solve(thicker, "pull_off_force").value - rates.solution.value
+    rates = sensitivity(thin, "pull_off_force", "quick")
+    change = solve(thicker, "pull_off_force", "quick").value - rates.solution.value
     assert rates.change(thicker) == pytest.approx(change, rel=3.0 * STEP)
 
 
