@@ -21,7 +21,8 @@ _UNCERTAIN = "also print the uncertainty of the pull-off force from the uncertai
 
 
 @command(
-    file("file", help="a problem file, see docs/problem_files.md"),
+    file("file", nargs="?", help="a problem file, see docs/problem_files.md"),
+    file("--problem", help="the same, as the other commands take it"),
     option("--uncertain", action="store_true", help=_UNCERTAIN),
     option(
         "--large-strain",
@@ -41,7 +42,9 @@ def describe_command(args: argparse.Namespace) -> int:
     """
     if args.quantity is not None and not args.uncertain:
         raise ValueError("--quantity is that of --uncertain; give both, or take solve for the value")
-    problem = Problem.load(args.file)
+    if (args.file is None) == (args.problem is None):
+        raise ValueError("describe takes one problem file: fscm-bench describe FILE")
+    problem = Problem.load(args.file or args.problem)
     with waiting(problem.label):
         # First: it may refuse the file or the quantity.
         of_values = uncertainty(problem, args.quantity or "pull_off_force") if args.uncertain else None

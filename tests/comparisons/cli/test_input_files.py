@@ -14,6 +14,7 @@ GRID = grid_text(["jkr"], n=[2], k=[0], mu=[1])
 #: Commands that read a file of the user, which takes the place of FILE.
 COMMANDS = [
     "describe FILE",
+    "describe --problem FILE",
     "solve --model jkr --quantity pull_off_force --problem FILE",
     "curve --model jkr --problem FILE",
     "sweep FILE --out out --jobs 1",

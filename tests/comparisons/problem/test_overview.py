@@ -23,6 +23,11 @@ from tests.comparisons.rows import row
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
 
 
+def test_one_problem_file_is_described(refused):
+    refused(["describe"], "one problem file")
+    refused(["describe", "a.toml", "--problem", "b.toml"], "one problem file")
+
+
 def test_a_power_law_has_errors_of_closed_forms(capsys):
     assert main(["describe", str(EXAMPLES / "graded_pad.toml"), "--format", "json"]) == 0
     content = json.loads(capsys.readouterr().out)
