@@ -35,6 +35,7 @@ from fem_reference._large_strain.surface import Surface, local_slopes
 from fem_reference._large_strain.whole_path import path_states
 from fem_reference.large_strain import _discretisation
 from tests.fem_reference.triangles_of_finite_strain import Square
+from tests.marks import heavy
 from tests.refusals import refused
 
 #: Of derivatives by central differences.
@@ -391,7 +392,7 @@ def test_the_mesh_before_contact_is_that_of_the_spot_on_which_it_begins():
     assert 0.02 < family(sphere(5e-3, 2.0, 0.3), "jump_in").event.radius < 0.038
 
 
-@pytest.mark.parametrize("form", ["displacement", "mixed"])
+@pytest.mark.parametrize("form", [*heavy("displacement"), "mixed"])
 def test_the_bounds_of_a_state_contain_that_of_a_higher_degree(form):
     """Of the displacements alone, to which the other form is as near, and from wherever the iteration began."""
     problem = sphere(5e-3, 0.5, 0.3)

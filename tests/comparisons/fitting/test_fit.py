@@ -20,7 +20,7 @@ from comparisons.cli.main import main
 from comparisons.fitting import search
 from comparisons.fitting.equilibria import Equilibria, _with_points_between, by_fscm
 from comparisons.fitting.fit import fit_record
-from comparisons.fitting.machine import Machine
+from comparisons.fitting.machine import Machine, Observations
 from comparisons.fitting.parameters import free_keys
 from comparisons.fitting.search import derivatives
 from comparisons.model import ComputationFailed
@@ -75,7 +75,18 @@ def test_known_values_are_found_from_a_wrong_start(mu, k):
     assert not any("Tabor number" in remark or "describe" in remark for remark in result.remarks)
 
 
-@pytest.mark.parametrize("E", [*heavy(1e8), 2e9])
+def test_a_search_may_begin_at_the_force_of_the_record_and_any_tabor_number():
+    problem, record = recorded(3.0)
+    start = wrong(problem, 3.0)
+    searched = search.Search(Observations.of(record), start, free_keys(start, FREE))
+    begun = searched._problem_of(searched._of_pull_off(0.5))
+    assert begun.posed.mu == pytest.approx(0.5, rel=1e-9)
+    force = fscm.solve(begun.build(fscm), "pull_off_force", "quick").value
+    assert force == pytest.approx(cycle(3.0, 0.0)[2], rel=0.05)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("E", [1e8, 2e9])
 def test_a_cone_whose_force_by_jkr_depends_on_its_modulus_is_fitted(E):
     """Tabor numbers of 3 and 0.15: far from the second one JKR has no force near that of the record."""
     problem = contact(E, 0.05)
