@@ -32,15 +32,18 @@ def change_of(row: Row, force: Row) -> tuple[float, float] | None:
     return relative_difference(row.value, force.value), bound
 
 
-#: Factors on the smoothing, and the exponents of the continuation; one that the file has is left out.
-_FACTORS, _GROWTHS = (0.5, 2.0), (1.5, 3.0)
+#: Factors on the smoothing, or without one the share of z0 that is the smoothing of a curve through the rows; and the
+#: exponents of the continuation, of which one that the file has is left out.
+_FACTORS, _CURVE, _GROWTHS = (0.5, 2.0), 1e-3, (1.5, 3.0)
 
 #: Exponent of a file that states none.
 _GROWTH = 2.0
 
 
 def profile_sensitivity(problem: Problem, force: Row) -> list[dict[str, Any]]:
-    """Return the relative change of the force with half and double the smoothing, and with other exponents of growth.
+    """Return the relative change of the force with other smoothing, and with other exponents of growth.
+
+    Other smoothing is half and double of it, or if the file has none a curve through the rows in place of segments.
 
     Parameters
     ----------
@@ -56,7 +59,9 @@ def profile_sensitivity(problem: Problem, force: Row) -> list[dict[str, Any]]:
     if problem.punch.kind != "table" or force.value is None:
         return []
     smoothing, growth = problem.punch.get("smoothing"), problem.punch.get("growth", _GROWTH)
-    choices = [] if smoothing is None else [("smoothing", factor * smoothing) for factor in _FACTORS]
+    through_rows = _CURVE * problem.units["displacement"]
+    smoothings = [through_rows] if smoothing is None else [factor * smoothing for factor in _FACTORS]
+    choices = [("smoothing", other) for other in smoothings]
     choices += [("growth", other) for other in _GROWTHS if other != growth]
     changes = []
     for key, value in choices:

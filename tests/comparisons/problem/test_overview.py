@@ -111,6 +111,16 @@ def test_the_changes_are_those_of_other_files(written):
     assert changes[2]["change"] > 0.0 > changes[3]["change"]
 
 
+def test_a_table_without_smoothing_is_compared_with_the_curve_through_its_rows(written, monkeypatch):
+    solved = []
+    monkeypatch.setattr(module, "evaluate_task", lambda task: solved.append(task.problem) or row("fscm", value=2.0))
+    module.profile_sensitivity(written("growth = 3"), row("fscm", value=1.0, u_num=0.0))
+    curve = solved[0]
+    assert [problem.punch.get("growth", 2.0) for problem in solved] == [3.0, 1.5]
+    r, height = (curve.punch.columns[name] for name in ("r", "height"))
+    assert curve.build(fscm).punch.height(np.array(r)) == pytest.approx(np.array(height), abs=1e-3 * height[-1])
+
+
 def test_a_failure_is_stated(written, monkeypatch):
     def solved(task):
         if task.problem.punch.get("growth") == 3.0:
