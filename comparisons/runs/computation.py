@@ -93,7 +93,7 @@ def complete(tasks: list[Task], folder: Path, jobs: int) -> Completed:
             evaluated_again = drop_changed(planned, store)
         stored = {row.key for row in store.items if row.key in planned}
         missing = [task for task in tasks if task.key not in stored]
-        note(f"{len(missing)} computations on {jobs} processes" + (f", {len(stored)} are stored" if stored else ""))
+        note(f"{len(missing)} computations, {jobs} at a time" + (f", {len(stored)} are stored" if stored else ""))
         store.complete("computing", len(missing), compute(missing, jobs))
         rows = [row for row in store.items if row.key in planned]
         return Completed(rows, len(stored), store.parts(lambda row: row.key in planned), evaluated_again)

@@ -80,7 +80,7 @@ def test_an_interrupted_run_goes_on_where_it_was(small_grid, tmp_path, monkeypat
         assert run(tmp_path / "cut") == status
     assert "computations that are safe: 5; go on with --out " in capsys.readouterr().err
     assert run(tmp_path / "cut") == 0
-    assert "7 computations on 1 processes, 5 are stored" in capsys.readouterr().err
+    assert "7 computations, 1 at a time, 5 are stored" in capsys.readouterr().err
     assert read(tmp_path / "cut") == read(tmp_path / "whole")
     record = read_record(tmp_path / "cut" / "run.json")
     assert record["rows"]["resumed"] == 5

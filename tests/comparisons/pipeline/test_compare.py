@@ -69,7 +69,7 @@ def test_the_folder_is_a_run_folder_that_is_resumed(toys, with_pictures, tmp_pat
     capsys.readouterr()
     sweep = ["sweep", str(tmp_path / "mine.toml"), "--model", "ten-percent", "refuses", "--jobs", "1"]
     assert main([*sweep, "--out", str(tmp_path)]) == 0
-    assert "8 computations on 1 processes, 16 are stored" in capsys.readouterr().err
+    assert "8 computations, 1 at a time, 16 are stored" in capsys.readouterr().err
     assert not list(tmp_path.glob("comparison.*"))
 
 
