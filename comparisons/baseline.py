@@ -209,7 +209,10 @@ def _task(arguments: Sequence[str]) -> int:
         different = paper_baseline.check(args.folder) if of_paper else check(args.folder)
         print(f"{args.folder} agrees with the baseline" if different.empty else csv_text(different))
         return 0 if different.empty else 1
-    paths = (bench if of_bench else paper_baseline).renew(args.folder) if of_bench or of_paper else renew(args.folder)
+    if of_bench:
+        paths = bench.renew(args.folder)
+    else:
+        paths = paper_baseline.renew(args.folder) if of_paper else renew(args.folder)
     print(f"{args.folder} renewed {len(paths)} files of {paths[0].parent}; nothing else was changed.")
     return 0
 

@@ -325,7 +325,7 @@ def _check_parts(punch: Any, law: Any) -> None:
 
 
 def _check_exponents(n: float, k: float, punch: PunchShape, law: SurfaceLaw) -> None:
-    """Refuse a punch that is too slender for the law, whose limit is the stricter one, or for the Tabor number."""
+    """Refuse a punch that is too slender for the law, which is stricter for the 9-3 law, or for the Tabor number."""
     C, m = law.decay
     if C != 0.0 and not m * punch.growth > _LOAD_INTEGRAL:
         raise ValueError(

@@ -94,12 +94,19 @@ def read_text(path: Path, name: str, largest: int = LARGEST_TEXT) -> str:
     if str(path) == "-":
         raise ValueError(f"-: {name} is not read from the standard input; give the name of a file")
     try:
-        text = read_bytes(path, largest).decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = error.object.count(b"\n", 0, error.start) + 1
-        raise ValueError(
-            f"{path}, line {line}: the byte 0x{error.object[error.start]:02x} is not UTF-8; save the file as UTF-8"
-        ) from None
+        content = read_bytes(path, largest)
     except OSError as error:
         raise ValueError(f"{path}: {name} cannot be read ({error.strerror}); check the name") from None
+    return utf8_text(path, content)
+
+
+def utf8_text(path: Path, content: bytes) -> str:
+    r"""Return the text of a file with ``\n`` at the end of each line; `ValueError` if it is not UTF-8."""
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise ValueError(
+            f"{path}, line {line}: the byte 0x{content[error.start]:02x} is not UTF-8; save the file as UTF-8"
+        ) from None
     return text.replace("\r\n", "\n").replace("\r", "\n")

@@ -47,7 +47,9 @@ def parse(text: str, source: str) -> dict[str, Any]:
     try:
         tables = tomllib.loads(text)
     except ValueError as error:
-        raise ValueError(f"{source} is not TOML: {error}") from None
+        # What Python says of a number of thousands of digits has another remedy.
+        reason = "a number has too many digits" if "set_int_max_str_digits" in str(error) else error
+        raise ValueError(f"{source} is not TOML: {reason}") from None
     except RecursionError:
         raise ValueError(f"{source} is not TOML that can be read: its brackets are nested too deeply") from None
     if (length := max(map(len, _words(tables)), default=0)) > LONGEST_WORD:

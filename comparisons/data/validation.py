@@ -54,7 +54,11 @@ def validated(document: Mapping[str, Any], schema: str, source: str) -> None:
     ValueError: mine.toml: grid mine: unknown key 'titel': did you mean title?
     """
     validator = shipped_validator(schema)
-    if errors := sorted(validator.iter_errors(document), key=_position):
+    try:
+        errors = sorted(validator.iter_errors(document), key=_position)
+    except RecursionError:
+        raise ValueError(f"{source}: its tables are nested too deeply") from None
+    if errors:
         raise ValueError(f"{source}: {_sentence(errors[0], document, validator.schema)}")
 
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from comparisons.numerics.bounds import relative_difference, relative_uncertainty
 from comparisons.problem import Problem
+from comparisons.problem.punch_shapes import FEWEST_ROWS
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import Task, evaluate, evaluate_task
 
@@ -59,9 +60,12 @@ def profile_sensitivity(problem: Problem, force: Row) -> list[dict[str, Any]]:
     if problem.punch.kind != "table" or force.value is None:
         return []
     smoothing, growth = problem.punch.get("smoothing"), problem.punch.get("growth", _GROWTH)
-    through_rows = _CURVE * problem.units["displacement"]
-    smoothings = [through_rows] if smoothing is None else [factor * smoothing for factor in _FACTORS]
-    choices = [("smoothing", other) for other in smoothings]
+    if smoothing is not None:
+        choices = [("smoothing", factor * smoothing) for factor in _FACTORS]
+    elif len(problem.punch.columns["r"]) >= FEWEST_ROWS:
+        choices = [("smoothing", _CURVE * problem.units["displacement"])]
+    else:
+        choices = []
     choices += [("growth", other) for other in _GROWTHS if other != growth]
     changes = []
     for key, value in choices:

@@ -75,7 +75,10 @@ class Child:
         self._resources = contextlib.ExitStack()
         with self._ended_on_failure():
             self._launch({"source": source, "megabytes": megabytes})
-            self._line(_START)
+            try:
+                self._line(_START)
+            except Overdue:
+                raise ComputationFailed(f"its process did not start within {_START:g} s") from None
 
     def exchange(self, request: dict[str, Any]) -> bytes:
         """Return the line that the process writes for a request.
@@ -163,7 +166,7 @@ class Child:
         while b"\n" not in chunk:
             if not self._is_readable(end - time.monotonic()):
                 flush = "; a program must flush its standard output after every line" if self._is_program else ""
-                raise Overdue(f"it wrote nothing within {seconds:g} s and was ended ({TIME_LIMIT}){flush}")
+                raise Overdue(f"it gave no result within {seconds:g} s and was ended ({TIME_LIMIT}){flush}")
             chunk = os.read(self._replies.fileno(), 1 << 16)
             line += chunk
             if not chunk:

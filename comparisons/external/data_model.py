@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.data.contained_paths import path_inside
-from comparisons.data.input_files import LARGEST_TABLE, read_bytes, read_text
+from comparisons.data.input_files import LARGEST_TABLE, read_bytes, read_text, utf8_text
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, validated
 from comparisons.domain import Domain
@@ -107,11 +107,12 @@ def _manifest(folder: Path) -> dict[str, Any]:
         known_name("quantity", quantity, QUANTITIES, f"{MANIFEST}: [[covers]]")
     if manifest["units"].keys() != quantities:
         raise ValueError(f"{MANIFEST}: [units] must have exactly {', '.join(sorted(quantities))}")
-    forms = {frozenset(table) - {"quantities", "vary"} for table in manifest["covers"]}
-    if forms not in ({frozenset(_NUMBERS)}, {frozenset(_PROBLEM)}):
+    forms = {frozenset(table) - {"quantities"} for table in manifest["covers"]}
+    of_files = all(form - {"vary"} == {*_PROBLEM} for form in forms)
+    if not of_files and forms != {frozenset(_NUMBERS)}:
         raise ValueError(f"{MANIFEST}: each [[covers]] has n, k and mu, or each has problem and perhaps vary")
     for name, unit in manifest["units"].items():
-        compared = QUANTITIES[name].si_unit if forms == {frozenset(_PROBLEM)} else QUANTITIES[name].unit
+        compared = QUANTITIES[name].si_unit if of_files else QUANTITIES[name].unit
         if unit != compared:
             raise ValueError(
                 f'{MANIFEST}: {name} has the unit "{unit}" but is compared in "{compared}": state the values in that'
@@ -122,36 +123,42 @@ def _manifest(folder: Path) -> dict[str, Any]:
 def _lines(folder: Path, manifest: dict[str, Any]) -> list[str]:
     """Return the lines of the CSV, whose checksum the manifest states."""
     name = manifest["predictions"]
-    content = read_bytes(path_inside(folder, name), LARGEST_TABLE)
+    path = path_inside(folder, name)
+    if not path.is_file():
+        raise ValueError(f"there is no file {name}")
+    content = read_bytes(path, LARGEST_TABLE)
     digest = hashlib.sha256(content).hexdigest()
     if digest != manifest["sha256"].lower():
         raise ValueError(
             f"{name} has the SHA-256 {digest}, but {MANIFEST} states {manifest['sha256']}: one of the two files was "
             "changed"
         )
-    return content.decode("utf-8-sig").splitlines()
+    return utf8_text(path, content).splitlines()
 
 
 def _covered_cases(folder: Path, manifest: dict[str, Any], lines: int) -> dict[Key, Problem]:
     """Return the cases that the [[covers]] tables promise, for a CSV with so many lines."""
     # Nothing is built before it is known how many cases there are: a short file can promise very many.
     tables = manifest["covers"]
-    varied = [[table.get(name, [None]) for name in _NUMBERS] + [*table.get("vary", {}).values()] for table in tables]
-    sizes = [math.prod(len({*values}) for values in columns) for columns in varied]
+    lists = [
+        [table["quantities"], *(table.get(name, [None]) for name in _NUMBERS), *table.get("vary", {}).values()]
+        for table in tables
+    ]
+    sizes = [math.prod(len({*values}) for values in columns) for columns in lists]
     if sum(sizes) > _MOST_CASES or max(sizes) > lines + _NAMED_MISSING:
         raise ValueError(
             f"{MANIFEST}: the [[covers]] tables promise {sum(sizes)} cases, but the predictions have {lines} "
             f"lines, and at most {_MOST_CASES} cases are read: each case needs a row"
         )
     covered: dict[Key, Problem] = {}
-    for table, columns in zip(tables, varied, strict=True):
+    for table, (quantities, *columns) in zip(tables, lists, strict=True):
         if "problem" in table:
             problems = problems_of(path_inside(folder, table["problem"]), table.get("vary", {}), table["problem"])
             cases = {(problem.name,): problem for problem in problems}
         else:
             numbers = product(*map(dict.fromkeys, columns))
             cases = {case: Problem.dimensionless(*case) for case in numbers}
-        covered |= {(quantity, *cells): case for quantity in table["quantities"] for cells, case in cases.items()}
+        covered |= {(quantity, *cells): case for quantity in dict.fromkeys(quantities) for cells, case in cases.items()}
     if not covered:
         raise ValueError(f"{MANIFEST}: [[covers]] has no case")
     return covered

@@ -27,9 +27,9 @@ _MOST_DECLARED, _MOST_DECLARED_BYTES = 10_000, 2_000_000_000
 SITES = ("site-packages", "dist-packages")
 #: A folder with one of them holds the results of a run, or is an environment, and is no part of a model.
 _OF_OTHERS = (RECORD, STORE, "pyvenv.cfg")
-#: Names of files and folders that are no part of a model; the last are scratch folders of processes of models.
-_OF_TOOLS = (".*", "*~", "*.pyc", "*.log", "*.egg-info", "*.dist-info", "__pycache__", "results", "node_modules")
-_ignored = ignore_patterns(*_OF_TOOLS, *SITES, PREFIX + 8 * "[a-z0-9_]")
+#: What is no part of a model: names of files and folders, and of folders alone, also of scratch folders of models.
+_ignored = ignore_patterns(".*", "*~", "*.pyc", "*.log", "*.egg-info", "*.dist-info")
+_not_entered = ignore_patterns("__pycache__", "results", "node_modules", *SITES, PREFIX + 8 * "[a-z0-9_]")
 
 
 def fingerprint(
@@ -71,7 +71,11 @@ def fingerprint(
 def _of_root(root: Path, loaded: Collection[Path]) -> tuple[Collection[Path], str]:
     """Return the files of a folder that count, and which they are in words."""
     inside = [path for path in loaded if path.is_relative_to(root) and path.is_file()]
-    used = [path for path in inside if not _ignored("", list(path.relative_to(root).parts))]
+    used = []
+    for path in inside:
+        *folders, _ = parts = path.relative_to(root).parts
+        if not _ignored("", list(parts)) and not _not_entered("", folders):
+            used.append(path)
     name = one_line(root.name, 60)
     if root.name in SITES or any(root.glob("*.dist-info")):
         return used, "the installed files of the model"
@@ -96,7 +100,7 @@ def _every_file(root: Path) -> list[Path] | None:
     files: list[Path] = []
     size = 0
     for folder, inner, names in os.walk(root):
-        ignored = _ignored(folder, [*inner, *names])
+        ignored = _ignored(folder, [*inner, *names]) | _not_entered(folder, inner)
         inner[:] = [name for name in inner if name not in ignored and not _is_of_others(Path(folder, name))]
         for path in (Path(folder, name) for name in names if name not in ignored):
             with contextlib.suppress(OSError):
@@ -112,8 +116,10 @@ def _every_file(root: Path) -> list[Path] | None:
 
 def _takes_output(status: os.stat_result) -> bool:
     """Whether a file takes our output and so grows: ``fscm-bench run > output.txt``."""
-    with contextlib.suppress(OSError):
-        return any(os.path.samestat(os.fstat(descriptor), status) for descriptor in (1, 2))
+    for descriptor in (1, 2):
+        with contextlib.suppress(OSError):
+            if os.path.samestat(os.fstat(descriptor), status):
+                return True
     return False
 
 

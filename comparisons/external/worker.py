@@ -133,7 +133,10 @@ def _attribute_of_file(file: Path, attribute: str) -> Any:
 
 def _description(model: Any, files: dict[str, Any]) -> dict[str, Any]:
     needed = (*TEXTS, "evaluate")
-    if missing := [name for name in needed if not hasattr(model, name)]:
+    missing = [name for name in TEXTS if not hasattr(model, name)]
+    if not callable(getattr(model, "evaluate", None)):
+        missing.append("evaluate")
+    if missing:
         raise ComputationFailed(f"the model has no {', '.join(missing)}; it needs {', '.join(needed)}")
     domain = declared_domain(model)
     limits = getattr(model, "limits", ())

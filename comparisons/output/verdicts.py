@@ -22,6 +22,7 @@ from comparisons.output.markup import markdown
 from comparisons.output.table import Column, Record, laid_out
 from comparisons.problem import PARAMETERS
 from comparisons.problem.problem import split_name
+from comparisons.problem.variation import with_unit
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import write_file
 from comparisons.runs.csv_format import write_table
@@ -60,7 +61,7 @@ def command(row: Record, specs: Mapping[str, str]) -> str:
         of_card = str(row.get("gate", "")).startswith(CARD)
         return shlex.join(["fscm-bench", "check-model", model]) if of_card else "fscm-bench list gates"
     verb = "curve" if row["quantity"] in CURVES else "sweep" if varied else "solve"
-    vary = [word for text in varied for word in ("--vary", text)] if verb == "sweep" else []
+    vary = [word for text in varied for word in ("--vary", with_unit(text))] if verb == "sweep" else []
     return shlex.join(["fscm-bench", verb, "--model", model, "--quantity", row["quantity"], *case, *vary])
 
 

@@ -39,6 +39,8 @@ class CachedCall:
         CachedCall(function='builtins:pow', arguments=(3, 4))
         """
         bound = signature(function).bind(*arguments, **named)
+        if bound.kwargs:
+            raise TypeError(f"{function.__qualname__}: no argument before {', '.join(bound.kwargs)} may be left out")
         return cls(f"{function.__module__}:{function.__qualname__}", bound.args)
 
     @property

@@ -35,7 +35,7 @@ def dashed(index: int) -> dict[str, Any]:
 
 def held(**values: float) -> str:
     """Return parameters that a panel holds, or a line, e.g. ``$n$ = 2, $k$ = 0.4``."""
-    text = ", ".join(f"{_SYMBOLS[name]} = {value:g}" for name, value in values.items())
+    text = ", ".join(f"{symbol} = {values[name]:g}" for name, symbol in _SYMBOLS.items() if name in values)
     return f"{text} (Gibson)" if values == {"k": 1.0} else text
 
 

@@ -122,7 +122,7 @@ class RunInputs:
         return list(dict.fromkeys([*standing, *fresh]))
 
     def needed(self) -> list[Task]:
-        """Return the tasks that the gates need, as `comparisons.judging.selection.needed_keys`; without gates all."""
+        """Return the tasks of `comparisons.judging.selection.needed_keys`; without gates all."""
         if self.gates is None:
             return self.plan()
         needed = needed_keys(self.gates.gates, self.cases.grids, self.models)

@@ -43,7 +43,7 @@ def run(
     """Compute cases, judge the results, and write tables, verdicts and the record into a folder.
 
     Results in the folder are not computed again, except failures.  In the standing cases with given models or
-    gates, only the results that the gates need are computed, and otherwise all.
+    gates, only the results that the gates need are computed, with the displacements of given models; otherwise all.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ import scipy
 from comparisons.model import Array
 
 #: Rows that a smoothed profile needs: a cubic spline has four coefficients.
-_FEWEST = 8
+FEWEST_ROWS = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,8 +91,8 @@ class SmoothedProfile:
 
     def __post_init__(self) -> None:
         r, f = np.array(self.radii), np.array(self.heights)
-        if len(r) < _FEWEST:
-            raise ValueError(f"a smooth profile has {len(r)} rows; it needs at least {_FEWEST}")
+        if len(r) < FEWEST_ROWS:
+            raise ValueError(f"a smooth profile has {len(r)} rows; it needs at least {FEWEST_ROWS}")
         if r[0] != 0.0:
             raise ValueError(f"the first radius is {r[0]:g} m and not 0; subtract the position of the apex")
         # In units of the last point, where the equations of the spline are well scaled.

@@ -61,9 +61,11 @@ def parse_variation(text: str) -> tuple[str, Values]:
             raise ValueError(f"--vary {shown(text)}: {error}") from None
     else:
         texts = [value.strip() for value in listed.split(",")]
+        if "" in texts:
+            raise ValueError(f"--vary {shown(text)}: a value is missing beside a comma; {_FORM}")
         unit_of_last = _UNIT.fullmatch(texts[-1])
         unit = unit_of_last[1] if unit_of_last else ""
-    return "".join(name.split()), [_value(value, unit) for value in texts]
+    return ".".join(word.strip() for word in name.split(".")), [_value(value, unit) for value in texts]
 
 
 def _value(text: str, unit: str) -> float | str:
@@ -122,7 +124,21 @@ def require_units(problem: Problem, variations: Mapping[str, Values]) -> None:
         unit = "" if form is None or (form.unit == "m^(n-1)" and section["n"] == 1.0) else form.unit
         for value in values:
             if unit and not isinstance(value, str):
-                raise ValueError(f"--vary {name}: the value {value:g} has no unit; it is one of {unit}")
+                raise ValueError(f"--vary {name}: the value {value:g} has no unit; write it as {value:g} {unit}")
+
+
+def with_unit(text: str) -> str:
+    """Return ``SECTION.KEY=VALUE`` with the unit of the key, if the value is a plain number, which is in SI.
+
+    Examples
+    --------
+    >>> with_unit("punch.R=2e-06"), with_unit("solid.k=0.4"), with_unit("punch.R=2 um")
+    ('punch.R=2e-06 m', 'solid.k=0.4', 'punch.R=2 um')
+    """
+    name, _, value = text.partition("=")
+    section, key = [*name.split("."), ""][:2]
+    unit = next((kind.keys[key].unit for kind in KINDS.get(section, {}).values() if key in kind.keys), "")
+    return f"{text} {unit}" if unit and _PLAIN.fullmatch(value) else text
 
 
 def problems_of(path: Path, variations: Mapping[str, Values], name: str = "") -> Iterator[Problem]:
@@ -162,16 +178,15 @@ def problems_of(path: Path, variations: Mapping[str, Values], name: str = "") ->
 
 def _parts(name: str, values: Values) -> list[str]:
     """Section, key and perhaps number of an entry; refuse values of which one is there twice."""
-    section, _, key = name.partition(".")
-    where = f"vary {shown(name)}"
-    if not key:
+    parts, where = name.split(".", 2), f"vary {shown(name)}"
+    if len(parts) < 2 or not all(parts):
         raise ValueError(f'{where} names no key; write SECTION.KEY, as "solid.thickness"')
-    known_name("section", section, SECTIONS, where)
-    if key == "kind":
+    known_name("section", parts[0], SECTIONS, where)
+    if parts[1] == "kind":
         raise ValueError(f"{where}: a kind is not varied, since its keys differ; write one file for each")
     if len(set(map(str, values))) < len(values):
         raise ValueError(f"{where} has one value twice; give each value once")
-    return name.split(".", 2)
+    return parts
 
 
 def _change(document: Mapping[str, dict[str, Any]], section: str, key: str, number: str = "", *, value: Any) -> None:

@@ -133,11 +133,11 @@ class Store(Generic[_Item]):
         ValueError
             If JSON cannot hold it, as one with a NaN.
         """
-        self._write([_Entry(item, self._part, time.perf_counter() - self._clock)])
+        self._write([_Entry(item, self._part, time.perf_counter() - self._clock)], f"; {self._safe()}")
 
     def take(self, source: Store[_Item], wanted: Callable[[_Item], bool]) -> None:
         """Store items of another store, with the parts that computed them."""
-        self._write([entry for entry in source._entries.values() if wanted(entry.item)])
+        self._write([entry for entry in source._entries.values() if wanted(entry.item)], f"; {self._safe()}")
 
     def drop(self, unwanted: Callable[[_Item], bool]) -> int:
         """Remove items; return how many."""
@@ -228,9 +228,9 @@ class Store(Generic[_Item]):
         self._connection = _connected(self.path)
         self._write(list(self._entries.values()))
 
-    def _write(self, entries: Iterable[_Entry[_Item]]) -> None:
+    def _write(self, entries: Iterable[_Entry[_Item]], safe: str = "") -> None:
         written = {json.dumps(self._form.key(entry.item), allow_nan=False): entry for entry in entries}
-        with _explained(self.path, f"; {self._safe()}"), self._connection:
+        with _explained(self.path, safe), self._connection:
             for key, entry in written.items():
                 content = json.dumps(self._form.write(entry.item), allow_nan=False)
                 values = (key, content, entry.part, entry.seconds)

@@ -68,7 +68,8 @@ def run_command(args: argparse.Namespace) -> int:
     assert finished.judgement is not None  # There are gates: the standing ones, or those of the user.
     _print_verdicts(finished.judgement, args)
     status = print_end(finished.failures, finished.folder)
-    return status or _end(finished.judgement)
+    verdict = _end(finished.judgement)
+    return status or verdict
 
 
 @command(

@@ -137,8 +137,9 @@ def _regions(kappa: pd.DataFrame, newest: pd.DataFrame) -> Table:
     """Return the largest error of each model and quantity in each region, in the order of the newest versions."""
     keys = ["model", "quantity"]
     table = newest.loc[newest["cases"] > 0, keys]
+    known = kappa[kappa["kappa"].notna()]
     for heading, condition in LAYOUT["regions"].items():
-        worst = worst_rows(kappa.query(condition), keys)[[*keys, "kappa", "u_kappa"]]
+        worst = worst_rows(known.query(condition), keys)[[*keys, "kappa", "u_kappa"]]
         names = {"kappa": f"kappa {heading}", "u_kappa": f"u {heading}"}
         table = table.merge(worst.rename(columns=names), on=keys, how="left")
     layout = [column(name, f"kappa {name}", "short percent", f"u {name}") for name in LAYOUT["regions"]]

@@ -93,9 +93,12 @@ def _over_models(figure: Figure, table: pd.DataFrame, radii: pd.DataFrame) -> No
 def fig17_surface_models() -> Plan[Tables]:
     """Surface and pressure at pull-off of both Maugis-Dugdale models and the FSCM; n = 2, k = 0.4, mu = 1."""
     shapes = yield from _shapes("fscm")
+    names = ("model", "radius", "gap", "pressure", "displacement")
     # The closed form is good to rounding.
-    names = {"model": "", "radius": [], "gap": [], "pressure": [], "displacement": 0.0, "u_distance": 0.0}
-    table = table_of({name: shape.get(name, missing) for name, missing in names.items()} for shape in shapes.values())
+    table = table_of(
+        {name: shape[name] for name in names} | {"u_distance": shape.get("u_distance", 0.0)}
+        for shape in shapes.values()
+    )
     punch = table["radius"] ** _N / _N - table["displacement"]
     # The height of the deformed surface, -w = f - delta - H (Eq. 4).
     heights = {"height": punch - table["gap"], "punch": punch, "u_distance": table.pop("u_distance")}

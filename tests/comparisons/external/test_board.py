@@ -94,7 +94,7 @@ def test_what_has_not_changed_is_not_computed_again(submissions, tmp_path, capsy
     for body, counts in ((BODY, ["8", "4"]), (BODY.replace("2.2", "2.1"), ["0", "4"])):
         submissions("b", body, name="b")
         assert board(tmp_path)[0] == 0
-        assert re.findall(r"(\d+) computations on", capsys.readouterr().err) == counts
+        assert re.findall(r"(\d+) computations,", capsys.readouterr().err) == counts
     # Results of other code are removed.
     monkeypatch.setattr("comparisons.pipeline.board.fingerprint", lambda: "other code")
     for name in "ab":

@@ -98,6 +98,8 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
         ({"rows": with_row('"pull_off_force,2,0,1,1.6,0')}, "predictions.csv, line"),
         ({"header": "quantity,k,n,mu,value,u_num"}, "the first line must be"),
         ({"change": {"n = [2]": 'problem = "pad.toml"'}}, "n, k and mu"),
+        ({"change": {"n = [2]": 'vary = {"x" = ["a"]}\nn = [2]'}}, "n, k and mu"),
+        ({"change": {'name = "': f'limits{".a" * 3000} = 1\nname = "'}}, "nested too deeply"),
         (PADS | {"change": PADS["change"] | {CASES: MANY_PADS}}, "promise 7744 cases"),
         (PADS | {"change": PADS["change"] | {UNIT: "mN"}}, 'is compared in "N"'),
         (

@@ -69,6 +69,11 @@ AT = "--quantity pull_off_force --n 2 --k 0.4 --mu 1"
         ({"quantity": "pull_off_gap"}, f"curve --model jkr {AT}".replace("force", "gap")),
         ({"candidate": "mine"}, f"solve --model 'my m/j.py:J' {AT}"),
         (
+            {"problem": "pad.toml; punch.R=1e-06; solid.k=0.4"},
+            "sweep --model jkr --quantity pull_off_force --problem pad.toml "
+            "--vary 'punch.R=1e-06 m' --vary solid.k=0.4",
+        ),
+        (
             {"problem": "pad.toml; punch.R=1 um"},
             "sweep --model jkr --quantity pull_off_force --problem pad.toml --vary 'punch.R=1 um'",
         ),
