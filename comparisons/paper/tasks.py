@@ -56,7 +56,9 @@ def _with_status(function: Callable[..., Json]) -> Callable[..., Json]:
     @wraps(function)
     def result(*arguments: Any) -> Json:
         try:
-            return {"status": "ok", "reason": ""} | function(*arguments)
+            returned = function(*arguments)
+            # The names that it returns come first.
+            return returned | {"status": "ok", "reason": ""} | returned
         except NotApplicable as refusal:
             return {"status": "not-applicable", "reason": str(refusal)}
         except (ComputationFailed, ValueError) as failure:
