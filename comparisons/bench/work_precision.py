@@ -191,7 +191,8 @@ def summary(rows: pd.DataFrame) -> pd.DataFrame:
     """Return the finest `fscm`, and the other solvers with their CPU time over that of `fscm` at a smaller error."""
     columns = ["model", "setting", "mu", "ratio", "cpu_seconds", "cold_seconds", "megabytes", "error"]
     is_finest = ~rows.duplicated(["mu", "model"], keep="last")
-    return rows.loc[is_finest | (rows["model"] != "fscm"), columns]
+    names = {"cpu_seconds": "CPU (s)", "cold_seconds": "cold (s)", "megabytes": "MB"}
+    return rows.loc[is_finest | (rows["model"] != "fscm"), columns].rename(columns=names)
 
 
 _TITLE = "error against CPU time; ratio: to fscm of smaller error"
