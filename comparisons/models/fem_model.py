@@ -30,7 +30,7 @@ _LEVELS = ("quick", "default")
 #: own bound, and to 7e-6 compared with the integral equation; at 0.95 the computation fails.
 LARGEST_K = 0.9
 
-#: Physical values in which a dimensionless problem is solved: no scale is one, and no two are equal.
+#: Lengths, and values of the law, in which a dimensionless problem is solved.
 _LENGTHS = {"c0": 3.0, "Q": 2.0}
 _LAW = {"work_of_adhesion": 0.7, "z0": 0.25}
 

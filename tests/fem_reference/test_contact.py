@@ -1,5 +1,7 @@
 """Contact equilibrium: exact tangent, controls, energy, and events."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -90,6 +92,22 @@ def test_unknown_names_are_refused(points):
 
 def test_newton_refuses_a_hopeless_start():
     contact = _contact(E0=1e-6)
+    y = np.append(np.zeros(contact.unknowns), [50.0, 1.0])
+    refused("Newton stopped at a residual", newton, contact, y, Size(1.0), CentralGap(-50.0), error=NotConverged)
+
+
+class _Exponential(LennardJones):
+    """A law whose traction is beyond what numbers hold in deep overlap."""
+
+    def traction(self, gap):
+        return super().traction(gap) + np.exp(-1e3 * gap)
+
+    def slope(self, gap):
+        return super().slope(gap) - 1e3 * np.exp(-1e3 * gap)
+
+
+def test_a_trial_state_beyond_what_numbers_hold_is_refused_without_a_warning():
+    contact = replace(_contact(E0=1e-6), law=_Exponential(1.0, 1.0))
     y = np.append(np.zeros(contact.unknowns), [50.0, 1.0])
     refused("Newton stopped at a residual", newton, contact, y, Size(1.0), CentralGap(-50.0), error=NotConverged)
 

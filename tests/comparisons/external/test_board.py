@@ -1,11 +1,14 @@
 """The board: submissions of every kind, judged, refused and hostile, on one site."""
 
+import math
 import re
 
+import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
 from comparisons.judging.gates import gates_text
+from comparisons.output.report.board import _regions
 
 from ..conftest import GATES
 from .conftest import ROWS, model_file
@@ -85,6 +88,16 @@ def test_every_submission_has_a_verdict_or_the_reason_why_not(submissions, write
     names = ("mine/1.9", "mine/1.10", "measured/1", "twelve-percent/1", "ends/1")
     assert links == {f"models/{name}" for name in names}
     assert all((tmp_path / "site" / link / "report.html").is_file() for link in links)
+
+
+def test_a_region_in_which_a_model_has_no_error_is_empty():
+    """As where the reference is zero."""
+    names = {"model": ["mine"] * 2, "quantity": ["hysteresis_energy"] * 2}
+    cases = {"n": [2.0, 2.0], "k": [0.0, 0.4], "mu": [1.0, 3.0]}
+    kappa = pd.DataFrame({**names, **cases, "kappa": [math.nan, -0.1], "u_kappa": [math.nan, 0.0]})
+    table = _regions(kappa, kappa.iloc[:1].assign(cases=1)).stored
+    assert math.isnan(table.loc[0, "kappa k = 0"])
+    assert table.loc[0, "kappa k > 0"] == -0.1
 
 
 def test_what_has_not_changed_is_not_computed_again(submissions, tmp_path, capsys, monkeypatch):
