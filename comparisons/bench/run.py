@@ -23,6 +23,7 @@ from comparisons.paper.cache import make_calls
 from comparisons.runs.atomic_files import prepare_folder, write_file, write_json
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.environment import environment
+from comparisons.runs.folder_lock import locked
 
 #: Parts by name, in the order in which they are measured: the shortest first.
 PARTS = {part.name: part for part in (COLD_STARTS, WORK_PRECISION)}
@@ -75,18 +76,18 @@ def run_bench(folder: Path, only: Sequence[str] | None = None, *, full: bool = F
         For an unknown part, or a folder that cannot be used, as one with measurements of other code.
     """
     parts = parts_of(only)
-    prepare_folder(folder)
-    calls = [call for part in parts for call in part.calls(full)]
-    computed = make_calls(calls, folder, apart=True)
-    failures = [computed.outcomes[call].sentence for call in calls if computed.outcomes[call].failed]
-    record = environment()
-    machine = record["machine"]
-    summary = [f"{machine['cpu']}, {machine['cores']} cores; ratios of one run on it:"[:80]]
-    for part in parts:
-        summary += _written(folder, part, part.table(full, computed.outcomes))
-    content = {"arguments": {"only": only and list(only), "full": full}, **record, "parts": computed.parts}
-    write_json({**content, "failures": len(failures)}, folder / BENCH)
-    write_file(folder / BENCH_SUMMARY, "".join(f"{line}\n" for line in summary))
+    with locked(prepare_folder(folder)):
+        calls = [call for part in parts for call in part.calls(full)]
+        computed = make_calls(calls, folder, apart=True)
+        failures = [computed.outcomes[call].sentence for call in calls if computed.outcomes[call].failed]
+        record = environment()
+        machine = record["machine"]
+        summary = [f"{machine['cpu']}, {machine['cores']} cores; ratios of one run on it:"[:80]]
+        for part in parts:
+            summary += _written(folder, part, part.table(full, computed.outcomes))
+        content = {"arguments": {"only": only and list(only), "full": full}, **record, "parts": computed.parts}
+        write_json({**content, "failures": len(failures)}, folder / BENCH)
+        write_file(folder / BENCH_SUMMARY, "".join(f"{line}\n" for line in summary))
     return FinishedBench(summary, failures)
 
 

@@ -7,6 +7,9 @@ from pathlib import Path
 #: The record of the run, and the store of finished computations.
 RECORD, STORE = "run.json", "store.sqlite"
 
+#: The lock of the folder.  It stays, empty: its removal would let two commands lock two files of one name.
+LOCK = ".lock"
+
 #: Folder of the committed results, in a clone of the repository.
 BASELINE_FOLDER = Path("results", "baseline")
 

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from comparisons.external import cleaner
+from comparisons.external.hidden_folders import hidden_folders
 from comparisons.external.start import MEMORY_LIMIT, TIME_LIMIT, limit_of_environment
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed
@@ -74,7 +75,7 @@ class Child:
         self._is_program = source["kind"] == "program"
         self._resources = contextlib.ExitStack()
         with self._ended_on_failure():
-            self._launch({"source": source, "megabytes": megabytes})
+            self._launch({"source": source, "megabytes": megabytes, "hidden": hidden_folders()})
             try:
                 self._line(_START)
             except Overdue:

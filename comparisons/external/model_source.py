@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.external.data_model import MANIFEST, DataModel
+from comparisons.external.hidden_folders import hidden_folders
 from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import one_line
 
@@ -109,7 +110,8 @@ def load_model(spec: str) -> AnyExternalModel:
     ValueError
         If there is none, or it does not load; the sentence has the reason.
     """
-    key = repr(source_of(spec))
+    # A process that has started cannot lose what it may read.
+    key = repr((source_of(spec), hidden_folders()))
     if key not in _loaded:
         _loaded[key] = load_again(spec)
     return _loaded[key]

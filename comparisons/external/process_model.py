@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,6 +11,7 @@ from typing import Any, TypeVar
 
 from comparisons.domain import Domain
 from comparisons.external.child import Child, Overdue
+from comparisons.external.hidden_folders import hidden_folders, is_inside
 from comparisons.external.replies import Malformed, curve_of, described, result_of
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
@@ -108,14 +110,26 @@ def connect(source: dict[str, Any], spec: str) -> ExternalModel:
     Raises
     ------
     ValueError
-        If the model cannot be loaded, or its name or texts are not admissible.
+        If the model cannot be loaded, its name or texts are not admissible, or its file is hidden from it.
     """
+    _check_hidden(source)
     if os.name != "posix":
         raise ValueError("models that are code are run on Linux and macOS only; predictions as data everywhere")
     try:
         return ExternalModel(source)
     except (ComputationFailed, NotApplicable) as failure:
         raise ValueError(f"the model {one_line(spec, 200)} cannot be loaded: {one_line(str(failure))}") from None
+
+
+def _check_hidden(source: dict[str, Any]) -> None:
+    """Refuse a model whose process could not read its own file, or Python."""
+    for folder in hidden_folders():
+        for path in filter(None, (source.get("file"), sys.prefix, sys.base_prefix)):
+            if is_inside(os.path.realpath(path), folder):
+                raise ValueError(
+                    f"{one_line(path, 200)} is in the folder of the results {one_line(folder, 200)}, which the process "
+                    "of a model cannot read; choose another --out"
+                )
 
 
 def contradiction(before: tuple[str, str], now: tuple[str, str]) -> str:

@@ -1,6 +1,6 @@
-"""Start of the process of an external model: no writing elsewhere, the limits, and then the worker or the program.
+"""Start of the process of an external model: its confinement, the limits, and then the worker or the program.
 
-Nothing but the standard library is imported before the restriction of writing.  The limits are environment variables,
+Nothing but the standard library is imported before the restriction.  The limits are environment variables,
 so that they reach every process of a run:
 
     FSCM_BENCH_TIME_LIMIT     seconds for one evaluation, and for loading (60)
@@ -14,7 +14,7 @@ import signal
 import sys
 from typing import Any
 
-from comparisons.external.landlock import write_only_in
+from comparisons.external.landlock import confine
 
 #: Names of the environment variables.
 TIME_LIMIT, MEMORY_LIMIT = "FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"
@@ -56,11 +56,11 @@ def start(order: dict[str, Any]) -> None:
     Parameters
     ----------
     order : dict
-        ``source`` of the model, ``scratch`` folder and ``megabytes``.
+        ``source`` of the model, ``scratch`` folder, ``hidden`` folders and ``megabytes``.
     """
     source, megabytes = order["source"], order["megabytes"]
     # Landlock binds the calling thread and those this thread starts later: it comes before NumPy's libraries.
-    write_only_in(order["scratch"])
+    confine(order["scratch"], order["hidden"])
     if source["kind"] != "program":
         from comparisons.external.worker import serve
     _limit(megabytes)

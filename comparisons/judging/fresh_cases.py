@@ -1,6 +1,6 @@
 """Fresh cases of a run: drawn at random from the domain of each given model, and judged by the limits of its gates.
 
-A model can know the standing cases by heart; it cannot know these.  A gate is INCONCLUSIVE where the domain of the
+A model can know the standing cases by heart, but not these.  A gate is INCONCLUSIVE where the domain of the
 model has no room for them beside the standing cases.  Inside the box of the atlas the atlas is the reference where its
 bound is small beside the limits, elsewhere the reference of the gate.
 """

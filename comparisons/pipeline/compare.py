@@ -18,7 +18,7 @@ from comparisons.output.markup import html_table
 from comparisons.output.style import save
 from comparisons.output.summaries import case_tables, side_by_side, summary_tables
 from comparisons.pipeline.inputs import Cases, cases_of_problem, grid_text, load_cases
-from comparisons.pipeline.run import run
+from comparisons.pipeline.run import running
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import REFERENCES
 from comparisons.quantities import CURVES, QUANTITIES
@@ -138,15 +138,15 @@ def compare(
     numbers = {"n": n, "k": k, "mu": mu, "nu": nu}
     cases = _cases(grid, problem, vary, numbers, quantities, reference)
     _check(cases, specs)
-    finished = run(cases, models=specs, folder=folder, jobs=jobs)
-    table = comparison_table(finished.tables.results, finished.inputs.cases.grids, finished.inputs.models)
-    if ALL in named:
-        table = _of_applicable(table, named)
-    comparison = Comparison(table, error_summary(table), finished.folder, finished.failures)
-    write_table(table, finished.folder / COMPARISON)
-    save(comparison.figure(), *(finished.folder / f"{COMPARISON}{suffix}" for suffix in (".png", ".pdf")))
-    # With the checksums of these files.
-    write_record(read_record(finished.folder / RECORD), finished.folder / RECORD)
+    with running(cases, models=specs, folder=folder, jobs=jobs) as finished:
+        table = comparison_table(finished.tables.results, finished.inputs.cases.grids, finished.inputs.models)
+        if ALL in named:
+            table = _of_applicable(table, named)
+        comparison = Comparison(table, error_summary(table), finished.folder, finished.failures)
+        write_table(table, finished.folder / COMPARISON)
+        save(comparison.figure(), *(finished.folder / f"{COMPARISON}{suffix}" for suffix in (".png", ".pdf")))
+        # With the checksums of these files.
+        write_record(read_record(finished.folder / RECORD), finished.folder / RECORD)
     return comparison
 
 

@@ -13,6 +13,7 @@ from comparisons.paper.paper_figure import PaperFigure, Tables, calls_of, given
 from comparisons.paper.registry import paper_figures
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import checked_jobs
+from comparisons.runs.folder_lock import locked
 from comparisons.runs.record import now, record_content, write_record
 
 
@@ -61,21 +62,26 @@ def make_figures(names: Iterable[str] | None, folder: Path, *, jobs: int = 1) ->
     checked_jobs(jobs)
     wanted = None if names is None else list(names)
     figures = paper_figures(wanted)
-    prepare_folder(folder)
-    started = now()
-    calls = dict.fromkeys(call for figure in figures for call in calls_of(figure.plan()))
-    computed = make_calls(calls, folder, jobs)
-    finished = tuple(_finished(figure, computed.outcomes, folder) for figure in figures)
-    failed = sum(computed.outcomes[call].failed for call in calls)
-    record = record_content(
-        "paper",
-        {"figure": wanted},
-        started=started,
-        parts=computed.parts,
-        seconds={},
-        rows={"all": len(calls), "resumed": len(calls) - computed.made, "ok": len(calls) - failed, "failed": failed},
-    )
-    write_record(record, folder / RECORD, [path.name for figure in finished for path in figure.files])
+    with locked(prepare_folder(folder)):
+        started = now()
+        calls = dict.fromkeys(call for figure in figures for call in calls_of(figure.plan()))
+        computed = make_calls(calls, folder, jobs)
+        finished = tuple(_finished(figure, computed.outcomes, folder) for figure in figures)
+        failed = sum(computed.outcomes[call].failed for call in calls)
+        record = record_content(
+            "paper",
+            {"figure": wanted},
+            started=started,
+            parts=computed.parts,
+            seconds={},
+            rows={
+                "all": len(calls),
+                "resumed": len(calls) - computed.made,
+                "ok": len(calls) - failed,
+                "failed": failed,
+            },
+        )
+        write_record(record, folder / RECORD, [path.name for figure in finished for path in figure.files])
     return finished
 
 

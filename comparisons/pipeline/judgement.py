@@ -24,6 +24,7 @@ from comparisons.pipeline.inputs import RunInputs, read_gates, stored_inputs
 from comparisons.runs.atomic_files import write_file
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.environment import fingerprint
+from comparisons.runs.folder_lock import locked
 from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
 
 
@@ -98,8 +99,16 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
     Raises
     ------
     ValueError
-        If there is no finished run, a file of it was changed, or the gates cannot be used; one sentence says which.
+        If there is no finished run, a file of it was changed, the gates cannot be used, or another process has the
+        folder; one sentence says which.
     """
+    # Nothing is written, not even the lock, where there is no finished run.
+    read_record(folder / RECORD)
+    with locked(folder):
+        return _judged_again(folder, gates)
+
+
+def _judged_again(folder: Path, gates: Path | None) -> Judgement:
     record = read_record(folder / RECORD)
     name, arguments = record["command_name"], record["arguments"]
     if name == "paper":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from shlex import quote
 from typing import Any
@@ -10,9 +11,10 @@ from typing import Any
 from comparisons.data.file_names import GRID_TEXT, RECORD, STORE
 from comparisons.model import ComputationFailed
 from comparisons.pipeline.finished_run import FinishedRun, kept_texts, write_run
-from comparisons.pipeline.inputs import stored_inputs
+from comparisons.pipeline.inputs import RunInputs, stored_inputs
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import Completed, is_row_of
+from comparisons.runs.folder_lock import locked
 from comparisons.runs.record import now, read_record
 from comparisons.runs.reevaluation import same
 from comparisons.runs.rows import Key, Row
@@ -44,7 +46,18 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
     comparisons.model.ComputationFailed
         If tasks of the sweep are in none of the folders; the others are then merged.
     """
-    started = now()
+    with ExitStack() as locks:
+        # The rows and the record of a shard are of one run.
+        for folder in folders:
+            if (folder / STORE).exists():
+                locks.enter_context(locked(folder))
+        inputs, shards = _sweep(folders, out)
+        locks.enter_context(locked(prepare_folder(out)))
+        return _merged(inputs, shards, out)
+
+
+def _sweep(folders: Sequence[Path], out: Path) -> tuple[RunInputs, list[Path]]:
+    """Return the inputs of a sweep and the folders of its shards, each once."""
     records = {folder: _record(folder, out) for folder in folders}
     sweep, expected = folders[0], records[folders[0]]
     for folder, record in records.items():
@@ -54,10 +67,15 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
     inputs = stored_inputs(sweep, expected)
     if inputs.cases.sha256 != expected["cases_sha256"]:
         raise ValueError(f"{sweep / GRID_TEXT} was changed after it was written: run the sweep again")
+    return inputs, list(records)
+
+
+def _merged(inputs: RunInputs, shards: Sequence[Path], out: Path) -> FinishedRun:
+    started = now()
     planned = {task.key: task for task in inputs.plan()}
-    kept_texts(prepare_folder(out), inputs.cases, None)
+    kept_texts(out, inputs.cases, None)
     with rows_in(out) as store:
-        for folder in records:
+        for folder in shards:
             _take_rows(folder, store, planned)
         rows = _of_sweep(store, planned)
         parts = store.parts(lambda row: row.key in rows)
@@ -67,7 +85,7 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
             f"command of the sweep without --shard and with --out {quote(str(out))}"
         )
     completed = Completed(list(rows.values()), len(rows), parts, None)
-    return write_run(out, inputs, completed, started, merged=[str(folder) for folder in records])
+    return write_run(out, inputs, completed, started, merged=[str(folder) for folder in shards])
 
 
 def _record(folder: Path, out: Path) -> dict[str, Any]:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from random import SystemRandom
 
 import pandas as pd
-from filelock import FileLock
 from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import note
 from comparisons.domain import declared_domain
+from comparisons.external.hidden_folders import hidden_from_models
 from comparisons.judging.fresh_cases import FreshCases, draw
 from comparisons.numerics.number_text import exact
 from comparisons.output.junit import numbers_text
@@ -23,6 +24,7 @@ from comparisons.problem import PARAMETERS
 from comparisons.registry import create, identify
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import checked_jobs, complete, folder_for, parse_shard, tasks_of_shard
+from comparisons.runs.folder_lock import locked
 from comparisons.runs.record import now
 
 #: Most fresh cases for each model and gate.
@@ -72,7 +74,8 @@ def run(
     Raises
     ------
     ValueError
-        If an argument is not admissible, or the folder holds results of other code or files of a user.
+        If an argument is not admissible, the folder holds results of other code or files of a user, or another process
+        computes into it.
     comparisons.model.ComputationFailed
         If the workers cannot compute.
 
@@ -95,20 +98,44 @@ def run(
     >>> finished.verdict, finished.counts["ok"], finished.tables.kappa["kappa"].round(6).tolist()
     (None, 2, [-0.25])
     """
+    with running(cases, gates, models, folder, jobs=jobs, shard=shard, random=random, seed=seed) as finished:
+        return finished
+
+
+@contextmanager
+def running(
+    cases: str | Path | Cases,
+    gates: str | Path | None = None,
+    models: Sequence[str] | None = None,
+    folder: Path | None = None,
+    *,
+    jobs: int = 1,
+    shard: str | None = None,
+    random: int = 0,
+    seed: int | None = None,
+) -> Iterator[FinishedRun]:
+    """Give the finished run of `run` to a block that writes more into its folder, which is locked until its end.
+
+    From the first row to the record, no other process writes into the folder, and no external model reads it.
+    """
     checked_jobs(jobs)
     if shard is not None:
         parse_shard(shard)
-    # Before anything is computed or written, every model is loaded and every text is read.
-    inputs = _inputs(cases, gates, models, random, seed)
-    if shard is not None and inputs.gates is not None:
-        raise ValueError(f"shard {shard} of a run cannot be judged: only cases without gates are computed in shards")
-    started = now()
     target = folder_for(folder)
-    kept_texts(target, inputs.cases, inputs.gates)
-    by_gates = inputs.cases.tier is not None and (models is not None or gates is not None)
-    tasks = inputs.needed() if by_gates else inputs.plan()
-    completed = complete(tasks if shard is None else tasks_of_shard(shard, tasks), target, jobs)
-    return write_run(target, inputs, completed, started, shard=shard)
+    with hidden_from_models(target):
+        # Before anything is computed or written, every model is loaded and every text is read.
+        inputs = _inputs(cases, gates, models, random, seed)
+        if shard is not None and inputs.gates is not None:
+            raise ValueError(
+                f"shard {shard} of a run cannot be judged: only cases without gates are computed in shards"
+            )
+        started = now()
+        with locked(prepare_folder(target)):
+            kept_texts(target, inputs.cases, inputs.gates)
+            by_gates = inputs.cases.tier is not None and (models is not None or gates is not None)
+            tasks = inputs.needed() if by_gates else inputs.plan()
+            completed = complete(tasks if shard is None else tasks_of_shard(shard, tasks), target, jobs)
+            yield write_run(target, inputs, completed, started, shard=shard)
 
 
 def _inputs(
@@ -146,9 +173,6 @@ def _fresh(count: int, seed: int | None, inputs: RunInputs) -> FreshCases | None
     return fresh
 
 
-_LOCK = ".pytest.lock"
-
-
 def named_verdicts(
     cases: str | Path, gates: Path, models: Sequence[str], folder: Path, jobs: int = 1
 ) -> list[tuple[str, str, str]]:
@@ -161,8 +185,7 @@ def named_verdicts(
     ValueError, comparisons.model.ComputationFailed
         As `comparisons.pipeline.run.run`.
     """
-    prepare_folder(folder)
-    with FileLock(folder / _LOCK), threadpool_limits(1):
+    with locked(prepare_folder(folder), wait=True), threadpool_limits(1):
         judgement = run(cases, gates, list(models), folder, jobs=jobs).judgement
     assert judgement is not None
     if judgement.verdicts.empty:

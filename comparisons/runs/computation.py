@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.console.progress import note
-from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.reevaluation import drop_changed
 from comparisons.runs.rows import Row
 from comparisons.runs.store import rows_in
@@ -27,8 +26,8 @@ def checked_jobs(jobs: int) -> int:
 
 
 def folder_for(out: Path | None) -> Path:
-    """Return the folder for the results, made and found writable: `out`, or one named by the time."""
-    return prepare_folder(out or Path("results", "runs", datetime.now().astimezone().strftime("%Y-%m-%dT%H-%M-%S")))
+    """Return the folder for the results: `out`, or one named by the time."""
+    return out or Path("results", "runs", datetime.now().astimezone().strftime("%Y-%m-%dT%H-%M-%S"))
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,8 @@
 
 An interrupted command loses nothing that was finished: with the same folder it continues from its store.  Every entry
 has a checksum; a damaged one is dropped, and what it held is computed again.  One process at a time has the store: it
-needs no memory that processes share, so that it works on the disks of a cluster, too.
+needs no memory that processes share, so that it works on the disks of a cluster, too.  The folder is locked for longer
+(`comparisons.runs.folder_lock`): tables and record follow from the rows.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from comparisons.data.file_names import STORE
 from comparisons.data.input_files import LARGEST_ROWS, check_regular
 from comparisons.model import ComputationFailed
 from comparisons.runs.environment import computing_environment, differences, fingerprint
+from comparisons.runs.folder_lock import refusal
 from comparisons.runs.rows import Row
 
 _Item = TypeVar("_Item")
@@ -275,9 +277,7 @@ def _explained(path: Path, safe: str = "") -> Iterator[None]:
     except sqlite3.Error as error:
         code = error.sqlite_errorcode & 0xFF
         if code == sqlite3.SQLITE_BUSY:
-            raise ValueError(
-                f"another process is computing into {path.parent}: wait for it, or choose another folder with --out"
-            ) from None
+            raise refusal(path.parent) from None
         if isinstance(error, sqlite3.OperationalError) and code != sqlite3.SQLITE_ERROR:
             raise OSError(f"the file {path} cannot be written ({error}){safe}") from error
         raise ValueError(

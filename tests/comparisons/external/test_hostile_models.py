@@ -186,41 +186,7 @@ def test_a_run_completes_the_others_and_its_files_are_its_own(write_model, few_c
     assert table.loc[table["model"] == "good", "value"].tolist() == [1.5] * 4
 
 
-LANDLOCK = "import sys; from comparisons.external.landlock import write_only_in; sys.exit(write_only_in(sys.argv[1]))"
-
-#: The value is the number of actions that are possible elsewhere, and that of a file there which is read.
-ELSEWHERE = """
-old, new = Path({folder!r}, "old"), Path({folder!r}, "new")
-Path("here").write_text("x")
-Path(os.devnull).write_text("x")
-done = []
-def tried(action):
-    with suppress(OSError):
-        action()
-        done.append(action)
-for action in (lambda: old.open("a").write("1"), old.unlink, new.touch, new.mkdir, lambda: os.rename("here", new),
-               lambda: os.symlink("here", new)):
-    tried(action)
-os.system(f"echo x > {{new}}")
-thread = threading.Thread(target=tried, args=(new.touch,))
-thread.start()
-thread.join()
-return Result(len(done) + float(old.read_text()), 0.0)
-"""
-
-
-def test_only_the_scratch_folder_is_writable(write_model, tmp_path):
-    if subprocess.run([sys.executable, "-c", LANDLOCK, str(tmp_path)], check=False).returncode != 1:
-        pytest.skip("this kernel has no Landlock")
-    folder = tmp_path / "elsewhere"
-    folder.mkdir()
-    (folder / "old").write_text("0.5")
-    row = row_of(create(write_model(ELSEWHERE.format(folder=str(folder)))))
-    assert (row.reason, row.value) == ("", 0.5)
-    assert [path.name for path in folder.iterdir()] == ["old"]
-
-
-#: Loads a model, prints the id of its process, and is then busy with a case of it.
+#: Loads a model, prints the ids of its processes, and is then busy with a case of it.
 PARENT = """
 import sys
 from comparisons.registry import create
@@ -247,7 +213,9 @@ def test_process_and_scratch_folder_end_with_the_parent_and_other_files_stay(wri
     files.mkdir()
     (files / "thesis.tex").write_text("1")
     more = (
-        f"citation = property(lambda self: str(os.getpid()))\ndef __init__(self):\n    {start.format(own=str(files))}"
+        "citation = property(lambda self: f'{os.getpid()} {self.child}')\ndef __init__(self):\n"
+        "    self.child = os.fork()\n    if self.child == 0:\n        signal.alarm(300)\n        signal.pause()\n"
+        f"    {start.format(own=str(files))}"
     )
     spec = write_model("while True:\n    pass", more=more)
     temporary = tmp_path / "temporary"
@@ -255,9 +223,10 @@ def test_process_and_scratch_folder_end_with_the_parent_and_other_files_stay(wri
     command = [sys.executable, "-c", PARENT, spec]
     environment = os.environ | {"TMPDIR": str(temporary)}
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=environment) as parent:
-        child = int(parent.stdout.readline())
+        processes = [int(text) for text in parent.stdout.readline().split()]
+        assert len(processes) == 2
         assert list(temporary.iterdir())
         parent.send_signal(number)
-    assert comes_true(lambda: has_ended(child))
+    assert comes_true(lambda: all(map(has_ended, processes)))
     assert comes_true(lambda: not list(temporary.iterdir()))
     assert (files / "thesis.tex").read_text() == "1"

@@ -2,17 +2,24 @@
 
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
 import comparisons
 from comparisons.cli.main import main
 from comparisons.data.file_names import VERDICT_FILES
+from comparisons.pipeline.figures import make_figures
+from comparisons.pipeline.finished_run import write_run
+from comparisons.pipeline.merge import merge
 from comparisons.pipeline.run import run
+from comparisons.runs.csv_format import read_table
+from comparisons.runs.folder_lock import locked
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.store import rows_in
-from tests.comparisons.conftest import GATES
+from tests.comparisons.conftest import GATES, with_entries
 from tests.comparisons.conftest import GRID as STANDING
+from tests.comparisons.grid_text import grid_text
 
 GRID = STANDING.replace('tier = "quick"\n', "")
 
@@ -33,7 +40,7 @@ def test_a_sweep_has_the_record_of_a_run_and_no_verdicts_also_after_a_run(small_
     assert record["arguments"]["grid"] == str(tmp_path / "mine.toml")
     assert (out / "grid.toml").read_text() == GRID
     assert record["parts"][0]["computations"] == 12
-    assert names(out) == {*record["files"], "run.json", "store.sqlite"}
+    assert names(out) == {*record["files"], "run.json", "store.sqlite", ".lock"}
     assert not names(out) & {*VERDICT_FILES, "gates.toml"}
     check_files(record, out)
     assert main(["report", str(out)]) == 0
@@ -112,3 +119,89 @@ def test_gates_need_no_other_rows_of_standing_cases_and_all_of_others(small_grid
     assert finished.counts == {"all": 4, "resumed": 0, "ok": 4}
     assert set(finished.tables.results["model"]) == {"exact", "ten-percent"}
     assert run(GRID, HALF, folder=tmp_path / "mine").counts["all"] == 12
+
+
+#: A run of other cases and gates, which takes a moment.
+OTHER_GRID = grid_text(["dmt"], "bradley", id="other", n=[2], k=[0, 0.2, 0.4], mu=[3])
+OTHER_GATES = with_entries(GATES, id="DMT", candidate="dmt", reference="bradley", cases="{}", min_cases=3)
+
+
+@pytest.mark.parametrize("command", ["run", "judge"])
+def test_no_other_process_writes_into_a_folder_between_its_rows_and_its_record(
+    small_grid, tmp_path, monkeypatch, command
+):
+    (tmp_path / "other.toml").write_text(OTHER_GRID)
+    (tmp_path / "gates.toml").write_text(OTHER_GATES)
+    grid, gates, out = str(tmp_path / "other.toml"), str(tmp_path / "gates.toml"), tmp_path / "out"
+    arguments = {
+        "run": ["--cases", grid, "--gates", gates, "--out", str(out)],
+        "judge": [str(out), "--gates", gates],
+    }
+    others = []
+
+    def meanwhile(*given, **options):
+        program = [sys.executable, "-c", "import sys; from comparisons.cli.main import main; sys.exit(main())"]
+        call = [*program, command, *arguments[command]]
+        others.append(subprocess.run(call, capture_output=True, text=True, check=False))
+        return write_run(*given, **options)
+
+    run("quick", small_grid, folder=out)
+    monkeypatch.setattr("comparisons.pipeline.run.write_run", meanwhile)
+    finished = run("quick", small_grid, folder=out)
+    assert [other.returncode for other in others] == [2]
+    assert str(out) in others[0].stderr
+    assert others[0].stderr.count("\n") == 1
+    record = read_record(out / "run.json")
+    check_files(record, out)
+    assert record["rows"]["all"] == len(read_table(out / "results.csv")) == 8
+    assert (str(finished.verdict), record["verdicts"]["all"]) == ("PASS", "PASS")
+    with rows_in(out) as store:
+        assert {row.model for row in store.items} == {"exact", "ten-percent"}
+
+
+def test_a_lock_is_free_after_a_kill_and_for_the_same_command(tmp_path):
+    program = "import sys; from comparisons.runs.folder_lock import locked; from pathlib import Path"
+    program += "\nwith locked(Path(sys.argv[1])):\n    print('mine', flush=True)\n    sys.stdin.read()"
+    command = [sys.executable, "-c", program, tmp_path]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "mine\n"
+        with pytest.raises(ValueError, match="another process"), locked(tmp_path):
+            pass
+        process.kill()
+    with locked(tmp_path), locked(tmp_path, wait=True):
+        pass
+
+
+def is_locked(folder):
+    """Whether another thread, like another process, is kept from a folder."""
+
+    def tried():
+        with locked(folder):
+            pass
+
+    with ThreadPoolExecutor(1) as threads:
+        return isinstance(threads.submit(tried).exception(), ValueError)
+
+
+def test_what_a_command_writes_last_is_written_under_the_lock(toys, tmp_path, monkeypatch):
+    at_end = []
+
+    def watched(module, function):
+        original = getattr(sys.modules[f"comparisons.pipeline.{module}"], function)
+        folder = tmp_path / module
+
+        def checking(*given, **options):
+            at_end.append((module, is_locked(folder)))
+            return original(*given, **options)
+
+        monkeypatch.setattr(f"comparisons.pipeline.{module}.{function}", checking)
+        return folder
+
+    one = {"n": [2], "k": [0], "mu": [1], "reference": "exact"}
+    comparisons.compare(["ten-percent"], folder=watched("compare", "write_record"), **one)
+    for shard in ("1/2", "2/2"):
+        run(GRID, folder=tmp_path / shard[0], shard=shard)
+    merge([tmp_path / "1", tmp_path / "2"], watched("merge", "write_run"))
+    make_figures(["12"], watched("figures", "write_record"))
+    assert at_end == [("compare", True), ("merge", True), ("figures", True)]
+    assert not any(is_locked(tmp_path / module) for module, _ in at_end)
