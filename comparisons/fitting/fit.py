@@ -20,7 +20,7 @@ from comparisons.fitting.curves import Curves
 from comparisons.fitting.equilibria import distance_of_jkr, is_limit
 from comparisons.fitting.machine import Observations
 from comparisons.fitting.parameters import Key, changed, free_keys, uncertain_keys
-from comparisons.fitting.record import Record, read_records
+from comparisons.fitting.record import Record, checked, read_records
 from comparisons.fitting.search import DESCRIBED, Search, dotted, numbers_of, plain
 from comparisons.model import Array
 from comparisons.problem import Problem
@@ -165,17 +165,26 @@ def fit(
     comparisons.model.ComputationFailed
         If no values describe the curve.
     """
-    keys = free_keys(problem, free)
+    keys = checked_keys(problem, free, model)
     records = read_records(Path(curve), stiffness, sensitivity)
-    return [fit_record(record if branch == "both" else record.only(branch), problem, keys, model) for record in records]
+    return [fit_record(record, problem, keys, model, branch) for record in records]
 
 
-def fit_record(record: Record, problem: Problem, free: Sequence[Key], model: str | None = None) -> Fit:
+def checked_keys(problem: Problem, free: Sequence[str], model: str | None) -> list[Key]:
+    """Return the free keys of a fit; `ValueError` if there is no such key, or the model cannot describe the problem."""
+    if model == "jkr" and not problem.is_of_the_paper("solid", "punch", "law"):
+        raise ValueError("--model jkr takes power-law solids and punches under the 9-3 law")
+    return free_keys(problem, free)
+
+
+def fit_record(
+    record: Record, problem: Problem, free: Sequence[Key], model: str | None = None, branch: str = "both"
+) -> Fit:
     """Fit values of a problem to one curve, as `fit`."""
+    if branch != "both":
+        record = checked(record.only(branch), f"the {branch} of {record.name}")
     search = Search(Observations.of(record), problem, (*free, *uncertain_keys(problem, free)))
     has_limit = problem.is_of_the_paper("solid", "punch", "law")
-    if model == "jkr" and not has_limit:
-        raise ValueError("--model jkr takes power-law solids and punches under the 9-3 law")
     starts = search.starts() if has_limit else [{}]
     if model is None:
         at_start = changed(problem, search.keys, {key.name: starts[0].get(key.name, 0.0) for key in search.keys})

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import io
 import math
+import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from comparisons.data.input_files import LARGEST_TABLE, check_regular, read_text
 from comparisons.data.validation import shown
 from comparisons.model import Array
-from comparisons.problem.columns import column_heading
-from comparisons.problem.units import NotAValue, unit_factor
+from comparisons.problem.columns import Columns, columns_of, factor_of, number_of
+from comparisons.problem.units import LARGEST_SIZE, NotAValue
 
 #: Columns of a CSV file and their units in SI: displacement and load, or height of the base and deflection.
 _COLUMNS = {"displacement": "m", "load": "N", "height": "m", "deflection": "m", "branch": ""}
@@ -112,69 +111,94 @@ def read_records(path: Path, stiffness: float | None = None, sensitivity: float 
     ValueError
         One sentence with the file, the value and the remedy.
     """
+    records = []
+    for record in records_or_refusals(path, path.name, stiffness, sensitivity).values():
+        if isinstance(record, ValueError):
+            raise record
+        records.append(record)
+    return records
+
+
+def records_or_refusals(
+    path: Path, name: str, stiffness: float | None = None, sensitivity: float | None = None
+) -> dict[str, Record | ValueError]:
+    """Return each curve of a file as `read_records`, or why it cannot be used, by its name.
+
+    Parameters
+    ----------
+    path : Path
+    name : str
+        Of the curve; those of a file of several curves have ``#`` and a number after it.
+    stiffness, sensitivity : float, optional
+        As of `read_records`.
+
+    Raises
+    ------
+    ValueError
+        As `read_records`, if no curve of the file can be read.
+    """
     if path.suffix.lower() == ".csv":
         text = read_text(path, "the curve", LARGEST_TABLE)
         if not text.startswith("Force-Distance Curve"):
-            return [_checked(_of_csv(path, text, stiffness, sensitivity), path)]
-    return [_checked(record, path) for record in _of_afm_file(path, stiffness, sensitivity)]
+            return {name: checked(_of_csv(path, text, name, stiffness, sensitivity), str(path))}
+    return _of_afm_file(path, name, stiffness, sensitivity)
 
 
-def _of_csv(path: Path, text: str, stiffness: float | None, sensitivity: float | None) -> Record:
-    try:
-        table = pd.read_csv(io.StringIO(text), comment="#", skipinitialspace=True)
-    except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
-        raise ValueError(
-            f"{path}: the curve is not a CSV table ({str(error).strip()}); write one row per point"
-        ) from None
-    columns: dict[str, Any] = {}
-    for heading in table.columns:
-        name, unit = column_heading(str(heading), _COLUMNS, str(path))
-        columns[name] = table[heading] if name == "branch" else _numbers(path, name, table[heading], unit, sensitivity)
+def _of_csv(path: Path, text: str, name: str, stiffness: float | None, sensitivity: float | None) -> Record:
+    written = columns_of(text, str(path), _COLUMNS)
+    columns = {column: _numbers(written, column, sensitivity) for column in written.units if column != "branch"}
     if "deflection" in columns:
         if stiffness is None:
             raise ValueError(f"{path}: a deflection needs the stiffness of the cantilever; give it with --stiffness")
         columns.setdefault("load", stiffness * columns["deflection"])
     if "height" in columns and "load" in columns and stiffness is not None:
         columns.setdefault("displacement", columns["height"] - columns["load"] / stiffness)
-    if missing := [name for name in ("displacement", "load") if name not in columns]:
+    if missing := [column for column in ("displacement", "load") if column not in columns]:
         raise ValueError(
             f"{path}: the column {missing[0]} is missing; a curve has displacement and load, "
             "or height and deflection with --stiffness"
         )
     displacement = columns["displacement"]
-    approach = _approach(path, columns.get("branch"), displacement)
-    return Record(path.name, displacement, columns["load"], approach, math.inf if stiffness is None else stiffness)
+    approach = _approach(written, displacement)
+    return Record(name, displacement, columns["load"], approach, math.inf if stiffness is None else stiffness)
 
 
-def _numbers(path: Path, name: str, column: pd.Series, unit: str | None, sensitivity: float | None) -> Array:
-    numbers = pd.to_numeric(column, errors="coerce").to_numpy(float)
-    if not np.isfinite(numbers).all():
-        row = int(np.flatnonzero(~np.isfinite(numbers))[0])
-        raise ValueError(
-            f"{path}: {name} = {shown(str(column[row]))} in row {row + 1} below the names is not a finite number"
-        )
+def _numbers(written: Columns, name: str, sensitivity: float | None) -> Array:
+    """A column in SI."""
+    unit, target = written.units[name], _COLUMNS[name]
     if unit is None:
-        raise ValueError(f"{path}: the column {name} has no unit; write it as {name} [n{_COLUMNS[name]}]")
-    try:
-        if name == "deflection" and sensitivity is not None:
-            return numbers * unit_factor(unit, "V") * sensitivity
-        return numbers * unit_factor(unit, _COLUMNS[name])
-    except NotAValue as error:
+        raise ValueError(f"{written.place}: the column {name} has no unit; write it as {name} [n{target}]")
+    if name == "deflection" and sensitivity is not None:
+        factor = sensitivity * factor_of(written, name, unit, "V")
+    else:
         hint = "; a deflection in volts needs --sensitivity" if name == "deflection" else ""
-        raise ValueError(f"{path}: the column {name} {error}{hint}") from None
+        factor = factor_of(written, name, unit, target, hint)
+    values = []
+    for place, cell in zip(written.places, written.cells[name], strict=True):
+        try:
+            value = number_of(cell) * factor
+        except NotAValue as error:
+            raise ValueError(f"{place}: {name} = {shown(cell)} {error}") from None
+        if not abs(value) <= LARGEST_SIZE:
+            raise ValueError(f"{place}: {name} = {shown(cell)} is above {LARGEST_SIZE:g} {target}; check the number")
+        values.append(value)
+    return np.array(values)
 
 
-def _approach(path: Path, words: pd.Series | None, displacement: Array) -> NDArray[np.bool_]:
+def _approach(written: Columns, displacement: Array) -> NDArray[np.bool_]:
     """Whether each point is of the approach: by the words of the file, or until the displacement is largest."""
-    if words is None:
-        return np.arange(len(displacement)) <= int(np.argmax(displacement))
-    stripped = words.astype(str).str.strip()
-    if unknown := sorted(set(stripped) - set(_BRANCHES)):
-        raise ValueError(f"{path}: branch = {shown(unknown[0])} is none of {' and '.join(_BRANCHES)}")
-    return (stripped == "approach").to_numpy(bool)
+    if "branch" not in written.cells:
+        return np.arange(len(displacement)) <= (int(np.argmax(displacement)) if len(displacement) else 0)
+    words = written.cells["branch"]
+    for place, word in zip(written.places, words, strict=True):
+        if word not in _BRANCHES:
+            raise ValueError(f"{place}: branch = {shown(word)} is none of {' and '.join(_BRANCHES)}")
+    return np.array([word == "approach" for word in words], bool)
 
 
-def _of_afm_file(path: Path, stiffness: float | None, sensitivity: float | None) -> list[Record]:
+def _of_afm_file(
+    path: Path, name: str, stiffness: float | None, sensitivity: float | None
+) -> dict[str, Record | ValueError]:
     try:
         import afmformats
     except ImportError:
@@ -182,14 +206,33 @@ def _of_afm_file(path: Path, stiffness: float | None, sensitivity: float | None)
             f"{path} is not a CSV file with the columns displacement and load; for files of instruments install "
             "pip install 'fscm-bench[afm]'"
         ) from None
-    check_regular(path, path.stat(), LARGEST_TABLE)
     given = {"spring constant": stiffness, "sensitivity": sensitivity}
+    # What a reader of many formats raises for a file that it does not know is not documented; some of its own
+    # exceptions are none of `Exception`.
+    failures = (Exception, afmformats.errors.AFMFileFormatError, afmformats.errors.MissingMetaDataError)
     try:
-        curves = afmformats.load_data(path, meta_override={name: value for name, value in given.items() if value})
-        return [_of_segments(f"{path.name}#{number}", curve) for number, curve in enumerate(curves, start=1)]
-    # What a reader of many formats raises for a file that it does not know is not documented.
-    except Exception as error:
-        raise ValueError(f"{path}: afmformats cannot read forces in it ({type(error).__name__}: {error})") from None
+        check_regular(path, path.stat(), LARGEST_TABLE)
+        with warnings.catch_warnings(action="ignore"):
+            curves = afmformats.load_data(path, meta_override={name: value for name, value in given.items() if value})
+    except failures as error:
+        raise _not_read(path, error) from None
+    records: dict[str, Record | ValueError] = {}
+    for number, curve in enumerate(curves, start=1):
+        name_of_curve = f"{name}#{number}"
+        try:
+            record = _of_segments(name_of_curve, curve)
+        except failures as error:
+            records[name_of_curve] = _not_read(path, error)
+            continue
+        try:
+            records[name_of_curve] = checked(record, str(path))
+        except ValueError as refusal:
+            records[name_of_curve] = refusal
+    return records
+
+
+def _not_read(path: Path, error: BaseException) -> ValueError:
+    return ValueError(f"{path}: afmformats cannot read forces in it ({type(error).__name__}: {error})")
 
 
 def _of_segments(name: str, curve: Any) -> Record:
@@ -202,9 +245,17 @@ def _of_segments(name: str, curve: Any) -> Record:
     return Record(name, displacement[usable], force[usable], approach[usable], stiffness)
 
 
-def _checked(record: Record, path: Path) -> Record:
+def checked(record: Record, source: str) -> Record:
+    """Return a record; `ValueError` if no values can be fitted to it, in one sentence that begins with the source."""
     if len(record.load) < _FEWEST:
-        raise ValueError(f"{path}: {len(record.load)} points are fewer than {_FEWEST}; a fit needs more")
-    if not (np.ptp(record.load) > 0.0 and np.ptp(record.displacement) > 0.0):
-        raise ValueError(f"{path}: all loads, or all displacements, are equal; check the columns")
+        raise ValueError(f"{source}: {len(record.load)} points are fewer than {_FEWEST}; a fit needs more")
+    for name, values, unit in (("loads", record.load, "N"), ("displacements", record.displacement, "m")):
+        span = float(np.ptp(values))
+        if span == 0.0:
+            raise ValueError(f"{source}: all {name} are equal; check the columns")
+        if not 1.0 / LARGEST_SIZE <= span <= LARGEST_SIZE:
+            raise ValueError(
+                f"{source}: the {name} have a range of {span:.3g} {unit}, outside {1.0 / LARGEST_SIZE:g} to "
+                f"{LARGEST_SIZE:g} {unit}; check the units of the columns"
+            )
     return record

@@ -308,6 +308,10 @@ def derivatives(residuals: Callable[[lmfit.Parameters], Array], parameters: lmfi
             if moved := float(parameter.value) - value:
                 slopes.append((residuals(parameters) - central) / moved)
         parameter.value = value
+        if not slopes:
+            raise ComputationFailed(
+                f"{dotted(parameter.name)} has no room for a change: begin nearer to the true values"
+            )
         columns.append(np.where(np.abs(slopes[0]) < np.abs(slopes[-1]), slopes[0], slopes[-1]))
     return np.column_stack(columns)
 

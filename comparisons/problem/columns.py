@@ -2,17 +2,81 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
+from comparisons.data.csv_rows import csv_rows
 from comparisons.data.input_files import LARGEST_TABLE, read_text
 from comparisons.data.validation import known_name, shown
 from comparisons.problem.kinds import Form
-from comparisons.problem.units import NotAValue, in_si, unit_factor
+from comparisons.problem.units import NUMBER, NotAValue, in_si, unit_factor
 
 _HEADING = re.compile(r"\s*([A-Za-z_]\w*)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*")
+_NUMBER = re.compile(NUMBER, re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class Columns:
+    """Columns of a CSV text as they are written.
+
+    Attributes
+    ----------
+    place : str
+        Of the heading: file and line.
+    units : dict of str to str or None
+        The unit of each column by its name, None if the heading states none.
+    cells : dict of str to list of str
+        The cells of each column, without blanks around them.
+    places : list of str
+        Of the rows.
+    """
+
+    place: str
+    units: dict[str, str | None]
+    cells: dict[str, list[str]]
+    places: list[str]
+
+
+def columns_of(text: str, source: str, names: Iterable[str]) -> Columns:
+    r"""Return the columns of a CSV text, whose first row has their names, each with its unit in brackets or without.
+
+    Parameters
+    ----------
+    text : str
+    source : str
+        What it is of, for the sentence that refuses it.
+    names : iterable of str
+        Of the columns that are known.
+
+    Raises
+    ------
+    ValueError
+        One sentence with the place, if it is no such text, a name is unknown or stands twice, or a row has another
+        number of cells.
+
+    Examples
+    --------
+    >>> columns = columns_of("z [nm], E [GPa]\n0, 1\n", "pad.csv", ["z", "E"])
+    >>> columns.units, columns.cells
+    ({'z': 'nm', 'E': 'GPa'}, {'z': ['0'], 'E': ['1']})
+    """
+    rows = csv_rows(text, source, by_hand=True)
+    place, heading = next(rows, ("", []))
+    if not heading:
+        raise ValueError(f"{source}: the table is empty; its first row has the names of the columns {', '.join(names)}")
+    units: dict[str, str | None] = {}
+    for cell in heading:
+        name, unit = _name_and_unit(cell, names, place)
+        if name in units:
+            raise ValueError(f"{place}: the column {name} stands twice; name each column once")
+        units[name] = unit
+    places, cells = [], []
+    for place_of_row, row in rows:
+        places.append(place_of_row)
+        cells.append([cell.strip() for cell in row])
+    return Columns(place, units, {name: [row[i] for row in cells] for i, name in enumerate(units)}, places)
 
 
 def read_columns(path: Path, columns: Mapping[str, Form]) -> dict[str, tuple[float, ...]]:
@@ -31,74 +95,62 @@ def read_columns(path: Path, columns: Mapping[str, Form]) -> dict[str, tuple[flo
     ValueError
         One sentence with the file, the line, the value and the remedy.
     """
-    text = read_text(path, "the table", LARGEST_TABLE)
-    lines = [(i, line) for i, line in enumerate(text.splitlines(), start=1) if line.strip() and line.strip()[0] != "#"]
-    if not lines:
-        raise ValueError(f"{path}: the table is empty; its first row has the names of the columns {', '.join(columns)}")
-    (number, heading), *rows = lines
-    factors = _factors(f"{path}, line {number}", heading, columns)
-    values: dict[str, list[float]] = {name: [] for name in factors}
-    for number, line in rows:
-        location = f"{path}, line {number}"
-        cells = _cells(location, line)
-        if len(cells) != len(factors):
-            raise ValueError(f"{location}: {len(cells)} values for {len(factors)} columns; write one for each column")
-        for (name, factor), cell in zip(factors.items(), cells, strict=True):
+    written = columns_of(read_text(path, "the table", LARGEST_TABLE), str(path), columns)
+    for name, form in columns.items():
+        if name not in written.units and not form.is_optional:
+            raise ValueError(f"{written.place}: the column {name} is missing; the names are {', '.join(columns)}")
+    values: dict[str, list[float]] = {}
+    for name, unit in written.units.items():
+        form, column = columns[name], values.setdefault(name, [])
+        factor = factor_of(written, name, unit, form.unit) if unit and form.unit else 1.0
+        for place, cell in zip(written.places, written.cells[name], strict=True):
             try:
-                values[name].append(_value(cell, factor, columns[name], values[name]))
+                column.append(_value(cell, factor, form, column))
             except NotAValue as error:
-                raise ValueError(f"{location}: {name} = {shown(cell.strip())} {error}") from None
+                raise ValueError(f"{place}: {name} = {shown(cell)} {error}") from None
     return {name: tuple(column) for name, column in values.items()}
 
 
-def _cells(location: str, line: str) -> list[str]:
+def factor_of(columns: Columns, name: str, unit: str, target: str, remedy: str = "") -> float:
+    """Return the number of target units that the unit of a column is.
+
+    Raises
+    ------
+    ValueError
+        One sentence with the place, if the unit is unknown or of another dimension.
+    """
     try:
-        return next(csv.reader([line]))
-    except csv.Error as error:
-        raise ValueError(f"{location}: {shown(line)} is no row of CSV ({error}); write numbers and commas") from None
+        return unit_factor(unit, target)
+    except NotAValue as error:
+        raise ValueError(f"{columns.place}: the column {name} {error}; write one of {target}{remedy}") from None
 
 
-def _factors(location: str, heading: str, columns: Mapping[str, Form]) -> dict[str, float]:
-    """The factor of the unit of each column, by its name."""
-    factors: dict[str, float] = {}
-    for cell in _cells(location, heading):
-        name, unit = column_heading(cell, columns, location)
-        if name in factors:
-            raise ValueError(f"{location}: the column {name} stands twice; name each column once")
-        try:
-            factors[name] = unit_factor(unit, columns[name].unit) if unit and columns[name].unit else 1.0
-        except NotAValue as error:
-            raise ValueError(f"{location}: the column {name} {error}; write one of {columns[name].unit}") from None
-    for name, form in columns.items():
-        if name not in factors and not form.is_optional:
-            raise ValueError(f"{location}: the column {name} is missing; the names are {', '.join(columns)}")
-    return factors
-
-
-def column_heading(cell: str, columns: Iterable[str], location: str) -> tuple[str, str | None]:
-    """Return the name of a column and its unit, None if it states none; `ValueError` if the name is unknown.
+def number_of(cell: str) -> float:
+    """Return the number that a cell is; `NotAValue` if it is not a decimal number.
 
     Examples
     --------
-    >>> column_heading(" load [nN]", ["load"], "curve.csv")
-    ('load', 'nN')
+    >>> number_of("-1.5e-3")
+    -0.0015
     """
+    if _NUMBER.fullmatch(cell):
+        return float(cell)
+    is_comma = _NUMBER.fullmatch(cell.replace(",", ".", 1))
+    raise NotAValue("is not a number" + ("; write a point in place of the decimal comma" if is_comma else ""))
+
+
+def _name_and_unit(cell: str, names: Iterable[str], place: str) -> tuple[str, str | None]:
     match = _HEADING.fullmatch(cell)
     if not match:
-        remedy = "; separate columns by commas" if ";" in cell else ""
-        raise ValueError(
-            f"{location}: {shown(cell)} is not a name of a column; the names are {', '.join(columns)}{remedy}"
-        )
-    known_name("column", match[1], columns, location)
+        remedy = "; separate columns by commas" if ";" in cell or "\t" in cell else ""
+        raise ValueError(f"{place}: {shown(cell)} is not a name of a column; the names are {', '.join(names)}{remedy}")
+    known_name("column", match[1], names, place)
     return match[1], match[2]
 
 
 def _value(cell: str, factor: float, form: Form, values_before: Sequence[float]) -> float:
     """A cell in SI; `NotAValue` if it is not admissible."""
-    try:
-        value = in_si(float(cell) * factor, form.unit)
-    except ValueError:
-        raise NotAValue("is not a number") from None
+    value = in_si(number_of(cell) * factor, form.unit)
     if not form.admits(value):
         raise NotAValue(f"is outside its range; it must be {form.text}")
     if form.if_not_rising and values_before and not value > values_before[-1]:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import io
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from comparisons.data.columns import column
-from comparisons.data.input_files import LARGEST_ROWS, read_bytes
+from comparisons.data.csv_rows import csv_rows
+from comparisons.data.input_files import LARGEST_ROWS, read_bytes, utf8_text
 from comparisons.problem import PARAMETERS
 from comparisons.runs.atomic_files import write_file
 
@@ -63,20 +64,25 @@ def read_table(path: Path) -> pd.DataFrame:
         If there is no such file or it is not CSV; one sentence says which.
     """
     try:
-        content = read_bytes(path, LARGEST_ROWS)
-        # The parsers of older versions of pandas are wrong in the last digit; Python's own conversion is exact.
-        table = pd.read_csv(io.BytesIO(content), dtype=str, keep_default_na=False)
+        rows = csv_rows(utf8_text(path, read_bytes(path, LARGEST_ROWS)), path.name)
+        heading, cells = next(rows, ("", []))[1], [row for _, row in rows]
+        if not heading or len(set(heading)) < len(heading):
+            raise ValueError("it has no heading, or a column twice")
     except FileNotFoundError:
         raise ValueError(f"{path} does not exist: {path.parent} is not the folder of a finished run") from None
     except (OSError, ValueError) as error:
         raise ValueError(f"{path} cannot be read as CSV ({str(error).splitlines()[0]})") from None
-    return pd.DataFrame({name: _read_column(table[name], path.stem) for name in table})
+    columns = zip(*cells, strict=True) if cells else ((),) * len(heading)
+    return pd.DataFrame(
+        {name: _read_column(name, of_name, path.stem) for name, of_name in zip(heading, columns, strict=True)}
+    )
 
 
-def _read_column(cells: pd.Series, stem: str) -> pd.Series:
-    if cells.name == _FLAG:
-        return cells == "True"
-    described = column(stem, str(cells.name))
+def _read_column(name: str, cells: Sequence[str], stem: str) -> pd.Series:
+    if name == _FLAG:
+        return pd.Series([cell == "True" for cell in cells], dtype=bool)
+    # Python's own conversion is exact.
+    described = column(stem, name)
     if described is None or described.unit:
         try:
             return pd.Series([float(text or "nan") for text in cells], dtype=float)

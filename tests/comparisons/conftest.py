@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from copy import deepcopy
 from functools import cache, wraps
 from pathlib import Path
@@ -21,6 +22,7 @@ from comparisons.registry import MODELS
 from comparisons.runs import environment, record
 from comparisons.runs.cases import load_grids
 from comparisons.runs.environment import code_digest as code
+from comparisons.runs.folder_lock import locked
 from tests.comparisons.grid_text import grid_text
 
 
@@ -63,6 +65,17 @@ VALUES = {
     ),
     "nonsense": lambda problem: float("nan"),
 }
+
+
+def is_locked(folder):
+    """Whether another thread, like another process, is kept from a folder."""
+
+    def tried():
+        with locked(folder):
+            pass
+
+    with ThreadPoolExecutor(1) as threads:
+        return isinstance(threads.submit(tried).exception(), ValueError)
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from comparisons.cli.options import JOBS, command, file, option, output_format, 
 from comparisons.cli.screen import output, print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note, waiting
-from comparisons.fitting.folder import fit_files, fit_table, write_fits
+from comparisons.fitting.folder import fit_files, fit_table
 from comparisons.output.terminal import rich_table
 from comparisons.problem import Problem
 from comparisons.problem.units import NotAValue, in_si
@@ -56,7 +56,6 @@ def fit_command(args: argparse.Namespace) -> int:
         if item["failure"]:
             log(f"{item['file']}: {item['failure']}")
     if args.out is not None:
-        write_fits(args.out, items)
         note(f"fits.csv, fits.json, fits.tex and a picture of each curve are in {args.out}")
     return FAILED if any(item["failure"] for item in items) else OK
 

@@ -17,15 +17,17 @@ import fem_reference
 import fscm
 from comparisons import fit
 from comparisons.cli.main import main
-from comparisons.fitting import search
+from comparisons.fitting import record, search
 from comparisons.fitting.equilibria import Equilibria, _with_points_between, by_fscm
-from comparisons.fitting.fit import fit_record
+from comparisons.fitting.fit import Fit, FittedValue, fit_record
+from comparisons.fitting.folder import _pictures
 from comparisons.fitting.machine import Machine, Observations
 from comparisons.fitting.parameters import free_keys
 from comparisons.fitting.search import derivatives
 from comparisons.model import ComputationFailed
 from comparisons.problem import Problem, Section
 from comparisons.problem.uncertain import Uncertainty
+from tests.comparisons.conftest import is_locked
 from tests.marks import heavy
 
 from .synthetic import Instrument, contact, of_tabor_number, wrong
@@ -259,6 +261,139 @@ def test_curves_share_a_folder_that_is_resumed(tmp_path, capsys):
     assert "fits.csv" in capsys.readouterr().err
 
 
+def depth(record, problem, *_):
+    """In place of a fit, which takes seconds: the value is the depth of the record."""
+    value = FittedValue(-float(record.load.min()), 0.0, "J/m^2", True, dict.fromkeys(("model", "assumptions"), 0.0))
+    zeros = dict.fromkeys(("displacement", "load"), (0.0, 0.0))
+    parameters = {"law.work_of_adhesion": value}
+    return Fit(record, "jkr", problem, parameters, zeros, 1.0, 1.0, [], record.position, record.load)
+
+
+@pytest.fixture
+def batch(tmp_path, monkeypatch):
+    """A function that fits curves of some names by `depth`; returns exit status, table and names of the pictures.
+
+    A curve is a text, or the load of its lowest point in nN.
+    """
+    monkeypatch.setattr("comparisons.fitting.folder.fit_record", lambda *given, **options: depth(*given))
+    monkeypatch.setattr("comparisons.fitting.folder.save", lambda picture, path: path.touch())
+    (tmp_path / "probe.toml").write_text(PROBE)
+
+    def run(curves, *options):
+        paths = []
+        for name, curve in curves.items():
+            paths.append(tmp_path / name)
+            paths[-1].parent.mkdir(parents=True, exist_ok=True)
+            rows = "".join(f"{i},{-curve * (i == 7)}\n" for i in range(20)) if isinstance(curve, float) else ""
+            paths[-1].write_text(f"displacement [nm],load [nN]\n{rows}" if rows else curve)
+        arguments = ["--problem", str(tmp_path / "probe.toml"), "--free", "law.work_of_adhesion"]
+        folder = tmp_path / "fits"
+        status = main(["fit", *map(str, paths), *arguments, "--out", str(folder), "--jobs", "1", *options])
+        table = (
+            pd.read_csv(folder / "fits.csv", keep_default_na=False, na_values={"value": [""]})
+            if (folder / "fits.csv").exists()
+            else None
+        )
+        pictures = {path.relative_to(folder).as_posix() for path in folder.rglob("*.png")}
+        return status, table, pictures
+
+    return run
+
+
+def test_curves_of_one_name_have_their_own_rows_and_pictures(batch, capsys):
+    status, table, pictures = batch({"a/c.csv": 1.0, "b/c.csv": 2.0, "b/d.csv": 1.0})
+    assert status == 0
+    assert table["curve"].tolist() == ["a/c.csv", "b/c.csv", "d.csv"]
+    assert table["value"].tolist() == pytest.approx([1e-9, 2e-9, 1e-9])
+    assert pictures == {"a/c.png", "b/c.png", "d.png"}
+    assert "a/c.csv: " in capsys.readouterr().out
+
+
+def test_one_unusable_curve_is_a_row_with_its_reason(batch, capsys):
+    short, wrong_column = "displacement [nm],load [nN]\n1,2\n", "displacement [nm],force [nN]\n1,2\n"
+    status, table, pictures = batch({"good.csv": 1.0, "short.csv": short, "wrong.csv": wrong_column})
+    assert status == 4
+    assert table["curve"].tolist() == ["good.csv", "short.csv", "wrong.csv"]
+    assert [bool(reason) for reason in table["reason"]] == [False, True, True]
+    assert "fewer than 20" in table["reason"][1]
+    assert "'force'" in table["reason"][2]
+    assert table["value"].isna().tolist() == [False, True, True]
+    assert pictures == {"good.png"}
+    printed = capsys.readouterr()
+    assert "short.csv: 1 points" in printed.err
+    assert "no fit" in printed.out
+    status, table, _ = batch({"good.csv": 1.0, "short.csv": short}, "--format", "json")
+    answer = json.loads(capsys.readouterr().out)
+    assert status == 4
+    assert [fitted["curve"] for fitted in answer["fits"]] == ["good.csv"]
+    assert [failure["curve"] for failure in answer["failures"]] == ["short.csv"]
+    # A curve that was mended, and one that fits no more.
+    assert batch({"good.csv": 1.0, "short.csv": 1.0})[0] == 0
+
+
+def test_curves_that_are_all_unusable_are_wrong_input(batch, capsys):
+    status, table, _ = batch({"a.csv": "displacement [nm]\n", "b.csv": ""})
+    assert (status, table) == (2, None)
+    assert "a.csv" in capsys.readouterr().err
+
+
+def test_one_bad_curve_of_a_map_costs_its_own_fit_alone(batch, monkeypatch):
+    read = record.records_or_refusals
+
+    def of_map(path, name, **instrument):
+        (whole,) = read(path, name, **instrument).values()
+        return {f"{name}#1": whole, f"{name}#2": ValueError(f"{path}: 3 points are fewer than 20"), f"{name}#3": whole}
+
+    monkeypatch.setattr("comparisons.fitting.folder.records_or_refusals", of_map)
+    status, table, pictures = batch({"map.csv": 1.0})
+    assert status == 4
+    assert len(table) == 3
+    assert table["reason"].tolist()[:2] == ["", ""]
+    assert "map.csv#2" in table["reason"][2]
+    assert pictures == {"map-1.png", "map-3.png"}
+
+
+@pytest.mark.parametrize(
+    ("names", "pictures"),
+    [
+        (["c.csv", "c.txt"], ["c.csv", "c.txt"]),
+        (["c.csv", "C.txt"], ["c.csv", "C.txt"]),
+        (["c.h5", "c-1.csv", "d.csv"], ["c.h5", "c-1.csv", "d"]),
+        (["c-1.csv", "c-2.csv", "a/c.csv"], ["c-1", "c-2", "a/c"]),
+    ],
+)
+def test_no_two_files_share_a_picture(tmp_path, names, pictures):
+    assert list(_pictures(names, tmp_path).values()) == [tmp_path / name for name in pictures]
+
+
+def test_the_table_of_fits_is_written_under_the_lock(batch, tmp_path, monkeypatch):
+    written = []
+    monkeypatch.setattr("comparisons.fitting.folder._write", lambda folder, items: written.append(is_locked(folder)))
+    batch({"c.csv": 1.0})
+    assert written == [True]
+
+
+def test_a_branch_without_points_is_wrong_input():
+    _, record = recorded(2e3)
+    approach = record.only("approach")
+    with pytest.raises(ValueError, match="retreat"):
+        fitted(contact(1e9, 0.05), approach, branch="retreat")
+
+
+def test_a_number_too_large_for_a_step_has_no_derivative():
+    parameters = lmfit.Parameters()
+    parameters.add("a", value=1e30)
+    with pytest.raises(ComputationFailed):
+        derivatives(lambda parameters: np.ones(3), parameters, 1e-3)
+
+
+#: Cells that are no number of a curve.
+UNREADABLE = ("x", "nan", "inf", "1e999", "1e40", "4_0_0", "1.0D0", "")
+
+#: Twenty points, whose range in the first column is 1e-307 m, and 20 nN or nm in the other.
+ROWS = "".join(f"{i}e-300,{i}\n" for i in range(1, 21))
+
+
 @pytest.mark.parametrize(
     ("text", "options", "sentence"),
     [
@@ -267,7 +402,19 @@ def test_curves_share_a_folder_that_is_resumed(tmp_path, capsys):
         ("displacement,load [nN]\n1,2\n", [], "has no unit"),
         ("displacement [nm],load [nm]\n1,2\n", [], "load has the unit nm"),
         ("displacement [nm],force [nN]\n1,2\n", [], "'force'"),
-        ("displacement [nm],load [nN]\n1,x\n", [], "'x' in row 1"),
+        *((f"displacement [nm],load [nN]\n0,1\n1,{cell}\n", [], f"line 3: load = '{cell}'") for cell in UNREADABLE),
+        ('displacement [nm],load [nN]\n"0,5","1,2"\n', [], "line 2: displacement = '0,5'"),
+        ("displacement [nm],load [nN]\n-11,90,1,09\n", [], "line 2: 4 values for 2 columns"),
+        ("displacement [nm],load [nN]\n1,2\n1,2,0\n", [], "line 3: 3 values for 2 columns"),
+        ("displacement [nm],load [nN]\n1,2,\n", [], "line 2: 3 values for 2 columns"),
+        ("displacement [nm],load [nN]\n1\n", [], "line 2: 1 values for 2 columns"),
+        ("displacement [nm],load [nN],load [uN]\n1,2,3\n", [], "column load stands twice"),
+        ("displacement [nm]\tload [nN]\n1\t2\n", [], "separate columns by commas"),
+        ('displacement [nm],load [nN]\n1,"2\n', [], "line 2"),
+        ("", [], "empty"),
+        (f"displacement [nm],load [nN]\n{ROWS}", [], "displacements"),
+        (f"load [nN],displacement [nm]\n{ROWS}", [], "loads"),
+        ("displacement [nm],load [nN]\n" + "1,2\n" * 20, [], "all loads are equal"),
         ("height [nm],deflection [nm]\n1,2\n", [], "--stiffness"),
         ("height [nm],deflection [V]\n1,2\n", ["--stiffness", "1 N/m"], "--sensitivity"),
         ("displacement [nm],load [nN]\n1,2\n", ["--stiffness", "1 m"], "--stiffness 1 m"),
@@ -285,6 +432,17 @@ def test_bad_input_is_one_sentence(tmp_path, capsys, text, options, sentence):
     error = capsys.readouterr().err
     assert sentence in error
     assert "Traceback" not in error
+
+
+def test_a_file_of_no_known_format_is_wrong_input(tmp_path, refused):
+    """What afmformats raises for it is no `Exception`."""
+    pytest.importorskip("afmformats")
+    (tmp_path / "probe.toml").write_text(PROBE)
+    (tmp_path / "curve.txt").write_text("# no format\n1 2\n")
+    refused(
+        ["fit", str(tmp_path / "curve.txt"), "--problem", str(tmp_path / "probe.toml"), "--free", "solid.E0"],
+        "curve.txt",
+    )
 
 
 def test_a_file_of_an_instrument_is_read(tmp_path):

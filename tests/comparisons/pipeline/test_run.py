@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -17,7 +16,7 @@ from comparisons.runs.csv_format import read_table
 from comparisons.runs.folder_lock import locked
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.store import rows_in
-from tests.comparisons.conftest import GATES, with_entries
+from tests.comparisons.conftest import GATES, is_locked, with_entries
 from tests.comparisons.conftest import GRID as STANDING
 from tests.comparisons.grid_text import grid_text
 
@@ -170,17 +169,6 @@ def test_a_lock_is_free_after_a_kill_and_for_the_same_command(tmp_path):
         process.kill()
     with locked(tmp_path), locked(tmp_path, wait=True):
         pass
-
-
-def is_locked(folder):
-    """Whether another thread, like another process, is kept from a folder."""
-
-    def tried():
-        with locked(folder):
-            pass
-
-    with ThreadPoolExecutor(1) as threads:
-        return isinstance(threads.submit(tried).exception(), ValueError)
 
 
 def test_what_a_command_writes_last_is_written_under_the_lock(toys, tmp_path, monkeypatch):

@@ -130,3 +130,16 @@ def test_paths_that_cannot_be_written_are_refused(tmp_path, monkeypatch):
     for check, path in ((prepare_folder, tmp_path), (writable_file, tmp_path / "a.csv")):
         with pytest.raises(OSError, match=f"{path} cannot be written"):
             check(path)
+
+
+@pytest.mark.parametrize("text", ["", "n,k\n2,0,1\n", "n,k\n2\n", "n,n\n2,2\n", 'n,k\n2,"0\n'])
+def test_a_table_whose_cells_are_not_those_of_its_columns_is_refused(tmp_path, text):
+    (tmp_path / "results.csv").write_text(text)
+    with pytest.raises(ValueError, match="results"):
+        read_table(tmp_path / "results.csv")
+
+
+def test_a_table_keeps_texts_of_several_lines(tmp_path):
+    table = pd.DataFrame({"model": ["a\nb", "c"], "n": [2.0, 3.0]})
+    write_table(table, tmp_path / "results")
+    assert read_table(tmp_path / "results.csv")["model"].tolist() == ["a\nb", "c"]

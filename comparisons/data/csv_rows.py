@@ -1,0 +1,66 @@
+"""Rows of a CSV text: each has a cell for every column of the heading, or the text is refused."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator
+
+
+def csv_rows(text: str, source: str, *, by_hand: bool = False) -> Iterator[tuple[str, list[str]]]:
+    r"""Yield the place and the cells of each row, the heading first; blank lines are left out.
+
+    Parameters
+    ----------
+    text : str
+        With ``\n`` at the end of each line, as `comparisons.data.input_files.utf8_text` returns it.
+    source : str
+        What the text is of, for the place: source and line.
+    by_hand : bool
+        Whether people write such a file: lines that begin with ``#`` are comments, and blanks before a cell are left
+        out.
+
+    Raises
+    ------
+    ValueError
+        One sentence with the place, if a row has another number of cells than the heading or is no CSV.
+
+    Examples
+    --------
+    >>> list(csv_rows("a,b\n1,2\n", "table.csv"))
+    [('table.csv, line 1', ['a', 'b']), ('table.csv, line 2', ['1', '2'])]
+    >>> list(csv_rows("a,b\n1,2,\n", "table.csv"))
+    Traceback (most recent call last):
+    ValueError: table.csv, line 2: 3 values for 2 columns; write one for each column, and no comma after the last
+    """
+    number = 0
+
+    def lines() -> Iterator[str]:
+        nonlocal number
+        for line in io.StringIO(text):
+            number += 1
+            is_comment = by_hand and (not line.strip() or line.lstrip()[0] == "#")
+            if not is_comment:
+                yield line
+
+    rows = csv.reader(lines(), strict=True, skipinitialspace=by_hand)
+    count = 0
+    try:
+        for cells in filter(None, rows):
+            count = count or len(cells)
+            if len(cells) != count:
+                raise ValueError(
+                    f"{source}, line {number}: {len(cells)} values for {count} columns; "
+                    f"write one for each column{_remedy(cells, count)}"
+                )
+            yield f"{source}, line {number}", cells
+    except csv.Error as error:
+        raise ValueError(
+            f"{source}, line {number}: it is no row of CSV ({error}); write one row a line, with commas between cells"
+        ) from None
+
+
+def _remedy(cells: list[str], count: int) -> str:
+    if len(cells) < count:
+        return ""
+    return " (a decimal comma separates two, too)" if cells[-1].strip() else ", and no comma after the last"
