@@ -79,6 +79,7 @@ BAD_TEXT = [
     (GOOD, "", ["solid, punch, law missing"]),
     # Scales that do not fit together.
     ('"2.5 um"', '"2.5e6 m"', ["line 11", "6.2e+15 times the range", "units"]),
+    (PUNCH, '[punch]\nkind = "power-law"\nn = 3\nQ = "1e-27 m^2"\n\n', ["line 12", "7.9e-05 times the range", "units"]),
     ('"50 mJ/m^2"', '"1e15 J/m^2"', ["pad.toml", "Tabor number", "units"]),
     (LAW, mie(3, 6), ["line 13", "repulsion"]),
     (LAW, mie(9, 1), ["law.n = 1"]),
@@ -143,6 +144,16 @@ def test_bad_values(line, key, value, reason, tmp_path):
     name = [] if key == "kind" else [f"{'solid' if line < 9 else 'punch'}.{key} = "]
     sentence = sentence_of(tmp_path, "pad.toml", f"line {line}", *name, reason, old=written, new=f"{key} = {value}")
     assert len(sentence) < 500
+
+
+@pytest.mark.parametrize(
+    ("R", "is_admitted"), [("0.39 pm", False), ("0.41 pm", True), ("390 m", True), ("410 m", False)]
+)
+def test_a_radius_is_from_a_thousandth_to_a_million_million_ranges(R, is_admitted, tmp_path):
+    if is_admitted:
+        assert loaded(tmp_path, '"2.5 um"', f'"{R}"').punch["R"] > 0.0
+    else:
+        sentence_of(tmp_path, "line 11", "times the range", old='"2.5 um"', new=f'"{R}"')
 
 
 @pytest.mark.parametrize(("old", "new", "parts"), BAD_TEXT, ids=range(len(BAD_TEXT)))
