@@ -17,6 +17,7 @@ from comparisons.data.file_names import REPORT, STORE
 from comparisons.data.input_files import read_text
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import validated
+from comparisons.external.hidden_folders import hidden_from_models
 from comparisons.external.model_source import close_models
 from comparisons.model import ComputationFailed
 from comparisons.output.report.board import BoardEntry, Submission, board_page
@@ -170,7 +171,9 @@ def _judge(submission: Submission, site: Path, earlier: list[BoardEntry], jobs: 
         # The values of the reference are the same for every submission.
         with rows_in(target) as store, rows_in(site / judged[-1]) as source:
             store.take(source, lambda row: row.model == REFERENCE)
-    run(models=[submission.spec], folder=target, jobs=jobs)
+    # Nor does it read the results of the references beside those of others.
+    with hidden_from_models(site):
+        run(models=[submission.spec], folder=target, jobs=jobs)
     write_file(target / REPORT, render(make_page(read_folder(target))))
 
 

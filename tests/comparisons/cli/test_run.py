@@ -17,7 +17,7 @@ from tests.comparisons.grid_text import grid_text
 
 TABLES = ("results", "kappa", "largest_kappa", "curves")
 FILES = {
-    *("store.sqlite", "run.json", "gates.toml"),
+    *(".lock", "store.sqlite", "run.json", "gates.toml"),
     *(f"{table}.csv" for table in TABLES),
     *VERDICT_FILES,
     *("verdicts.md", "verdicts.tex"),

@@ -7,14 +7,17 @@ import shutil
 import socket
 import subprocess
 import sys
+from pathlib import Path
 
 import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.external.hidden_folders import hidden_from_models
+from comparisons.external.hidden_folders import hidden_folders, hidden_from_models
 from comparisons.external.landlock import confine
 from comparisons.external.mounts import every_path
+from comparisons.model import ComputationFailed
+from comparisons.pipeline.board import make_board
 from comparisons.registry import create
 
 from .conftest import GOOD, row_of
@@ -120,6 +123,20 @@ def test_a_model_does_not_see_the_results_of_the_references(write_model, few_cas
         table = pd.read_csv(out / "results.csv")
         assert len(table[table["model"] == "bradley"]) == 4
         assert table.loc[table["model"] == name, "value"].round(9).tolist() == [99.0] * 4
+
+
+def test_a_submission_does_not_see_the_results_beside_those_of_others(tmp_path, monkeypatch):
+    seen = []
+
+    def judged(**options):
+        seen.append(hidden_folders())
+        raise ComputationFailed("enough")
+
+    monkeypatch.setattr("comparisons.pipeline.board.run", judged)
+    folder = Path(__file__).parents[3] / "docs" / "board" / "submissions" / "jkr"
+    shutil.copytree(folder, tmp_path / "submissions" / "jkr")
+    make_board(tmp_path / "submissions", tmp_path / "site")
+    assert seen == [[os.path.realpath(tmp_path / "site")]]
 
 
 @pytest.mark.parametrize("kind", ["file", "Python"])
