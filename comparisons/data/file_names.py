@@ -7,6 +7,9 @@ from pathlib import Path
 #: The record of the run, and the store of finished computations.
 RECORD, STORE = "run.json", "store.sqlite"
 
+#: The description of a submission to the board, in its folder.
+SUBMISSION = "submission.toml"
+
 #: Folder of the committed results, in a clone of the repository.
 BASELINE_FOLDER = Path("results", "baseline")
 

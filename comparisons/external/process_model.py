@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any, TypeVar
 
 from comparisons.domain import Domain
-from comparisons.external.child import Child, Overdue
+from comparisons.external.child import Child, Overdue, TimeIsOver
 from comparisons.external.replies import Malformed, curve_of, described, result_of
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
@@ -83,6 +83,9 @@ class ExternalModel:
             self._overdue += 1
             if self._overdue >= PATIENCE:
                 self._refusal = f"not evaluated: it ran out of time {PATIENCE} times in a row"
+            raise
+        except TimeIsOver as error:
+            self._refusal = f"not evaluated: {error}"
             raise
         # Only the reply to a case shows that the model can be in time; loading it again does not.
         self._overdue = 0

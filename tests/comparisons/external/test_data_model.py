@@ -78,7 +78,7 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
         ({"change": {"n = [2]": 'n = ["2"]'}}, "n must be a list of numbers"),
         ({"change": {"k = [0, 0.4]": "k = [0, 1.4]"}}, "[0, 1]"),
         ({"change": {"k = [0, 0.4]": "k = []"}}, "no case"),
-        ({"change": {'"A. Author"': '"A.\\u202eAuthor"'}}, "author must be one line"),
+        ({"change": {'"A. Author"': '"A.\\u202eAuthor"'}}, "must be one line"),
         ({"rows": with_row("pull_off_force,2,0,1,nan,1e-6")}, "line 3: value = 'nan' is not a finite"),
         ({"change": {'name = "': "x = " + "[" * 5000 + "]" * 5000 + '\nname = "'}}, "nested too deeply"),
         ({"change": {'"pi Q': '"2 pi Q'}}, "state the values in that"),
