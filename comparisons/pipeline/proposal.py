@@ -128,10 +128,15 @@ def _on_board(clone: Path, name: str) -> Iterator[Submission]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Check and print; return the exit status, 2 if the proposal is refused."""
-    main_clone, proposed = map(Path, sys.argv[1:] if arguments is None else arguments)
-    print(checked_folder(changes(proposed), main_clone, proposed, datetime.now(UTC).date()))
-    return OK
+    clones = sys.argv[1:] if arguments is None else arguments
+
+    def check() -> int:
+        board, proposed = map(Path, clones)
+        print(checked_folder(changes(proposed), board, proposed, datetime.now(UTC).date()))
+        return OK
+
+    return guarded(check, "proposal")
 
 
 if __name__ == "__main__":
-    sys.exit(guarded(main, "proposal"))
+    sys.exit(main())

@@ -16,7 +16,7 @@ from typing import Any
 from comparisons.console.printable import printable
 from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import SUBMISSION
-from comparisons.data.folder_entries import entries_below
+from comparisons.data.folder_entries import TooMany, entries_below
 from comparisons.data.input_files import read_text
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import validated
@@ -83,10 +83,9 @@ def _below(root: Path) -> Iterator[SubmissionFolder]:
             parts = submission.relative_to(root).parts
             flaw = "its folder is a symbolic link" if submission.is_symlink() else ""
             if unusual := [part for part in parts if not is_portable(part)]:
-                flaw = (
-                    f"the name of its folder, {unusual[0]!a:.80}, has other characters than letters, digits, . _ and -"
-                )
-            yield SubmissionFolder(submission, _shown("/".join(parts)), (parts[0], root.name), flaw)
+                flaw = f"{unusual[0]!a:.80} in its path is a name that not every system can hold"
+            names = parts[0], os.path.basename(os.path.realpath(root))
+            yield SubmissionFolder(submission, _shown("/".join(parts)), names, flaw)
 
 
 def _misplaced(folder: Path, path: str) -> SubmissionFolder:
@@ -135,7 +134,7 @@ def check_files(folder: Path) -> None:
         One sentence, which names the first of them.
     """
     size, names = 0, set[str]()
-    for entry in entries_below(folder, 2 * MOST_FILES):
+    for entry in _entries(folder):
         path = os.path.relpath(entry.path, folder)
         shown = f"{path!a:.80}"
         if entry.is_symlink() or not (entry.is_file() or entry.is_dir()):
@@ -151,9 +150,16 @@ def check_files(folder: Path) -> None:
         size += entry.stat(follow_symlinks=False).st_size if entry.is_file() else 0
     if len(names) > MOST_FILES or size > MOST_BYTES:
         raise ValueError(
-            f"the submission has {len(names)} files of {size} bytes together; it may have {MOST_FILES} of "
+            f"the submission has {len(names)} files and folders of {size} bytes together; it may have {MOST_FILES} of "
             f"{MOST_BYTES} bytes, which are hashed"
         )
+
+
+def _entries(folder: Path) -> Iterator[os.DirEntry[str]]:
+    try:
+        yield from entries_below(folder, 2 * MOST_FILES)
+    except TooMany:
+        raise ValueError(f"the submission has more than {2 * MOST_FILES} files and folders") from None
 
 
 def _spec(folder: Path, model: str) -> str:
