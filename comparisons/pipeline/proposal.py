@@ -76,7 +76,7 @@ def checked_folder(changed: Iterable[Change], main: Path, proposed: Path, today:
         raise ValueError(f"the version {min(lost)} of {name} is on the board, and the proposal removes or renames it")
     names = [path.name for path in (main / SUBMISSIONS).iterdir() if path.name != name]
     if alike := [other for other in names if appearance(other) == appearance(name)]:
-        raise ValueError(f"the name {name} looks like {alike[0]}, which is on the board; choose another name")
+        raise ValueError(f"the name {name} resembles {alike[0]}, which is on the board; choose another name")
     authors = {author.casefold() for entry in on_board for author in entry.authors}
     versions = {entry.version for entry in on_board}
     newest = max((entry.date for entry in on_board), default="")

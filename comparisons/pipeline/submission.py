@@ -120,7 +120,7 @@ def read_submission(submission: SubmissionFolder) -> Submission:
     if submission.names and name not in submission.names:
         raise ValueError(f"the folder of the model {name} is {name}, and this one is {submission.names[0]}")
     if name not in MODELS and appearance(name) in map(appearance, MODELS):
-        raise ValueError(f"the name {name} looks like that of a model of fscm-bench; choose another name")
+        raise ValueError(f"the name {name} resembles that of a model of fscm-bench; choose another name")
     authors, model = tuple(described.pop("authors")), described.pop("model")
     return Submission(**described, authors=authors, spec=_spec(submission.folder, model))
 

@@ -80,13 +80,13 @@ def test_each_costs_itself_one_sentence_and_no_other_row_changes(submissions, tm
     for name, (make, words) in FILES.items():
         make(submissions(name, name=name).parent)
         named[name] = words
-    # The owner's name in folders that sort before and after its own, as another version, and a name that looks alike.
+    # The owner's name in folders that sort before and after its own, as another version, and a name that resembles it.
     for folder, version in (("a", "1"), ("z", "2"), ("0/1", "3")):
         submissions(folder, name="ten-percent", version=version, model="ten-percent", date="2026-12-31")
         named[folder] = "the folder of the model ten-percent is ten-percent"
     submissions("ten_percent", name="ten_percent", date="2026-12-31")
     submissions("Upper", name="Upper")
-    named |= {"ten_percent": "looks like", "Upper": "small letters"}
+    named |= {"ten_percent": "resembles", "Upper": "small letters"}
     # Descriptions that would hide the others, a folder that is a link, and names of folders.
     shutil.copy(owner, tmp_path / "submissions" / "submission.toml")
     submissions("hides/1", name="hides", model="no-such-model")
@@ -99,7 +99,7 @@ def test_each_costs_itself_one_sentence_and_no_other_row_changes(submissions, tm
         "hides/1": "no-such-model",
     }
     named |= {"linked": "symbolic link", "bytes\\udcff": "not every system"}
-    # What nobody has thought of.
+    # What no rule is about.
     submissions("odd", name="odd", model="odd.py:Model").parent.joinpath("odd.py").touch()
     named["odd"] = "it cannot be judged (OverflowError: too large"
     real = board_module._judge
