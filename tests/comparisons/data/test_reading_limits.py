@@ -30,7 +30,7 @@ def test_plain_numbers_are_what_they_were(capsys):
     assert "2" in capsys.readouterr().out
 
 
-KEYS = [f"a{'.a' * 100_000} = 1", f"[a{'.a' * 100_000}]", 'x = [{"a" . b' + ".'c'" * 40 + " = 1}]"]
+KEYS = [f"a{'.a' * 2_000} = 1", f"[a{'.a' * 2_000}]", 'x = [{"a" . b' + ".'c'" * 40 + " = 1}]"]
 
 
 @pytest.mark.parametrize("text", KEYS, ids=["key", "table", "inline"])
@@ -40,7 +40,7 @@ def test_a_deep_key_is_refused_before_it_is_parsed(text):
         parse(text, "a.toml")
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert peak < 20e6
+    assert peak < 2e6
 
 
 def test_dots_in_numbers_and_texts_are_no_keys():
