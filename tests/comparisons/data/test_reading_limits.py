@@ -49,14 +49,11 @@ def test_dots_in_numbers_and_texts_are_no_keys():
     assert (len(tables["a"]["b"]["c"]), tables["e"]["f"]["g"]) == (1000, 1.5)
 
 
-INTEGERS = {"hex": f"0x{'f' * 20_000}", "binary": f"0b{'1' * 64}", "large": str(2**63), "negative": str(-(2**64))}
-
-
-@pytest.mark.parametrize("integer", INTEGERS.values(), ids=INTEGERS)
-def test_an_integer_of_more_than_64_bits_is_none_of_toml(integer):
+@pytest.mark.parametrize("digits", ["0x" + 20_000 * "f", "0b" + 5000 * "1"], ids=["hexadecimal", "binary"])
+def test_an_integer_that_no_sentence_can_show_is_refused(digits):
     with pytest.raises(ValueError, match="bits"):
-        parse(f"a = [{{ b = {integer} }}]", "a.toml")
-    assert parse(f"a = {2**63 - 1}", "a.toml") == {"a": 2**63 - 1}
+        parse(f"a = [{{ b = {digits} }}]", "a.toml")
+    assert parse(f"a = {10**400}", "a.toml") == {"a": 10**400}
 
 
 def test_the_end_of_a_pattern_is_the_end_of_the_text():
