@@ -66,6 +66,10 @@ class Overdue(ComputationFailed):
     """There was no reply in time."""
 
 
+class Overfull(Overdue):
+    """There was none before the scratch folder was too large."""
+
+
 class TimeIsOver(ComputationFailed):
     """The models of a submission have used their time."""
 
@@ -101,11 +105,11 @@ class Child:
         Raises
         ------
         Overdue
-            If there is none in time.
+            If there is none in time, or before the scratch folder is too large.
         TimeIsOver
             If the time of all models of a submission is over.
         comparisons.model.ComputationFailed
-            If the process ends or writes anything else, or its scratch folder is too large.
+            If the process ends or writes anything else.
         """
         with self._ended_on_failure():
             # A process that has ended is noticed where its reply is read.
@@ -212,9 +216,9 @@ class Child:
                 with contextlib.suppress(OSError):
                     size += entry.stat(follow_symlinks=False).st_blocks * _BLOCK
         except TooMany:
-            raise ComputationFailed(f"it has more than {_MOST_SCRATCH} files in its scratch folder") from None
+            raise Overfull(f"it has more than {_MOST_SCRATCH} files in its scratch folder") from None
         if size > _LARGEST_SCRATCH:
-            raise ComputationFailed(f"its files in the scratch folder have {size} bytes, more than {_LARGEST_SCRATCH}")
+            raise Overfull(f"its files in the scratch folder have {size} bytes, more than {_LARGEST_SCRATCH}")
 
     def _end_of_process(self) -> str:
         # The pipe may close a moment before the process is gone.

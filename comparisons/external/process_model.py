@@ -18,7 +18,7 @@ from comparisons.quantities import QUANTITIES
 
 _Reply = TypeVar("_Reply", Result, Curve)
 
-#: Requests in a row that may run out of time; later ones are not sent, because a run of hundreds must end.
+#: Requests in a row that may run out of time or disk; later ones are not sent, because a run of hundreds must end.
 PATIENCE = 3
 
 
@@ -82,7 +82,7 @@ class ExternalModel:
         except Overdue:
             self._overdue += 1
             if self._overdue >= PATIENCE:
-                self._refusal = f"not evaluated: it ran out of time {PATIENCE} times in a row"
+                self._refusal = f"not evaluated: it ran out of time or disk {PATIENCE} times in a row"
             raise
         except TimeIsOver as error:
             self._refusal = f"not evaluated: {error}"

@@ -222,6 +222,14 @@ def test_what_fills_the_disk_or_the_pipe_is_ended_and_the_next_one_is_right(writ
         assert row_of(model, 0.5).value == 1.5
 
 
+def test_one_that_fills_the_disk_each_time_is_evaluated_no_more(write_model, monkeypatch):
+    monkeypatch.setattr(process_model, "PATIENCE", 2)
+    monkeypatch.setattr(child, "_LARGEST_SCRATCH", 1_000_000)
+    model = create(write_model(TOO_MUCH[0][0]))
+    reasons = [row_of(model).reason for _ in range(3)]
+    assert [reason.startswith("not evaluated") for reason in reasons] == [False, False, True]
+
+
 def test_all_evaluations_together_have_an_end(write_model):
     """One that stops itself, too, which ends no wait; afterwards nothing is sent to the model."""
     model = create(write_model(f"if problem.mu == 1:\n    os.kill(os.getpid(), signal.SIGSTOP)\n{GOOD}"))
