@@ -17,7 +17,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from comparisons.data.validation import known_name
+from comparisons.data.toml_text import is_real
+from comparisons.data.validation import known_name, shown
 from comparisons.problem import PARAMETERS
 from comparisons.quantities import ALL_QUANTITIES
 
@@ -170,7 +171,7 @@ def _table(table: Mapping[Any, Any]) -> Range:
         known_name("key", str(key), (_QUANTITIES, *PARAMETERS), "applies_to")
     quantities = table.get(_QUANTITIES)
     if not isinstance(quantities, tuple | list) or not quantities:
-        raise ValueError(f"applies_to: {_QUANTITIES} = {quantities!a:.60} is not a list of at least one quantity")
+        raise ValueError(f"applies_to: {_QUANTITIES} = {shown(quantities)} is not a list of at least one quantity")
     for quantity in quantities:
         known_name("quantity", str(quantity), ALL_QUANTITIES, "applies_to")
     limits = {name: _ends(name, table[name]) for name in PARAMETERS if name in table}
@@ -182,7 +183,7 @@ def _ends(name: str, stated: object) -> tuple[float, float]:
         low, high = (default if end is None else float(end) for end, default in zip(stated, NO_LIMITS, strict=True))
         if low <= high:
             return low, high
-    raise ValueError(f"applies_to: {name} = {stated!a:.60} is not [low, high], two numbers with low <= high")
+    raise ValueError(f"applies_to: {name} = {shown(stated)} is not [low, high], two numbers with low <= high")
 
 
 #: The meaning of None as the smallest and as the largest value.
@@ -190,7 +191,9 @@ NO_LIMITS = (-math.inf, math.inf)
 
 
 def _is_end(end: object) -> bool:
-    return end is None or (isinstance(end, numbers.Real) and not isinstance(end, bool))
+    # Not an integer beyond the doubles, which is no number of a domain.
+    is_number = isinstance(end, numbers.Real) and not isinstance(end, bool)
+    return end is None or (is_number and (not isinstance(end, int) or is_real(end)))
 
 
 def _json_limits(table: Range) -> dict[str, list[float | None]]:

@@ -9,6 +9,7 @@ from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from comparisons.data.plain_numbers import plain_float, plain_int
 from comparisons.problem import PARAMETERS, Problem
 from comparisons.problem.variation import RANGE, spaced
 from comparisons.runs.workers import usable_cores
@@ -65,9 +66,25 @@ def _numbers(text: str, logarithmic: bool) -> list[float]:
     except ValueError as error:
         raise argparse.ArgumentTypeError(f"{text}: {error}") from None
     try:
-        return [float(number) for number in texts]
+        return [plain_float(number) for number in texts]
     except ValueError:
         raise argparse.ArgumentTypeError(f"{text!r} is neither a number nor a range FROM:TO:COUNT") from None
+
+
+def _argument(read: Callable[[str], Any]) -> Callable[[str], Any]:
+    """Return a reader whose sentence argparse shows."""
+
+    def argument(text: str) -> Any:
+        try:
+            return read(text)
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(str(error)) from None
+
+    return argument
+
+
+#: Types of options.
+NUMBER, INTEGER = _argument(plain_float), _argument(plain_int)
 
 
 def output_format(*names: str, help: str = "(default: text)") -> Option:
@@ -80,15 +97,15 @@ MODEL_SPEC = "a name (fscm-bench list models), FILE.py:CLASS, ./PROGRAM, or a fo
 
 #: The parameters of one problem.
 CASE = (
-    option("--n", type=float, help="shape index of the punch r^n/n, 2/3 < n <= 300 (1 cone, 2 paraboloid)"),
-    option("--k", type=float, help="gradient exponent of E = E0 (z/c0)^k, 0 to 1 (finite elements: to 0.9)"),
-    option("--mu", type=float, help="generalised Tabor number (Eq. 29), > 0"),
+    option("--n", type=NUMBER, help="shape index of the punch r^n/n, 2/3 < n <= 300 (1 cone, 2 paraboloid)"),
+    option("--k", type=NUMBER, help="gradient exponent of E = E0 (z/c0)^k, 0 to 1 (finite elements: to 0.9)"),
+    option("--mu", type=NUMBER, help="generalised Tabor number (Eq. 29), > 0"),
 )
 
 #: The parameters of one problem, and the file that takes their place.
 CASE_OR_FILE = (
     *CASE,
-    option("--nu", type=float, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one"),
+    option("--nu", type=NUMBER, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one"),
     file("--problem", help="a problem file in physical units instead of n, k, mu and nu; results are in SI"),
 )
 
@@ -104,7 +121,7 @@ VARIED_FILE = (
 )
 
 #: Number of processes.
-JOBS = option("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one per core)")
+JOBS = option("--jobs", metavar="N", type=INTEGER, default=usable_cores(), help="processes (default: one per core)")
 #: Folder for the results.
 OUT = file("--out", metavar="DIR", help="folder for the results (default: results/runs/TIME); results in it are kept")
 #: Leaves out all but failures.

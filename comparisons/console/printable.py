@@ -1,6 +1,11 @@
-"""Texts of files and folders as they may reach a terminal: without control characters."""
+"""Texts of files and folders as they may reach a terminal or a page: without control characters."""
 
 from __future__ import annotations
+
+import unicodedata
+
+#: Most combining marks in sequence.  Languages use two; a pile of dozens covers the lines above and below.
+_MOST_MARKS = 3
 
 
 def printable(text: str) -> str:
@@ -18,3 +23,34 @@ def printable(text: str) -> str:
     return "".join(
         character if character.isprintable() or character == "\n" else ascii(character)[1:-1] for character in text
     )
+
+
+def is_line(text: str) -> bool:
+    r"""Whether a text is one printable line: no control characters, single spaces between words, no pile of marks.
+
+    A character that turns the direction of writing is a control character, too.
+
+    Examples
+    --------
+    >>> [is_line(text) for text in ("J. Müller", "two\nlines", "gnp\u202e.txt", " ", "a" + "\u0301" * 9)]
+    [True, False, False, False, False]
+    """
+    return bool(text) and text == " ".join(text.split()) and text.isprintable() and text == without_piles(text)
+
+
+def without_piles(text: str) -> str:
+    r"""Return a text with at most three combining marks in sequence.
+
+    Examples
+    --------
+    >>> len(without_piles("a" + "\u0301" * 9))
+    4
+    """
+    if text.isascii():
+        return text
+    kept, marks = [], 0
+    for character in text:
+        marks = marks + 1 if unicodedata.category(character) in ("Mn", "Me") else 0
+        if marks <= _MOST_MARKS:
+            kept.append(character)
+    return "".join(kept)

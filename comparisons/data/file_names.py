@@ -10,6 +10,9 @@ RECORD, STORE = "run.json", "store.sqlite"
 #: The lock of the folder.  It stays, empty: its removal would let two commands lock two files of one name.
 LOCK = ".lock"
 
+#: The description of a submission to the board, in its folder.
+SUBMISSION = "submission.toml"
+
 #: Folder of the committed results, in a clone of the repository.
 BASELINE_FOLDER = Path("results", "baseline")
 

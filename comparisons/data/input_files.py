@@ -5,7 +5,10 @@ from __future__ import annotations
 import errno
 import os
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import IO
 
 #: Most bytes of a text in TOML: ninety times the standing gates, and read in seconds.
 LARGEST_TEXT = 4_000_000
@@ -41,6 +44,22 @@ def read_bytes(path: Path, largest: int) -> bytes:
     Traceback (most recent call last):
     ValueError: /dev/zero is a device, which may have no end; give a regular file
     """
+    with regular_file(path, largest) as (file, size):
+        content = file.read(size + 1)
+    if len(content) > size:
+        raise ValueError(f"{path} has more bytes than the system states; give a file that is not being written")
+    return content
+
+
+@contextmanager
+def regular_file(path: Path, largest: int) -> Iterator[tuple[IO[bytes], int]]:
+    """Open a regular file; yield it and its size, which limits what is to be read: some files of /proc have no end.
+
+    Raises
+    ------
+    OSError, ValueError
+        As `read_bytes`.
+    """
     try:
         # O_NONBLOCK: a pipe without a writer would wait for one.
         descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
@@ -50,12 +69,9 @@ def read_bytes(path: Path, largest: int) -> bytes:
         status = os.fstat(descriptor)
         check_regular(path, status, largest)
         with os.fdopen(descriptor, "rb", closefd=False) as file:
-            content = file.read(status.st_size + 1)
+            yield file, status.st_size
     finally:
         os.close(descriptor)
-    if len(content) > status.st_size:
-        raise ValueError(f"{path} has more bytes than the system states; give a file that is not being written")
-    return content
 
 
 def check_regular(path: Path, status: os.stat_result, largest: int) -> None:

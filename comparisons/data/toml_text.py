@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import tomllib
 from collections.abc import Iterator
@@ -11,6 +12,17 @@ from typing import Any
 #: Most characters of a key or of a text; the longest of our files has 330.  The search for the known name nearest to an
 #: unknown one, and the reading of a unit, take minutes for a megabyte.
 LONGEST_WORD = 10_000
+
+#: Most parts of a dotted key.  The deepest of our files has three; the parser needs time and memory of the square of
+#: their number, 400 MB for a key of 300 kB.
+_MOST_PARTS = 32
+_PART = r"""(?:[A-Za-z0-9_-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\."""
+#: A key, also of a table, with more of them.
+_DEEP_KEY = re.compile(rf"(?<![A-Za-z0-9_-])(?:{_PART}[ \t]*+){{{_MOST_PARTS}}}")
+
+#: Most bits of an integer, which may be hexadecimal: Python writes none of more than 4300 digits, 14000 bits, into a
+#: sentence.
+_MOST_BITS = 4096
 
 
 def shipped(name: str) -> dict[str, Any]:
@@ -36,7 +48,8 @@ def parse(text: str, source: str) -> dict[str, Any]:
     Raises
     ------
     ValueError
-        If it is not TOML, nested too deeply for the parser, or has a key or a text longer than `LONGEST_WORD`.
+        If it is not TOML, nested too deeply for the parser, or has a key or a text longer than `LONGEST_WORD` or an
+        integer of more than `_MOST_BITS`.
 
     Examples
     --------
@@ -44,6 +57,9 @@ def parse(text: str, source: str) -> dict[str, Any]:
     Traceback (most recent call last):
     ValueError: mine.toml is not TOML: Invalid value (at end of document)
     """
+    too_deep = f"{source} is not TOML that can be read: its keys or brackets are nested too deeply"
+    if _DEEP_KEY.search(text):
+        raise ValueError(too_deep)
     try:
         tables = tomllib.loads(text)
     except ValueError as error:
@@ -51,14 +67,19 @@ def parse(text: str, source: str) -> dict[str, Any]:
         reason = "a number has too many digits" if "set_int_max_str_digits" in str(error) else error
         raise ValueError(f"{source} is not TOML: {reason}") from None
     except RecursionError:
-        raise ValueError(f"{source} is not TOML that can be read: its brackets are nested too deeply") from None
-    if (length := max(map(len, _words(tables)), default=0)) > LONGEST_WORD:
-        raise ValueError(f"{source} has a key or a text of {length} characters; they have at most {LONGEST_WORD}")
+        raise ValueError(too_deep) from None
+    for value in _values(tables):
+        if isinstance(value, str) and len(value) > LONGEST_WORD:
+            raise ValueError(
+                f"{source} has a key or a text of {len(value)} characters; they have at most {LONGEST_WORD}"
+            )
+        if isinstance(value, int) and value.bit_length() > _MOST_BITS:
+            raise ValueError(f"{source} has an integer of {value.bit_length()} bits; they have at most {_MOST_BITS}")
     return tables
 
 
-def _words(tables: dict[str, Any]) -> Iterator[str]:
-    """Yield the keys and the texts of all tables."""
+def _values(tables: dict[str, Any]) -> Iterator[object]:
+    """Yield the keys of all tables, and the values that are neither a table nor a list."""
     pending: list[Any] = [tables]
     while pending:
         value = pending.pop()
@@ -67,7 +88,7 @@ def _words(tables: dict[str, Any]) -> Iterator[str]:
             pending.extend(value.values())
         elif isinstance(value, list):
             pending.extend(value)
-        elif isinstance(value, str):
+        else:
             yield value
 
 

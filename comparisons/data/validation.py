@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from datetime import date, time
 from difflib import get_close_matches
 from functools import lru_cache
 from importlib.resources import files
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
+from comparisons.console.printable import is_line
 from comparisons.data.toml_text import is_real
 
 if TYPE_CHECKING:
@@ -28,6 +30,13 @@ _NAME = re.compile(r"[A-Za-z0-9]+([-._][A-Za-z0-9.]+)*")
 
 #: Longest value that a sentence shows in full.
 _LONGEST = 80
+
+#: So many errors are collected, of which the first one in the file is named: each has a copy of the value and takes a
+#: tenth of a millisecond, and a list of the wrong kind has one for each entry.
+_MOST_ERRORS = 100
+
+#: Longest name whose nearest known name is searched: a megabyte would take minutes.
+_LONGEST_NAME = 100
 
 
 def validated(document: Mapping[str, Any], schema: str, source: str) -> None:
@@ -55,7 +64,7 @@ def validated(document: Mapping[str, Any], schema: str, source: str) -> None:
     """
     validator = shipped_validator(schema)
     try:
-        errors = sorted(validator.iter_errors(document), key=_position)
+        errors = sorted(islice(validator.iter_errors(document), _MOST_ERRORS), key=_position)
     except RecursionError:
         raise ValueError(f"{source}: its tables are nested too deeply") from None
     if errors:
@@ -99,6 +108,7 @@ def known_name(noun: str, name: str, known_names: Iterable[str], where: str) -> 
 def shipped_validator(schema: str) -> Validator:
     """Return the validator of ``<schema>.schema.json`` in this folder, for which a number may be infinite."""
     # It takes a fifth of the start of the process of an external model, which validates nothing.
+    from jsonschema import FormatChecker
     from jsonschema.validators import Draft202012Validator, extend
 
     content = json.loads(files("comparisons.data").joinpath(f"{schema}.schema.json").read_text("utf-8"))
@@ -109,7 +119,28 @@ def shipped_validator(schema: str) -> Validator:
             "integer": lambda _, value: isinstance(value, int) and is_real(value),
         }
     )
-    return extend(Draft202012Validator, type_checker=types)(content)
+    formats = FormatChecker(formats=())
+    formats.checks("line")(lambda value: not isinstance(value, str) or is_line(value))
+    formats.checks("day")(lambda value: not isinstance(value, str) or _is_day(value))
+    return extend(Draft202012Validator, {"pattern": _pattern}, type_checker=types)(content, format_checker=formats)
+
+
+def _pattern(validator: Validator, pattern: str, instance: object, schema: object) -> Iterator[ValidationError]:
+    """Yield an error where a text has not the form of a pattern, whose ``$`` is the end of the text.
+
+    In JSON Schema it is; in Python's regular expressions a line feed may follow.
+    """
+    from jsonschema.exceptions import ValidationError
+
+    if isinstance(instance, str) and not re.search(re.sub(r"\$$", r"\\Z", pattern), instance):
+        yield ValidationError(f"{shown(instance)} does not match {pattern!r}")
+
+
+def _is_day(text: str) -> bool:
+    try:
+        return date.fromisoformat(text).isoformat() == text
+    except ValueError:
+        return False
 
 
 def _position(error: ValidationError) -> tuple[list[tuple[int, str]], int]:
@@ -142,7 +173,7 @@ def _sentence(error: ValidationError, document: Mapping[str, Any], schema: Mappi
         value = value[step]
     key = ".".join(str(step) for step in path[2 if where else 0 : depth])
     if error.validator == "enum":
-        nearest = get_close_matches(str(value), error.validator_value, n=1)
+        nearest = _close(str(value), error.validator_value)
         description = f"one of {', '.join(error.validator_value)}" + (
             f": did you mean {nearest[0]}?" if nearest else ""
         )
@@ -168,8 +199,12 @@ def _described(schema: Mapping[str, Any], path: Iterable[str | int]) -> tuple[in
 
 
 def _nearest(name: str, names: Iterable[str]) -> str:
-    nearest = get_close_matches(name, names, n=1)
+    nearest = _close(name, names)
     return f": did you mean {nearest[0]}?" if nearest else f"; known are {', '.join(names)}"
+
+
+def _close(name: str, names: Iterable[str]) -> list[str]:
+    return get_close_matches(name, names, n=1) if len(name) <= _LONGEST_NAME else []
 
 
 def shown(value: object) -> str:

@@ -15,23 +15,34 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, Any
 
+from comparisons.data.folder_entries import TooMany, entries_below
 from comparisons.external import cleaner
 from comparisons.external.hidden_folders import hidden_folders
 from comparisons.external.start import MEMORY_LIMIT, TIME_LIMIT, limit_of_environment
 from comparisons.external.text_rules import one_line
+from comparisons.external.total_time import seconds_left
 from comparisons.model import ComputationFailed
 
 #: Seconds in which a fresh interpreter must have imported the worker, before any code of a model; 0.5 are usual.
 _START = 120.0
 
-#: Longest reply, in bytes: a curve of a million points and a few columns.
-_LONGEST_REPLY = 200_000_000
+#: Longest reply to each request, in bytes: thousands of files, a long reason, a curve of a million points and a few
+#: columns.  As objects of Python a reply may have ten times its size.
+_LONGEST_REPLY = {"describe": 4_000_000, "evaluate": 100_000, "curve": 100_000_000}
+#: Longest line before the first request.
+_LONGEST_START = 100
+
+#: Most bytes and most files and folders in the scratch folder, and the seconds after which they are counted again.
+_LARGEST_SCRATCH, _MOST_SCRATCH, _COUNTED_AGAIN = 1_000_000_000, 10_000, 1.0
 
 #: Seconds that a process may take to end after its pipe has closed; a loaded machine took more than one.
 _END_SECONDS = 10.0
 
 #: Seconds in which a program may write a second line for one request.
 _AFTER_REPLY = 0.005
+
+#: Bytes of a block, in which the system states what a file takes of a disk.
+_BLOCK = 512
 
 #: Bytes of the end of stderr that are read for a message.
 _LAST_WORDS = 1000
@@ -56,6 +67,14 @@ class Overdue(ComputationFailed):
     """There was no reply in time."""
 
 
+class Overfull(Overdue):
+    """There was none before the scratch folder was too large."""
+
+
+class TimeIsOver(ComputationFailed):
+    """The models of a submission have used their time."""
+
+
 class Child:
     """A process that loads one model. After a failure of the process it is ended.
 
@@ -77,7 +96,7 @@ class Child:
         with self._ended_on_failure():
             self._launch({"source": source, "megabytes": megabytes, "hidden": hidden_folders()})
             try:
-                self._line(_START)
+                self._line(_START, _LONGEST_START)
             except Overdue:
                 raise ComputationFailed(f"its process did not start within {_START:g} s") from None
 
@@ -87,7 +106,9 @@ class Child:
         Raises
         ------
         Overdue
-            If there is none in time.
+            If there is none in time, or before the scratch folder is too large.
+        TimeIsOver
+            If the time of all models of a submission is over.
         comparisons.model.ComputationFailed
             If the process ends or writes anything else.
         """
@@ -95,7 +116,7 @@ class Child:
             # A process that has ended is noticed where its reply is read.
             with contextlib.suppress(OSError):
                 self._requests.write(json.dumps(request, allow_nan=False).encode() + b"\n")
-            line = self._line(self._seconds)
+            line = self._line(self._seconds, _LONGEST_REPLY[request["request"]])
             # What a program writes besides is then there before the next request, which notices it.
             if self._is_program:
                 self._is_readable(_AFTER_REPLY)
@@ -139,6 +160,7 @@ class Child:
         _, orders, answers = self._popen(command, "/", environment)
         if not (scratch := answers.readline().decode().rstrip("\n")):
             raise ComputationFailed(f"there is no scratch folder for it{self._last_words()}")
+        self._scratch = Path(scratch)
         path = [str(Path(__file__).resolve().parents[2]), *(entry or str(Path.cwd()) for entry in sys.path)]
         command = [sys.executable, "-c", _PROGRAM, json.dumps(order | {"path": path, "scratch": scratch})]
         environment |= _ONE_THREAD | {"HOME": scratch, "TMPDIR": scratch}
@@ -160,23 +182,44 @@ class Child:
     def _is_readable(self, seconds: float) -> bool:
         return bool(select.select([self._replies], [], [], max(seconds, 0.0))[0])
 
-    def _line(self, seconds: float) -> bytes:
+    def _line(self, seconds: float, longest: int) -> bytes:
         """Return the line that the process writes."""
         line, chunk = bytearray(), b""
         end = time.monotonic() + seconds
         while b"\n" not in chunk:
-            if not self._is_readable(end - time.monotonic()):
-                flush = "; a program must flush its standard output after every line" if self._is_program else ""
-                raise Overdue(f"it gave no result within {seconds:g} s and was ended ({TIME_LIMIT}){flush}")
+            self._await(end, seconds)
             chunk = os.read(self._replies.fileno(), 1 << 16)
             line += chunk
             if not chunk:
                 raise ComputationFailed(f"its process {self._end_of_process()} instead of a reply{self._last_words()}")
-            if len(line) > _LONGEST_REPLY:
-                raise ComputationFailed(f"its process wrote {_LONGEST_REPLY // 10**6} MB without the end of a line")
+            if len(line) > longest:
+                raise ComputationFailed(f"its process wrote {longest} bytes without the end of a line")
         if b"\n" in line.strip():
             raise ComputationFailed("its process wrote more than one line for one request")
+        self._check_scratch()
         return bytes(line)
+
+    def _await(self, end: float, seconds: float) -> None:
+        """Wait until there is something to read, while there is time and the scratch folder is small."""
+        while not self._is_readable(min(end - time.monotonic(), seconds_left(), _COUNTED_AGAIN)):
+            self._check_scratch()
+            if seconds_left() <= 0.0:
+                raise TimeIsOver("the time that a submission has for all its evaluations is over")
+            if time.monotonic() >= end:
+                flush = "; a program must flush its standard output after every line" if self._is_program else ""
+                raise Overdue(f"it gave no result within {seconds:g} s and was ended ({TIME_LIMIT}){flush}")
+
+    def _check_scratch(self) -> None:
+        """Refuse a scratch folder that is too large; a file that has no name any more is not counted."""
+        size = 0
+        try:
+            for entry in entries_below(self._scratch, _MOST_SCRATCH):
+                with contextlib.suppress(OSError):
+                    size += entry.stat(follow_symlinks=False).st_blocks * _BLOCK
+        except TooMany:
+            raise Overfull(f"it has more than {_MOST_SCRATCH} files in its scratch folder") from None
+        if size > _LARGEST_SCRATCH:
+            raise Overfull(f"its files in the scratch folder have {size} bytes, more than {_LARGEST_SCRATCH}")
 
     def _end_of_process(self) -> str:
         # The pipe may close a moment before the process is gone.

@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Any, TypeVar
 
 from comparisons.domain import Domain
-from comparisons.external.child import Child, Overdue
+from comparisons.external.child import Child, Overdue, TimeIsOver
 from comparisons.external.hidden_folders import hidden_folders, is_inside
 from comparisons.external.replies import Malformed, curve_of, described, result_of
 from comparisons.external.text_rules import one_line
@@ -20,7 +20,7 @@ from comparisons.quantities import QUANTITIES
 
 _Reply = TypeVar("_Reply", Result, Curve)
 
-#: Requests in a row that may run out of time; later ones are not sent, because a run of hundreds must end.
+#: Requests in a row that may run out of time or disk; later ones are not sent, because a run of hundreds must end.
 PATIENCE = 3
 
 
@@ -84,7 +84,10 @@ class ExternalModel:
         except Overdue:
             self._overdue += 1
             if self._overdue >= PATIENCE:
-                self._refusal = f"not evaluated: it ran out of time {PATIENCE} times in a row"
+                self._refusal = f"not evaluated: it ran out of time or disk {PATIENCE} times in a row"
+            raise
+        except TimeIsOver as error:
+            self._refusal = f"not evaluated: {error}"
             raise
         # Only the reply to a case shows that the model can be in time; loading it again does not.
         self._overdue = 0

@@ -6,13 +6,15 @@ The parent checks all of them, since a model in Python can write to the pipe in 
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.data.validation import validated
+from comparisons.data.file_names import SUBMISSION
+from comparisons.data.validation import shown, validated
 from comparisons.domain import Domain
 from comparisons.external.fingerprint import fingerprint
 from comparisons.external.text_rules import model_name, one_line
@@ -23,6 +25,10 @@ _REFUSALS = {"not-applicable": NotApplicable, "failed": ComputationFailed}
 
 #: Digits of the digest that are kept in the version of a model.
 _DIGEST = 12
+
+#: Most brackets of a reply, twenty times those of the longest domain: an empty list needs twenty times the memory of
+#: its two bytes.
+_MOST_BRACKETS = 2500
 
 
 class Malformed(ComputationFailed):
@@ -49,13 +55,9 @@ def described(line: bytes, source: dict[str, Any]) -> dict[str, Any]:
     of_worker = {} if source["kind"] == "program" else reply.pop("python", {})
     _check("describe", reply)
     try:
-        file = Path(source.get("file", ""))
-        roots = of_worker.pop("roots", {str(file.parent): str(file)})
-        digest, hashed = fingerprint(
-            {Path(root): Path(loaded) for root, loaded in roots.items()},
-            reply.get("files", []),
-            [Path(path) for path in of_worker.get("loaded", [])],
-        )
+        roots, loaded = _files_of(source, of_worker)
+        within = _submission_of(Path(source["file"]).parent) if "file" in source else None
+        digest, hashed = fingerprint(roots, reply.get("files", []), loaded, within)
         domain = reply.get("applies_to")
         return {
             "name": model_name(reply["name"]),
@@ -67,8 +69,31 @@ def described(line: bytes, source: dict[str, Any]) -> dict[str, Any]:
             "applies_to": None if domain is None else Domain.of(domain),
             "has_curve": reply.get("curve", False),
         }
-    except (ValueError, TypeError, AttributeError) as error:
+    except (ValueError, OSError) as error:
         raise ComputationFailed(one_line(str(error))) from None
+
+
+def _files_of(source: dict[str, Any], stated: dict[str, Any]) -> tuple[dict[Path, Path], list[Path]]:
+    """Return the folders of a model with the file that was loaded in each, and other files that were.
+
+    A model in Python can state any in place of the worker: they are where they are said to be, and the folder of the
+    file that was asked for is one of them.
+    """
+    if stated:
+        validated({"python": stated}, "reply", "the reply of the model")
+    roots = {Path(root): Path(file) for root, file in stated.get("roots", {}).items()}
+    for root, file in roots.items():
+        if not (root.is_absolute() and os.path.isdir(root) and file.is_relative_to(root) and os.path.isfile(file)):
+            raise ValueError(f"its process states that {shown(str(file))} was loaded from {shown(str(root))}")
+    if "file" in source:
+        file = Path(source["file"])
+        roots |= {file.parent: file}
+    return roots, [Path(path) for path in stated.get("loaded", [])]
+
+
+def _submission_of(folder: Path) -> Path | None:
+    """Return the folder of the submission that a folder is in."""
+    return next((parent for parent in (folder, *folder.parents) if (parent / SUBMISSION).is_file()), None)
 
 
 def result_of(line: bytes) -> Result:
@@ -104,6 +129,8 @@ def curve_of(line: bytes) -> Curve:
 
 
 def _parsed(line: bytes) -> dict[str, Any]:
+    if line.count(b"[") + line.count(b"{") > _MOST_BRACKETS:
+        raise Malformed(f"its process wrote a line with more than {_MOST_BRACKETS} brackets, which no reply has")
     try:
         reply = json.loads(line.decode(), parse_constant=_refuse_constant)
     except (ValueError, RecursionError):

@@ -14,11 +14,12 @@ import signal
 import sys
 from typing import Any
 
+from comparisons.data.plain_numbers import plain_float
 from comparisons.external.landlock import confine
 
 #: Names of the environment variables.
 TIME_LIMIT, MEMORY_LIMIT = "FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"
-_DEFAULTS = {TIME_LIMIT: 60.0, MEMORY_LIMIT: 4096.0}
+_DEFAULTS = {TIME_LIMIT: "60", MEMORY_LIMIT: "4096"}
 
 #: Bytes of one file in the scratch folder.
 _LARGEST_FILE = 256_000_000
@@ -42,9 +43,9 @@ def limit_of_environment(name: str) -> float:
     """
     text = os.environ.get(name) or _DEFAULTS[name]
     try:
-        value = float(text)
-    except ValueError:
-        raise ValueError(f"{name} = {text!r} is not a number") from None
+        value = plain_float(text)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
     if not 0 < value < 1e9:
         raise ValueError(f"{name} = {value:g} is outside (0, 1e9): a limit is positive and finite")
     return value

@@ -31,8 +31,8 @@ _TAG = "random"
 
 #: The end of the reason why standing cases of a model have no fresh ones.
 _NO_ROOM = (
-    "standing cases are in parts of the domain of {} that have no room for fresh cases beside them: points, ranges "
-    "hardly wider than a point, no varied key, or outside "
+    "standing cases are in parts of the domain of {} that have no fresh cases beside them: they are more parts than "
+    "cases were asked for, or have no room as points, ranges hardly wider than a point, no varied key, or outside "
     + ", ".join(f"{low:g} <= {name} <= {high:g}" for name, (low, high) in REACH.items())
 )
 
@@ -64,7 +64,7 @@ class FreshCases:
     parts : tuple of Part
     undrawn : tuple of dict
         `gate`, `candidate`, `quantity` and `reason` where standing cases of a gate are in a part of the domain of a
-        model that has no room for fresh ones.
+        model that has no fresh ones.
     """
 
     count: int

@@ -64,21 +64,23 @@ def sample(
     Returns
     -------
     cases, untested
-        Fresh cases, and the standing cases in parts of the domain that have no room for fresh ones; None if the gate
-        itself leaves no room, whatever the domain is.
+        Fresh cases, and the standing cases in parts of the domain that have none, for lack of room or since there are
+        more parts than cases; None if the gate itself leaves no room, whatever the domain is.
     """
     groups = groupby(sorted(standing, key=_family_of), _family_of)
     families = [_Family(gate, list(cases), avoided) for _, cases in groups]
     if all(family.reach and not family.points(family.frame(domain), 1, seed) for family in families):
         return None
-    spaces = [(family, box, tested) for family in families for box, tested in family.boxes(domain)]
+    boxes = [(family, *space) for family in families for space in family.boxes(domain)]
+    drawn = [family.points(box, count, [*seed, number]) for number, (family, box, _) in enumerate(boxes)]
+    spaces = [(family, tested, points) for (family, _, tested), points in zip(boxes, drawn, strict=True) if points]
     cases: list[Problem] = []
     untested = {case for case in standing if promised(domain, gate.quantity, case) is not False}
-    shares = _shares([len(tested) for _, _, tested in spaces], count, seed)
-    for number, ((family, box, tested), share) in enumerate(zip(spaces, shares, strict=True)):
-        points = family.points(box, share, [*seed, number])
-        cases += islice(family.problems_at(points), share)
-        untested -= {*tested} if points else set()
+    shares = _shares([len(tested) for _, tested, _ in spaces], count, seed)
+    for (family, tested, points), share in zip(spaces, shares, strict=True):
+        fresh = list(islice(family.problems_at(points), share))
+        cases += fresh
+        untested -= {*tested} if fresh else set()
     return sorted(dict.fromkeys(cases)), untested
 
 
@@ -181,7 +183,17 @@ def named_problem(path: Path, name: Sequence[str]) -> Problem:
 
 
 def _shares(sizes: Sequence[int], count: int, seed: list[int]) -> list[int]:
-    """Return how many cases each box gets: the more, the more standing cases it has; by systematic sampling."""
+    """Return how many cases each box gets: the more, the more standing cases it has; by systematic sampling.
+
+    One with standing cases gets one at least, as long as another has one to spare.
+    """
     weights = np.cumsum([0, *(1 + size for size in sizes)])
     shifted = np.floor(np.random.default_rng(seed).random() + count * weights / max(weights[-1], 1))
-    return [int(share) for share in np.diff(shifted)]
+    shares = np.diff(shifted).astype(int)
+    needed = np.array(sizes, dtype=int).clip(max=1)
+    for box in np.flatnonzero(shares < needed):
+        spare = shares - needed
+        if spare.max() > 0:
+            shares[spare.argmax()] -= 1
+            shares[box] += 1
+    return [int(share) for share in shares]

@@ -1,24 +1,21 @@
 """The board, a static site of submissions that are run and judged, and the leaderboard of runs.
 
-A submission is a folder with a ``submission.toml`` beside the files of a model.
+Whatever a submission raises is its own reason not to be judged, and the others are judged.
 """
 
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator, Sequence
-from datetime import date
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
+from comparisons.console.exit_status import full_disk
 from comparisons.console.progress import log, note
-from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import REPORT, STORE
-from comparisons.data.input_files import read_text
-from comparisons.data.toml_text import parse
-from comparisons.data.validation import validated
 from comparisons.external.hidden_folders import hidden_from_models
 from comparisons.external.model_source import close_models
+from comparisons.external.text_rules import one_line
+from comparisons.external.total_time import at_most
 from comparisons.model import ComputationFailed
 from comparisons.output.report.board import BoardEntry, Submission, board_page
 from comparisons.output.report.leaderboard import Entry, leaderboard_html
@@ -27,68 +24,17 @@ from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
 from comparisons.pipeline.inputs import stored_inputs
 from comparisons.pipeline.run import run
+from comparisons.pipeline.submission import SubmissionFolder, read_submission, submission_folders
 from comparisons.pipeline.tables import REFERENCE
-from comparisons.registry import MODELS, create
+from comparisons.registry import create
 from comparisons.runs.atomic_files import prepare_folder, write_file
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.store import rows_in
 from comparisons.runs.tasks import plan
 
-#: Describes a submission.
-MANIFEST = "submission.toml"
-
-
-def submission_folders(root: Path) -> Iterator[Path]:
-    """Yield the folders of submissions: `root` if it is one, else each folder in it, or the versions in that.
-
-    Raises
-    ------
-    ValueError
-        If there is none.
-    """
-    if (root / MANIFEST).is_file():
-        yield root
-        return
-    folders = _folders_in(root) if root.is_dir() else []
-    if not folders:
-        raise ValueError(f"{root} has no folder with a {MANIFEST}: a board is made of submissions")
-    for folder in folders:
-        versions = [] if (folder / MANIFEST).is_file() else _folders_in(folder)
-        yield from versions or [folder]
-
-
-def _folders_in(folder: Path) -> list[Path]:
-    return sorted(path for path in folder.iterdir() if path.is_dir() and not path.is_symlink() and path.name[0] != ".")
-
-
-def read_submission(folder: Path) -> Submission:
-    """Read the description of a submission; the model is not loaded.
-
-    Raises
-    ------
-    ValueError
-        If it cannot be read or is not admissible; one sentence says why.
-    """
-    path = path_inside(folder, MANIFEST)
-    described: dict[str, Any] = parse(read_text(path, "the description of the submission"), MANIFEST)
-    if isinstance(described.get("date"), date):
-        described["date"] = described["date"].isoformat()
-    validated(described, "submission", MANIFEST)
-    authors, model = tuple(described.pop("authors")), described.pop("model")
-    return Submission(**described, authors=authors, spec=_spec(folder, model))
-
-
-def _spec(folder: Path, model: str) -> str:
-    """Return the SPEC of a registered model, or of a file in the folder; nothing else that is installed is run."""
-    if model in MODELS:
-        return model
-    name, colon, attribute = model.rpartition(":") if ".py:" in model else (model, "", "")
-    path = path_inside(folder, name)
-    if not path.is_file():
-        raise ValueError(f"{MANIFEST}: model = {model!a:.80} is not a model of fscm-bench, and no file beside it")
-    # With a separator it is not a name of an installed model.
-    return f"{path if path.is_absolute() else f'./{path}'}{colon}{attribute}"
-
+#: Seconds in which the models of a submission, the report card among them, have to be evaluated; those of fscm-bench
+#: need a few, and a job of GitHub has 360 minutes.
+TOTAL_TIME = 1800.0
 
 #: The first page of the site, and the file that names the code of its results.
 INDEX, _CODE = "index.html", "code.txt"
@@ -121,14 +67,15 @@ def make_board(submissions: Path, site: Path, jobs: int = 1) -> list[BoardEntry]
     OSError
         If a file cannot be written.
     """
-    folders = list(submission_folders(submissions))
+    folders = submission_folders(submissions)
     _prepare(site)
     entries: list[BoardEntry] = []
-    for folder in folders:
-        note(f"submission {folder}")
-        entries.append(_entry(folder, submissions, site, entries, jobs))
+    for submission in folders:
+        note(f"submission {submission.path}")
+        entries.append(_entry(submission, site, entries, jobs))
         # Each model is a process, which is not needed any more.
         close_models()
+    _remove_others(site, entries)
     write_file(site / INDEX, render(board_page(entries)))
     return entries
 
@@ -144,20 +91,33 @@ def _prepare(site: Path) -> None:
         write_file(code, fingerprint())
 
 
-def _entry(folder: Path, root: Path, site: Path, earlier: list[BoardEntry], jobs: int) -> BoardEntry:
+def _remove_others(site: Path, entries: list[BoardEntry]) -> None:
+    """Remove the results of submissions that are not there any more, or are not judged."""
+    judged = {site / entry.submission.folder for entry in entries if entry.submission and entry.judged}
+    for folder in (site / "models").glob("*/*"):
+        if folder not in judged:
+            shutil.rmtree(folder)
+
+
+def _entry(folder: SubmissionFolder, site: Path, earlier: list[BoardEntry], jobs: int) -> BoardEntry:
     """Return a submission with its results, or with the reason why it has none."""
-    path = folder.relative_to(root).as_posix() if folder != root else folder.name
     submission = None
     try:
         submission = read_submission(folder)
-        if submission.folder in [entry.submission.folder for entry in earlier if entry.submission]:
+        if submission.folder.lower() in [entry.submission.folder.lower() for entry in earlier if entry.submission]:
             raise ValueError(f"{submission.name} {submission.version} is there twice: each needs its own version")
-        _judge(submission, site, earlier, jobs)
+        # Its model does not read the results of the references, nor those beside the results of others.
+        with at_most(TOTAL_TIME), hidden_from_models(site):
+            _judge(submission, site, earlier, jobs)
         judged = entry_of(site / submission.folder)
-    except (ValueError, ComputationFailed) as error:
-        log(f"{path} is not judged: {error}")
-        return BoardEntry(path, submission, None, str(error))
-    return BoardEntry(path, submission, judged)
+    except Exception as error:
+        if isinstance(error, OSError) and full_disk(error):
+            raise
+        is_sentence = isinstance(error, ValueError | ComputationFailed)
+        reason = one_line(str(error) if is_sentence else f"it cannot be judged ({type(error).__name__}: {error})")
+        log(f"{folder.path} is not judged: {reason}")
+        return BoardEntry(folder.path, submission, None, reason)
+    return BoardEntry(folder.path, submission, judged)
 
 
 def _judge(submission: Submission, site: Path, earlier: list[BoardEntry], jobs: int) -> None:
@@ -171,9 +131,7 @@ def _judge(submission: Submission, site: Path, earlier: list[BoardEntry], jobs: 
         # The values of the reference are the same for every submission.
         with rows_in(target) as store, rows_in(site / judged[-1]) as source:
             store.take(source, lambda row: row.model == REFERENCE)
-    # Nor does it read the results of the references beside those of others.
-    with hidden_from_models(site):
-        run(models=[submission.spec], folder=target, jobs=jobs)
+    run(models=[submission.spec], folder=target, jobs=jobs)
     write_file(target / REPORT, render(make_page(read_folder(target))))
 
 

@@ -55,7 +55,9 @@ def copy_of_the_repository() -> Iterator[Path]:
     """A copy of its files, but those that are built or belong to git."""
     with TemporaryDirectory() as folder:
         copy = Path(folder, "copy")
-        shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".*", "build", "__pycache__", "*.egg-info"))
+        shutil.copytree(
+            ROOT, copy, ignore=shutil.ignore_patterns(".git", ".venv", ".*_cache", "build", "__pycache__", "*.egg-info")
+        )
         yield copy
 
 

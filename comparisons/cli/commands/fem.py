@@ -8,7 +8,7 @@ from dataclasses import asdict
 import pandas as pd
 
 import fem_reference
-from comparisons.cli.options import CASE, command, file, option, problem_of
+from comparisons.cli.options import CASE, NUMBER, command, file, option, problem_of
 from comparisons.cli.screen import output
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, waiting
@@ -33,7 +33,7 @@ _EXTENT, _SHARE = 2.0, 0.15
 
 @command(
     *CASE,
-    option("--nu", type=float, default=0.3, help="Poisson's ratio, in [0, 0.5) (default: %(default)s)"),
+    option("--nu", type=NUMBER, default=0.3, help="Poisson's ratio, in [0, 0.5) (default: %(default)s)"),
     option("--event", default="pull_off", metavar="EVENT", choices=fem_reference.EVENTS, help=_EVENT),
     file("--vtu", help="write mesh, displacement and stresses to this file"),
     file("--plot", help="draw the deformed body into this file"),

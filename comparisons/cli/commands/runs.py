@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from shlex import quote
 
-from comparisons.cli.options import JOBS, OUT, QUIET, VERBOSE, command, file, option, several
+from comparisons.cli.options import INTEGER, JOBS, OUT, QUIET, VERBOSE, command, file, option, several
 from comparisons.cli.screen import output, print_end, print_lines
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK
 from comparisons.console.progress import log, note
@@ -39,8 +39,8 @@ _FRESH = "also judge each model of --model in N fresh cases of its domain"
     file("--cases", help="[[grid]] tables, as for a sweep, instead of the standing cases; judged by --gates"),
     several("--model", metavar="SPEC", help="compute these models instead of those named by each grid"),
     file("--gates", help="judge by these gates instead of the standing ones"),
-    option("--random", metavar="N", type=int, default=0, help=_FRESH),
-    option("--seed", metavar="S", type=int, help="seed of the fresh cases (default: random)"),
+    option("--random", metavar="N", type=INTEGER, default=0, help=_FRESH),
+    option("--seed", metavar="S", type=INTEGER, help="seed of the fresh cases (default: random)"),
     JOBS,
     OUT,
     VERBOSE,

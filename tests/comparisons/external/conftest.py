@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.external.model_source import GROUP, close_models
+from comparisons.judging.gates import gates_text
 from comparisons.pipeline import finished_run, inputs
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
@@ -17,6 +18,7 @@ from comparisons.runs.tasks import evaluate
 
 from ..conftest import GATES, with_entries
 from ..conftest import GRID as STANDING
+from .board_pages import BODY
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "double_hertz"
 FORCE = ["--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"]
@@ -96,6 +98,29 @@ def model_file(folder, body=GOOD, name="stranger", more=""):
 @pytest.fixture
 def write_model(tmp_path):
     return partial(model_file, tmp_path)
+
+
+#: What every submission states besides.
+SHARED = 'authors = ["A. <b>Author</b>"]\ncitation = "none"\nlicence = "MIT"\n'
+
+
+@pytest.fixture
+def submissions(small_grid, no_cards, tmp_path, monkeypatch):
+    """A function that writes a submission; its gate is a limit of 11 percent for any model."""
+    gate = GATES.replace('candidate = "ten-percent"', 'candidate = "given"').replace("0.09", "-0.11")
+    monkeypatch.setattr("comparisons.pipeline.inputs.gates_text", lambda path: gates_text(path) if path else gate)
+
+    def written(folder, body=BODY, version="1", name="mine", date="2026-01-01", model="mine.py:Model"):
+        path = tmp_path / "submissions" / folder
+        path.mkdir(parents=True, exist_ok=True)
+        model_file(path, body, name)
+        (path / f"{name}.py").rename(path / "mine.py")
+        manifest = path / "submission.toml"
+        stated = f'name = "{name}"\nversion = "{version}"\ndate = {date}\nmodel = "{model}"\n'
+        manifest.write_text(stated + SHARED)
+        return manifest
+
+    return written
 
 
 MANIFEST = """

@@ -78,7 +78,7 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
         ({"change": {"n = [2]": 'n = ["2"]'}}, "n must be a list of numbers"),
         ({"change": {"k = [0, 0.4]": "k = [0, 1.4]"}}, "[0, 1]"),
         ({"change": {"k = [0, 0.4]": "k = []"}}, "no case"),
-        ({"change": {'"A. Author"': '"A.\\u202eAuthor"'}}, "author must be one line"),
+        ({"change": {'"A. Author"': '"A.\\u202eAuthor"'}}, "must be one line"),
         ({"rows": with_row("pull_off_force,2,0,1,nan,1e-6")}, "line 3: value = 'nan' is not a finite"),
         ({"change": {'name = "': "x = " + "[" * 5000 + "]" * 5000 + '\nname = "'}}, "nested too deeply"),
         ({"change": {'"pi Q': '"2 pi Q'}}, "state the values in that"),
@@ -107,6 +107,13 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
             "line 2: pull_off_force at pad.toml; solid.thickness=13 nm",
         ),
         (PADS | {"more": {"pad.toml": PAD.replace("GPa", "nm")}}, "pad.toml, line 2"),
+        ({"change": {'name = "': f'limits = [{"1, " * 100_000}]\nname = "'}}, "limits = [1, 1"),
+        ({"change": {'name = "': "limits = [" + 21 * '"a", ' + ']\nname = "'}}, "at most 20 names"),
+        ({"change": {'name = "': f'# {"x" * 400_000}\nname = "'}}, "more than 400000"),
+        ({"rows": with_row("," * 1_000_000)}, "a line of 1000000 characters"),
+        ({"rows": with_row("\n" * 1_000_001)}, "more than 1000000 lines"),
+        ({"rows": with_row("pull_off_force,2,0,1,=1+1,0")}, "line 3: value = '=1+1' is not a finite number"),
+        ({"rows": with_row("pull_off_force,2,0,\u0661,1.6,0")}, "line 3: mu"),
     ],
 )
 def test_what_is_wrong_is_refused_with_its_place(write_data, refused, monkeypatch, wrong, sentence):

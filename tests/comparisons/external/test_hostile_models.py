@@ -11,10 +11,11 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.external import process_model
+from comparisons.external import child, process_model
 from comparisons.external.child import Child
-from comparisons.external.model_source import close_models, source_of
-from comparisons.external.replies import described
+from comparisons.external.model_source import close_models, load_again, source_of
+from comparisons.external.replies import Malformed, curve_of, described
+from comparisons.external.total_time import at_most
 from comparisons.model import ComputationFailed
 from comparisons.registry import create
 from comparisons.runs.computation import complete
@@ -90,7 +91,7 @@ def test_one_that_allocates_without_bound_runs_into_its_limit(write_model, monke
     assert "700 MB" in row.reason
 
 
-@pytest.mark.parametrize("limit", ["0", "inf", "much"])
+@pytest.mark.parametrize("limit", ["0", "inf", "much", "4_0_0", "\u0664\u0660"])
 @pytest.mark.parametrize("name", ["FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"])
 def test_a_limit_that_is_none_is_wrong_input(write_model, monkeypatch, refused, name, limit):
     monkeypatch.setenv(name, limit)
@@ -141,11 +142,11 @@ def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, refused):
     file.write_text(NOT_LOADED[0][0])
     refused(["solve", "--model", spec, *FORCE], NOT_LOADED[0][1])
     source = source_of(spec)
-    with closing(Child(source)) as child:
+    with closing(Child(source)) as process:
         for text, sentence in NOT_LOADED:
             file.write_text(text)
             with pytest.raises(ComputationFailed, match=sentence):
-                described(child.exchange({"request": "describe"}), source)
+                described(process.exchange({"request": "describe"}), source)
 
 
 NAMES = ("<b>bold</b>", "", "../up", "line\nbreak", "x" * 65, "given", "NaN")
@@ -153,16 +154,93 @@ FILES = ("a.csv", [1], ["/etc/passwd"], ["\0"], ["nothing"])
 
 
 WRONG = [{"version": 1}, {"citation": None}, {"applies_to": {"n": [2, 2]}}]
+#: Lists that would take a judge seconds and hundreds of megabytes, and numbers that no double holds.
+LONG = [{"limits": ["x"] * 60_000}, {"limits": [1] * 100_000}, {"files": ["x"] * 60_000}, {"domain": "x" * 20_000}]
+LONG += [{"applies_to": {"quantities": ["pull_off_force"], "mu": [0, 10**400]}}, {"x" * 10**6: 1}]
+#: What a model says of its files in place of the worker.
+ROOTS = ({"/no/such": "/no/such/x"}, {"/": 1}, {"/": "/dev/zero"}, {"/etc": "/etc/../x"}, {"x" * 999: "x" * 999}, [1])
+FORGED = [
+    *({"roots": roots, "loaded": []} for roots in ROOTS),
+    *({"roots": {}, "loaded": loaded} for loaded in (["x" * 5000], 1, [[]] * 9)),
+    {"loaded": []},
+]
+HARMLESS = [
+    {},
+    {"roots": {}, "loaded": ["\0", "x" * 4000, "/dev/zero"]},
+    {"roots": {"/etc": "/etc/passwd"}, "loaded": []},
+]
 
 
 @pytest.mark.parametrize(
-    "stated", [*({"name": name} for name in NAMES), *({"files": files} for files in FILES), *WRONG]
+    "stated", [*({"name": name} for name in NAMES), *({"files": files} for files in FILES), *WRONG, *LONG]
 )
 def test_a_description_that_could_do_harm_is_refused(tmp_path, stated):
     texts = dict.fromkeys(("name", "version", "citation", "domain"), "x")
     line = json.dumps({"status": "ok"} | texts | stated).encode()
-    with pytest.raises(ComputationFailed, match=next(iter(stated))):
+    with pytest.raises(ComputationFailed, match=next(iter(stated))[:60]):
         described(line, {"kind": "file", "file": str(tmp_path / "model.py")})
+
+
+@pytest.mark.parametrize("python", [*FORGED, *HARMLESS])
+def test_forged_files_are_refused_or_change_nothing(tmp_path, python):
+    """The folder of the file counts whatever a process states."""
+    texts = dict.fromkeys(("name", "version", "citation", "domain"), "x")
+    source = {"kind": "file", "file": str(tmp_path / "model.py")}
+    (tmp_path / "model.py").touch()
+    honest = described(json.dumps(texts).encode(), source)["version"]
+    (tmp_path / "model.py").write_text("changed")
+    reply = json.dumps(texts | {"python": python}).encode()
+    if python in HARMLESS:
+        assert described(reply, source)["version"] != honest
+    else:
+        with pytest.raises(ComputationFailed, match=r"process states|reply of the model: python"):
+            described(reply, source)
+
+
+def test_a_line_of_brackets_is_no_reply():
+    for line in (b"[" * 10**6, b'{"status": "ok", "displacement": [' + b"[]," * 10**5 + b"[]]}", b'{"a":' * 10**5):
+        with pytest.raises(Malformed, match="brackets"):
+            curve_of(line)
+
+
+TOO_MUCH = [
+    ("Path('flood').write_bytes(bytes(3_000_000))\nreturn Result(1.5, 0.0)", "bytes, more than 1000000"),
+    ("[Path(f'{i}').touch() for i in range(30)]\nreturn Result(1.5, 0.0)", "more than 20 files"),
+    ("while True:\n    Path(f'{time.time_ns()}').touch()", "more than 20 files"),
+    (WRITES.replace("b'{}\\n'", "b'1' * 200_000"), "bytes without the end of a line"),
+]
+
+
+def test_what_fills_the_disk_or_the_pipe_is_ended_and_the_next_one_is_right(write_model, monkeypatch):
+    for name, limit in (("_LARGEST_SCRATCH", 1_000_000), ("_MOST_SCRATCH", 20), ("_COUNTED_AGAIN", 0.05)):
+        monkeypatch.setattr(child, name, limit)
+    model = create(write_model(by_tabor_number(body for body, _ in TOO_MUCH)))
+    for number, (body, sentence) in enumerate(TOO_MUCH, 1):
+        row = row_of(model, number)
+        assert (row.status, row.value) == ("failed", None), body
+        assert sentence in row.reason, (body, row.reason)
+        assert row_of(model, 0.5).value == 1.5
+
+
+def test_one_that_fills_the_disk_each_time_is_evaluated_no_more(write_model, monkeypatch):
+    monkeypatch.setattr(process_model, "PATIENCE", 2)
+    monkeypatch.setattr(child, "_LARGEST_SCRATCH", 1_000_000)
+    model = create(write_model(TOO_MUCH[0][0]))
+    reasons = [row_of(model).reason for _ in range(3)]
+    assert [reason.startswith("not evaluated") for reason in reasons] == [False, False, True]
+
+
+def test_all_evaluations_together_have_an_end(write_model):
+    """One that stops itself, too, which ends no wait; afterwards nothing is sent to the model."""
+    model = create(write_model(f"if problem.mu == 1:\n    os.kill(os.getpid(), signal.SIGSTOP)\n{GOOD}"))
+    with at_most(1000.0):
+        assert row_of(model, 0.5).status == "ok"
+        with at_most(0.1):
+            reasons = [row_of(model, mu).reason for mu in (1, 0.5)]
+    assert all("time that a submission has" in reason for reason in reasons)
+    assert reasons[1].startswith("not evaluated")
+    with at_most(0.0), pytest.raises(ValueError, match="time that a submission has"):
+        load_again(write_model(name="next"))
 
 
 def test_a_run_completes_the_others_and_its_files_are_its_own(write_model, few_cases, tmp_path, monkeypatch):

@@ -100,6 +100,22 @@ def test_standing_cases_without_room_beside_them_leave_a_gate_inconclusive(table
         assert (abs(case.n - n) > 0.05) or (abs(case.k - k) > 0.005) or (abs(case.mu / mu - 1) > 0.05)
 
 
+def test_every_table_with_standing_cases_gets_a_fresh_one_or_counts_as_untested():
+    """Not one table of a wide domain that has none."""
+    tables = [box(*case, 0.5) for case in STANDING]
+    for count, seed in ((5, 1), (5, 2), (12, 3), (20, 4)):
+        fresh = drawn([*tables, WIDE | {"n": [1.2, 1.2]}], count, seed)
+        assert len(cases_of(fresh)) == count
+        untested = max(12 - count, 0)
+        assert [entry["reason"].split()[:3] for entry in fresh.undrawn] == [[str(untested), "of", "12"]] * bool(
+            untested
+        )
+    # One point among wide tables: the others share its cases.
+    fresh = drawn([box(2.0, 0.4, 0.1, 0.0), *tables[:3]], 3)
+    assert len(cases_of(fresh)) == 3
+    assert [entry["reason"].partition(" standing")[0] for entry in fresh.undrawn] == ["1 of 12"]
+
+
 def test_a_box_with_many_standing_cases_gets_most_fresh_ones():
     tables = [*(WIDE | {"n": [1.2 + 0.01 * number] * 2} for number in range(19)), FULL]
     drawings = [cases_of(drawn(tables, 8, seed)) for seed in range(4)]

@@ -97,6 +97,36 @@ def test_of_a_large_or_shared_folder_what_is_imported_or_declared_counts(folder,
     assert hashed(folder) != before
 
 
+def test_what_has_no_end_or_leads_out_of_a_submission_is_not_read(folder, tmp_path_factory):
+    """The size that files of /proc state is 0; on the board a link, or a name with "..", leads to no other file."""
+    up = "../" * 20
+    size = sum(path.stat().st_size for path in folder.rglob("*.*")) + (folder / "solver").stat().st_size
+    assert f"; 6 files, {size} bytes" in hashed(folder, f"{up}proc/version")[1]
+    (folder / "pipe").mkdir()
+    os.mkfifo(folder / "pipe" / "pipe")
+    for name in ("pipe/pipe", f"{up}dev/zero", "\0", "x" * 300):
+        with pytest.raises(ValueError, match="no such file or folder"):
+            hashed(folder, name)
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    (elsewhere / "table.csv").touch()
+    (folder / "link.csv").symlink_to(elsewhere / "table.csv")
+    roots = {folder: folder / "stranger.py"}
+    for name in ("link.csv", f"{up}{elsewhere}/table.csv", f"{up}etc"):
+        with pytest.raises(ValueError, match="leads out of the folder of the submission"):
+            fingerprint(roots, [name], within=folder)
+    assert fingerprint(roots, ["data/../table.csv", "data"], within=folder)[0]
+
+
+def test_a_folder_of_folders_without_end_is_large(folder, monkeypatch):
+    monkeypatch.setattr("comparisons.external.fingerprint._MOST_ENTRIES", 20)
+    monkeypatch.setattr("comparisons.external.fingerprint._MOST_DECLARED", 20)
+    for number in range(20):
+        (folder / "data" / str(number)).mkdir()
+    assert "the imported modules in" in hashed(folder)[1]
+    with pytest.raises(ValueError, match="more than 20 files"):
+        hashed(folder, "data")
+
+
 def test_a_process_names_what_it_has_imported_and_what_the_model_declares(folder, write_model):
     folder.chmod(0o1777)
     model = create(write_model(f"import late\n{GOOD}", more='import late\nfiles = ("table.csv",)'))
