@@ -26,6 +26,7 @@ from fem_reference._contact.path import Point
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._elastic.assembly import HalfSpace, half_space_of
 from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
+from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._linear.linear_solver import solve_cg
 from fem_reference._linear.preconditioner import ElasticPreconditioner
@@ -245,7 +246,8 @@ class UncondensedEvents:
                 f"the whole system is {step:.1e} of its displacement from the condensed equilibrium after Newton steps "
                 "without convergence; take a finer accuracy"
             )
-        left = _columns(result.error[surface], columns)
+        matrix = next(iter(equations.values())).contact.compliance.matrix
+        left = _columns(_left(half_space, load, result.solution, matrix), columns)
         shifted = {name: equation.copy() for name, equation in equations.items()}
         for name, equation in shifted.items():
             equation.shift(*left[name], shifted, equations)
@@ -267,6 +269,16 @@ class UncondensedEvents:
                 )
             self._points[name] = equation.point_of(system, iterations, residual)
             self._shifted[name] = shifted[name].point_of(system, iterations, residual)
+
+
+def _left(half_space: HalfSpace, load: Array, u: Array, compliance: Array) -> Array:
+    """Displacement of the surface that a displacement of the mesh lacks under its load, shape (m, q).
+
+    With U the displacement of the mesh under unit loads on its surface, it is U' (load - K u), whatever u is.
+    """
+    if not half_space.eliminations:
+        surface_stiffness(half_space)
+    return np.asarray(compliance @ half_space.gathered(half_space.remainder(load, u)))
 
 
 def _columns(values: Array, columns: Mapping[str, tuple[int, int | None]]) -> dict[str, tuple[Array, Array | None]]:
