@@ -25,7 +25,7 @@ from fem_reference._contact.mesh_choice import MeshChoice
 from fem_reference._contact.path import Point
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._elastic.assembly import HalfSpace, half_space_of
-from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
+from fem_reference._elastic.compliance import is_power_law, scaled_modulus, scaled_poisson
 from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._linear.linear_solver import solve_cg
@@ -309,7 +309,7 @@ def uncondensed_events(choice: MeshChoice, spec: MeshSpec, size: float) -> Uncon
     solid, punch, law = choice.problem.solid, choice.problem.punch, choice.problem.law
 
     def system() -> FullSystem:
-        half_space, preconditioner = _preconditioned(*_unit(solid, size, choice.scaling), spec)
+        half_space, preconditioner = _preconditioned(*_unit(solid, size), spec)
         return FullSystem(half_space, punch, law, preconditioner)
 
     return UncondensedEvents(choice.traced(spec, size), system)
@@ -322,8 +322,8 @@ def _preconditioned(modulus: Any, nu: Any, spec: MeshSpec) -> tuple[HalfSpace, E
     return half_space, ElasticPreconditioner(half_space)
 
 
-def _unit(solid: Solid, size: float, scaling: bool) -> tuple[Any, Any]:
+def _unit(solid: Solid, size: float) -> tuple[Any, Any]:
     """Modulus and Poisson ratio of the mesh, in units of the size; `factor` of the compliance is the rest."""
-    if scaling:
+    if is_power_law(solid.modulus, solid.poisson):
         return PowerLawModulus(1.0, 1.0, solid.modulus.depth_exponent), solid.poisson
     return scaled_modulus(solid.modulus, size), scaled_poisson(solid.poisson, size)

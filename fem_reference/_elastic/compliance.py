@@ -30,6 +30,7 @@ __all__ = [
     "FixedCompliance",
     "ScalingCompliance",
     "compliance_for",
+    "is_power_law",
     "is_scaling",
     "scaled_modulus",
     "scaled_poisson",
@@ -99,7 +100,7 @@ class ScalingCompliance:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FixedCompliance:
-    """Compliance of a solid that does not scale, on a mesh of one size.
+    """Compliance on a mesh of one size, `unit` times a matrix.
 
     Raises
     ------
@@ -111,13 +112,14 @@ class FixedCompliance:
     matrix: Array
     size: float
     unknowns: int
+    unit: float
     stiffness: float = 1.0
 
     def factor(self, c: float) -> float:
-        """c, which must be the size of the mesh, with the modulus of `stiffness`."""
+        """Factor at c, which must be the size of the mesh: `unit`, with the modulus of `stiffness`."""
         if abs(c / self.size - 1.0) > 1e-12:
-            raise ValueError(f"this compliance holds at the size {self.size}, not {c}: the modulus is not a power law")
-        return self.size / self.stiffness
+            raise ValueError(f"this compliance holds at the size {self.size}, not {c}: the mesh has one size")
+        return self.unit / self.stiffness
 
     def factor_slope(self, c: float) -> float:
         """Zero: the size cannot change."""
@@ -231,7 +233,12 @@ def is_scaling(modulus: Modulus, nu: float | PoissonRatio, kinks: tuple[float, .
     >>> is_scaling(PowerLawModulus(1.0, 1.0, 0.5), 0.3, kinks=())
     True
     """
-    return isinstance(modulus, PowerLawModulus) and not isinstance(nu, PoissonRatio) and not kinks
+    return is_power_law(modulus, nu) and not kinks
+
+
+def is_power_law(modulus: Modulus, nu: float | PoissonRatio) -> bool:
+    """Whether the compliance on a mesh is the same at every size of it, but for a factor."""
+    return isinstance(modulus, PowerLawModulus) and not isinstance(nu, PoissonRatio)
 
 
 def compliance_for(
@@ -268,11 +275,14 @@ def compliance_for(
     NotConverged
         If the stiffness of the mesh is not positive definite.
     """
+    if not is_power_law(modulus, nu):
+        return _fixed_compliance(cast(Hashable, modulus), cast(Hashable, nu), spec, size, recoverable)
+    law = cast(PowerLawModulus, modulus)
+    trace, matrix, unknowns = _unit_compliance(law.k, cast(float, nu), spec, recoverable)
+    of_every_size = ScalingCompliance(trace, matrix, law, unknowns)
     if scaling and is_scaling(modulus, nu, spec.kinks):
-        law = cast(PowerLawModulus, modulus)
-        trace, matrix, unknowns = _unit_compliance(law.k, cast(float, nu), spec, recoverable)
-        return ScalingCompliance(trace, matrix, law, unknowns)
-    return _fixed_compliance(cast(Hashable, modulus), cast(Hashable, nu), spec, size, recoverable)
+        return of_every_size
+    return FixedCompliance(trace, matrix, size, unknowns, of_every_size.factor(size))
 
 
 # The search for the width of the edge, and the mesh of it that the bounds need again; a few MB each.
@@ -285,7 +295,7 @@ def _fixed_compliance(modulus: Any, nu: Any, spec: MeshSpec, size: float, recove
     except NotConverged as error:
         _refuse_thin_elements(grid, size, error)
         raise
-    return FixedCompliance(trace_of(grid, spec.order), matrix, size, half_space.unknowns)
+    return FixedCompliance(trace_of(grid, spec.order), matrix, size, half_space.unknowns, size)
 
 
 def _refuse_thin_elements(grid: Grid, size: float, error: NotConverged) -> None:
