@@ -13,7 +13,7 @@ from fem_reference._contact.uncertainty import degree_error
 #: Sums and differences of numbers near 1, relative to the differences of 1e-3 between them.
 ROUNDED = 1e-10
 #: Relative rounding of a quantity itself.
-ROUNDING = 1e-15
+ROUNDING = 1e-14
 DEGREES = (4, 6, 7)
 
 

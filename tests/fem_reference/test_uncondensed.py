@@ -14,7 +14,7 @@ from fem_reference._contact.events import PathEvents
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tracing import traced
-from fem_reference._contact.uncondensed import UncondensedEvents
+from fem_reference._contact.uncondensed import UncondensedEvents, UncondensedValue
 from fem_reference._elastic.assembly import HalfSpace, assemble_half_space
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
@@ -157,7 +157,9 @@ def test_an_event_is_taken_beside_where_it_is(soft_path):
 
 def test_a_solution_holds_the_value_of_the_whole_system(solved):
     problem, right = solved
-    assert right.value != right.values[-1]
+    other = right.with_whole_system(UncondensedValue(right.value + 1.0, 0.5, 7, 1e-3))
+    assert (other.value, other.iterations, other.residual) == (right.value + 1.0, 7, 1e-3)
+    assert other.parts["algebra"] == right.parts["algebra"] + 0.5
     assert right.parts["algebra"] <= ALGEBRA
     assert right.iterations <= 5
     assert 0.0 < right.residual <= uncondensed.RESIDUAL_TOLERANCE
