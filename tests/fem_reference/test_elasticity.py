@@ -1,5 +1,7 @@
 """Elastic half-space: weak form, patch tests, exterior, compliance, and the elimination inside elements and mesh."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from skfem import Basis, BilinearForm, ElementQuadP
@@ -228,6 +230,16 @@ def test_a_displacement_that_is_wrong_lacks_what_it_is_said_to_lack():
     surface = half_space.surface
     assert np.abs(wrong[surface] + lacking - right[surface]).max() <= 1e-9 * np.abs(right).max()
     assert np.abs(lacking).max() > 1e-3 * np.abs(right).max()
+
+
+def test_what_is_left_of_a_load_has_the_square_of_an_error_inside_elements():
+    half_space = assemble_half_space(uniform_grid(2.0, 2), PowerLawModulus(1.0, 1.0, 0.4), 0.3, 3)
+    elements = half_space.elements
+    spoiled = replace(half_space, elements=replace(elements, follow=(1.0 + 1e-4) * elements.follow))
+    u = np.zeros((elements.size, 1))
+    u[half_space.free] = np.random.default_rng(2).normal(size=(half_space.free.size, 1))
+    right, other = (body.remainder(np.zeros_like(u), u) for body in (half_space, spoiled))
+    assert 0.0 < np.abs(other - right).max() <= 1e-6 * np.abs(right).max()
 
 
 def test_a_compliance_that_rounding_changes_is_refused(monkeypatch):
