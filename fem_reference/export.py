@@ -141,7 +141,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
         load = np.zeros(half_space.elements.size)
         load[half_space.surface] = trace.phi.T @ (trace.weight * trace.s * pressure)
         # Lengths scale by c: stiffness by c, load by c^2.
-        u = c * half_space.completed(solve_cg(half_space, load).solution)
+        u = c * half_space.completed(solve_cg(half_space, load).solution[:, None])[:, 0]
         body = half_space.body
         side = np.linspace(SURFACE_OFFSET, 1.0 - SURFACE_OFFSET, SAMPLES)
         X = np.array([np.tile(side, SAMPLES), np.repeat(side, SAMPLES)])

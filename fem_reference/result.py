@@ -38,8 +38,8 @@ class Solution:
     parts : mapping of str to float
         Contributions to `u_num` by cause: "mesh" (size and degree of the elements), "first layer",
         "interior and exterior" (extent of the mesh), "edge" (placement of the contact edge, size of the elements at the
-        apex), "tail" (displacement beyond the mesh) and "algebra" (rounding, the difference of `value` from the
-        condensed one, and the error of the conjugate gradients).
+        apex), "tail" (displacement beyond the mesh) and "algebra" (rounding and the error of the conjugate
+        gradients, and the difference of `value` from the condensed one).
     """
 
     value: float

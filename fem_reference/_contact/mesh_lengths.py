@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from fem_reference._elastic.compliance import is_scaling, scaled_modulus, scaled_poisson
+from fem_reference._elastic.compliance import is_power_law, is_scaling, scaled_modulus, scaled_poisson
 from fem_reference._elastic.depth_scales import depth_scales
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mesh import MeshSpec
@@ -139,7 +139,11 @@ def mesh_spec(
     scales = depth_scales(modulus, FINEST_SCALE * depth * size, extent * size, nu).scaled(size)
     density, order = level.density, level.order
     kinks = tuple(r / size for r in kinks_within(problem))
-    apex_width = min(_apex_width(problem.punch, size), max(apex / size, SMALLEST_APEX))
+    apex = max(apex / size, SMALLEST_APEX)
+    if is_power_law(modulus, nu) and math.isfinite(apex):
+        # Meshes at neighbouring radii share a compliance.
+        apex = 2.0 ** math.floor(math.log2(apex))
+    apex_width = min(_apex_width(problem.punch, size), apex)
     return MeshSpec(width, depth, extent, density, order, apex_width, scales, far_share, kinks)
 
 

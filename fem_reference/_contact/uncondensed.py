@@ -25,7 +25,8 @@ from fem_reference._contact.mesh_choice import MeshChoice
 from fem_reference._contact.path import Point
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._elastic.assembly import HalfSpace, half_space_of
-from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
+from fem_reference._elastic.compliance import is_power_law, scaled_modulus, scaled_poisson
+from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._linear.linear_solver import solve_cg
 from fem_reference._linear.preconditioner import ElasticPreconditioner
@@ -245,7 +246,8 @@ class UncondensedEvents:
                 f"the whole system is {step:.1e} of its displacement from the condensed equilibrium after Newton steps "
                 "without convergence; take a finer accuracy"
             )
-        left = _columns(result.error[surface], columns)
+        matrix = next(iter(equations.values())).contact.compliance.matrix
+        left = _columns(_left(half_space, load, result.solution, matrix), columns)
         shifted = {name: equation.copy() for name, equation in equations.items()}
         for name, equation in shifted.items():
             equation.shift(*left[name], shifted, equations)
@@ -267,6 +269,16 @@ class UncondensedEvents:
                 )
             self._points[name] = equation.point_of(system, iterations, residual)
             self._shifted[name] = shifted[name].point_of(system, iterations, residual)
+
+
+def _left(half_space: HalfSpace, load: Array, u: Array, compliance: Array) -> Array:
+    """Displacement of the surface that a displacement of the mesh lacks under its load, shape (m, q).
+
+    With U the displacement of the mesh under unit loads on its surface, it is U' (load - K u), whatever u is.
+    """
+    if not half_space.eliminations:
+        surface_stiffness(half_space)
+    return np.asarray(compliance @ half_space.gathered(half_space.remainder(load, u)))
 
 
 def _columns(values: Array, columns: Mapping[str, tuple[int, int | None]]) -> dict[str, tuple[Array, Array | None]]:
@@ -297,7 +309,7 @@ def uncondensed_events(choice: MeshChoice, spec: MeshSpec, size: float) -> Uncon
     solid, punch, law = choice.problem.solid, choice.problem.punch, choice.problem.law
 
     def system() -> FullSystem:
-        half_space, preconditioner = _preconditioned(*_unit(solid, size, choice.scaling), spec)
+        half_space, preconditioner = _preconditioned(*_unit(solid, size), spec)
         return FullSystem(half_space, punch, law, preconditioner)
 
     return UncondensedEvents(choice.traced(spec, size), system)
@@ -310,8 +322,8 @@ def _preconditioned(modulus: Any, nu: Any, spec: MeshSpec) -> tuple[HalfSpace, E
     return half_space, ElasticPreconditioner(half_space)
 
 
-def _unit(solid: Solid, size: float, scaling: bool) -> tuple[Any, Any]:
+def _unit(solid: Solid, size: float) -> tuple[Any, Any]:
     """Modulus and Poisson ratio of the mesh, in units of the size; `factor` of the compliance is the rest."""
-    if scaling:
+    if is_power_law(solid.modulus, solid.poisson):
         return PowerLawModulus(1.0, 1.0, solid.modulus.depth_exponent), solid.poisson
     return scaled_modulus(solid.modulus, size), scaled_poisson(solid.poisson, size)

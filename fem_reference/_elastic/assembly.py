@@ -15,6 +15,7 @@ from fem_reference._elastic.condensed_elements import CondensedElements, condens
 from fem_reference._elastic.dissection import Elimination
 from fem_reference._elastic.dof_ordering import both_components, line_unknowns, reversal_signs
 from fem_reference._elastic.elasticity import Body
+from fem_reference._elastic.element_forces import ElementForces
 from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import Grid, MeshSpec
@@ -74,6 +75,10 @@ class HalfSpace:
         inside = self.elements.assembled()
         return (inside + sparse.coo_array((self.exterior.ravel(), (rows, cols)), shape=inside.shape)).tocsr()
 
+    @cached_property
+    def _forces(self) -> ElementForces:
+        return ElementForces(self.grid, self.dofs, self.body.modulus, self.body.nu)
+
     def recovered(self, w: Array) -> Array:
         """Return the displacement of the mesh, shape (2 N, q), without that inside the elements, from its surface."""
         u = np.zeros((self.elements.size, w.shape[1]))
@@ -82,17 +87,49 @@ class HalfSpace:
             u[elimination.rows] = elimination.follow @ u[elimination.stays]
         return u
 
+    def gathered(self, load: Array) -> Array:
+        """Return the load on the surface, shape (m, q), that moves it as a load on the mesh does: shape (2 N, q)."""
+        load = load.copy()
+        for elimination in self.eliminations:
+            load[elimination.stays] += elimination.follow.T @ load[elimination.rows]
+        return np.asarray(load[self.surface])
+
     def completed(self, u: Array) -> Array:
-        """Fill in the displacement inside every element, under that of the sides; shape (2 N,)."""
-        complete, sides = u.copy(), self.elements.sides.shape[1]
-        body = self.body
-        for _, rows, K in tensor_stiffness(self.grid, self.dofs, body.modulus, body.nu):
-            pull = K[:, sides:, :sides] @ u[rows[:, :sides], None]
-            complete[rows[:, sides:]] = -np.linalg.solve(K[:, sides:, sides:], pull)[:, :, 0]
+        """Fill in the displacement inside every element, under that of the sides; shape (2 N, q)."""
+        complete = u.copy()
+        complete[self.elements.inside] = self.elements.follow @ u[self.elements.sides]
         return complete
 
+    def remainder(self, load: Array, u: Array) -> Array:
+        """What a displacement leaves of a load: the load minus the forces of elements and exterior.
 
-def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, order: int = 4) -> HalfSpace:
+        It is right to the rounding of these forces, while a product of the assembled stiffness is right to the rounding
+        of the stiffness times the displacement, which is larger by the power of ten by which an element is thin.
+
+        Parameters
+        ----------
+        load, u : ndarray, shape (2 N, q)
+            No load inside the elements, nor the displacement there.
+
+        Returns
+        -------
+        ndarray, shape (2 N, q)
+            Zero on the rows that are fixed and on those inside the elements, whose remainder the sides bear.
+        """
+        elements = self.elements
+        left = load - self._forces.under(self.completed(u))
+        left[self.boundary] -= self.exterior @ u[self.boundary]
+        borne = np.swapaxes(elements.follow, 1, 2) @ left[elements.inside]
+        for column, values in enumerate(borne.reshape(-1, left.shape[1]).T):
+            left[:, column] += np.bincount(elements.sides.ravel(), values, minlength=elements.size)
+        free = np.zeros_like(left)
+        free[self.free] = left[self.free]
+        return free
+
+
+def assemble_half_space(
+    grid: Grid, modulus: Modulus, nu: float | PoissonRatio, order: int = 4, recoverable: bool = True
+) -> HalfSpace:
     """Assemble interior and exterior.
 
     Parameters
@@ -105,6 +142,8 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, 
         Poisson ratio in [0, 0.5), or one of depth.
     order : int
         Element order, at least 2.
+    recoverable : bool
+        Whether the displacement inside the elements is recovered later.
 
     Returns
     -------
@@ -114,7 +153,7 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, 
     layer = float(grid.z[1])
     body = Body(mesh, InteriorChart(layer, modulus.surface_exponent), modulus, nu, order)
     dofs = Dofs(mesh, ElementQuadP(order))
-    elements = condensed_elements(tensor_stiffness(grid, dofs, modulus, nu), dofs)
+    elements = condensed_elements(tensor_stiffness(grid, dofs, modulus, nu), dofs, recoverable)
     boundary, weight = square_boundary(grid, dofs, order)
     outer = weight[:, None] * exterior_stiffness(grid, modulus, nu, order) * weight
     free = np.setdiff1d(elements.sides, 2 * line_unknowns(dofs, 0, 0.0))
@@ -134,18 +173,18 @@ def square_boundary(grid: Grid, dofs: Dofs, order: int) -> tuple[Index, Array]:
 
 
 def assembled(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) -> HalfSpace:
-    """Return the half-space on a mesh.
+    """Return the half-space on a mesh, whose surface alone is wanted.
 
     Parameters
     ----------
     modulus : Modulus
         E(z).
     nu : float or PoissonRatio
-        Poisson ratio in [0, 0.5), or one of depth.
+        Poisson ratio, or one of depth.
     spec : MeshSpec
         The mesh.
     """
-    return assemble_half_space(spec.grid(), modulus, nu, spec.order)
+    return assemble_half_space(spec.grid(), modulus, nu, spec.order, recoverable=False)
 
 
 def half_space_of(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) -> HalfSpace:
@@ -156,4 +195,4 @@ def half_space_of(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) ->
 # Two: the mesh of the last path, whose events are solved next, and one before it; each holds some 50 MB.
 @lru_cache(maxsize=2)
 def _kept_half_space(modulus: Any, nu: Any, spec: MeshSpec) -> HalfSpace:
-    return assembled(modulus, nu, spec)
+    return assemble_half_space(spec.grid(), modulus, nu, spec.order)

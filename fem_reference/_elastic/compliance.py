@@ -16,8 +16,8 @@ from typing import Any, Protocol, cast
 import numpy as np
 from scipy import linalg
 
-from fem_reference._elastic.assembly import assembled, half_space_of
-from fem_reference._elastic.condensation import condensed
+from fem_reference._elastic.assembly import HalfSpace, assembled, half_space_of
+from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import Grid, MeshSpec
 from fem_reference._elastic.trace import Trace, trace_of
 from fem_reference._typing import Array
@@ -30,9 +30,11 @@ __all__ = [
     "FixedCompliance",
     "ScalingCompliance",
     "compliance_for",
+    "is_power_law",
     "is_scaling",
     "scaled_modulus",
     "scaled_poisson",
+    "surface_compliance",
 ]
 
 
@@ -67,10 +69,6 @@ class Compliance(Protocol):
         """Modulus relative to that of the solid that was condensed."""
         ...
 
-    def rounded(self) -> Compliance:
-        """Return the compliance with the rounding of its condensation added."""
-        ...
-
     def stiffened(self, ratio: float) -> Compliance:
         """Return the compliance of a solid whose modulus is larger by a factor everywhere."""
         ...
@@ -84,7 +82,6 @@ class ScalingCompliance:
     matrix: Array
     modulus: PowerLawModulus
     unknowns: int
-    rounding: Array | float = 0.0
     stiffness: float = 1.0
 
     def factor(self, c: float) -> float:
@@ -96,10 +93,6 @@ class ScalingCompliance:
         """(1 - k) factor / c."""
         return (1.0 - self.modulus.k) * self.factor(c) / c
 
-    def rounded(self) -> ScalingCompliance:
-        """Return the compliance with the rounding of its condensation added."""
-        return replace(self, matrix=self.matrix + self.rounding, rounding=0.0)
-
     def stiffened(self, ratio: float) -> ScalingCompliance:
         """Return the compliance of a solid whose modulus is larger by a factor everywhere."""
         return replace(self, stiffness=ratio * self.stiffness)
@@ -107,7 +100,7 @@ class ScalingCompliance:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FixedCompliance:
-    """Compliance of a solid that does not scale, on a mesh of one size.
+    """Compliance on a mesh of one size, `unit` times a matrix.
 
     Raises
     ------
@@ -119,22 +112,18 @@ class FixedCompliance:
     matrix: Array
     size: float
     unknowns: int
-    rounding: Array | float = 0.0
+    unit: float
     stiffness: float = 1.0
 
     def factor(self, c: float) -> float:
-        """c, which must be the size of the mesh, with the modulus of `stiffness`."""
+        """Factor at c, which must be the size of the mesh: `unit`, with the modulus of `stiffness`."""
         if abs(c / self.size - 1.0) > 1e-12:
-            raise ValueError(f"this compliance holds at the size {self.size}, not {c}: the modulus is not a power law")
-        return self.size / self.stiffness
+            raise ValueError(f"this compliance holds at the size {self.size}, not {c}: the mesh has one size")
+        return self.unit / self.stiffness
 
     def factor_slope(self, c: float) -> float:
         """Zero: the size cannot change."""
         return 0.0
-
-    def rounded(self) -> FixedCompliance:
-        """Return the compliance with the rounding of its condensation added."""
-        return replace(self, matrix=self.matrix + self.rounding, rounding=0.0)
 
     def stiffened(self, ratio: float) -> FixedCompliance:
         """Return the compliance of a solid whose modulus is larger by a factor everywhere."""
@@ -142,15 +131,13 @@ class FixedCompliance:
 
 
 @lru_cache(maxsize=24)
-def _unit_compliance(k: float, nu: float, spec: MeshSpec, recoverable: bool) -> tuple[Trace, Array, Array, int]:
-    grid = spec.grid()
-    assembly = half_space_of if recoverable else assembled
-    half_space = assembly(PowerLawModulus(1.0, 1.0, k), nu, spec)
-    return trace_of(grid, spec.order), *_inverse(*condensed(half_space, recoverable)), half_space.unknowns
+def _unit_compliance(k: float, nu: float, spec: MeshSpec, recoverable: bool) -> tuple[Trace, Array, int]:
+    half_space = (half_space_of if recoverable else assembled)(PowerLawModulus(1.0, 1.0, k), nu, spec)
+    return trace_of(spec.grid(), spec.order), surface_compliance(half_space, recoverable), half_space.unknowns
 
 
-#: Largest change of the compliance by rounding, relative to its largest entry. What it changes of an event is a part of
-#: the bound (measured: 2.4e-7 under a coating 1e4 times as stiff as the solid, and 1e-10 of its pull-off force).
+#: Largest error of the compliance by rounding, relative to its largest entry. What rounding leaves of an event is found
+#: on the whole system (measured: 2.4e-7 under a coating 1e4 times as stiff as the solid, and 1e-10 of its force).
 LARGEST_ROUNDING = 1e-6
 
 
@@ -160,18 +147,35 @@ LARGEST_ROUNDING = 1e-6
 SAFE_THICKNESS = 1e-5
 
 
-def _inverse(S: Array, rounding: Array) -> tuple[Array, Array]:
-    """Inverse of S, and its change under a small change of S."""
+def surface_compliance(half_space: HalfSpace, recoverable: bool = True) -> Array:
+    """Inverse of the surface stiffness of a half-space.
+
+    Parameters
+    ----------
+    half_space, recoverable
+        As for `fem_reference._elastic.condensation.surface_stiffness`.
+
+    Raises
+    ------
+    NotConverged
+        If the stiffness is not positive definite, or if rounding changes the compliance under a load in the centre or
+        at the edge, where the elements are smallest.
+    """
+    S = surface_stiffness(half_space, recoverable)
     X = linalg.cho_solve(linalg.cho_factor(S), np.eye(S.shape[0]))
     X = 0.5 * (X + X.T)
-    change = -X @ rounding @ X
-    relative = float(np.abs(change).max() / np.abs(X).max())
-    if not relative <= LARGEST_ROUNDING:
-        raise NotConverged(
-            f"rounding changes the compliance of the surface by {relative:.0e}, not {LARGEST_ROUNDING:.0e}: the "
-            "elements are too thin, or the stiffness is nearly singular; check modulus, mesh and nu"
-        )
-    return X, change
+    if recoverable:
+        loaded = [0, int(np.argmin(np.abs(half_space.grid.r - 1.0)))]
+        load = np.zeros((half_space.elements.size, len(loaded)))
+        load[half_space.surface[loaded], np.arange(len(loaded))] = 1.0
+        change = X @ half_space.gathered(half_space.remainder(load, half_space.recovered(X[:, loaded])))
+        relative = float(np.max(np.abs(change) / np.abs(X).max()))
+        if not relative <= LARGEST_ROUNDING:
+            raise NotConverged(
+                f"rounding changes the compliance of the surface by {relative:.0e}, not {LARGEST_ROUNDING:.0e}: the "
+                "elements are too thin, or the stiffness is nearly singular; check modulus, mesh and nu"
+            )
+    return X
 
 
 def _divided(interfaces: tuple[Interface, ...], c: float) -> tuple[Interface, ...]:
@@ -229,7 +233,12 @@ def is_scaling(modulus: Modulus, nu: float | PoissonRatio, kinks: tuple[float, .
     >>> is_scaling(PowerLawModulus(1.0, 1.0, 0.5), 0.3, kinks=())
     True
     """
-    return isinstance(modulus, PowerLawModulus) and not isinstance(nu, PoissonRatio) and not kinks
+    return is_power_law(modulus, nu) and not kinks
+
+
+def is_power_law(modulus: Modulus, nu: float | PoissonRatio) -> bool:
+    """Whether the compliance on a mesh is the same at every size of it, but for a factor."""
+    return isinstance(modulus, PowerLawModulus) and not isinstance(nu, PoissonRatio)
 
 
 def compliance_for(
@@ -255,8 +264,7 @@ def compliance_for(
     scaling : bool
         Whether that is made use of.
     recoverable : bool
-        Whether the whole system of the mesh is solved later: the half-space is kept for it, and the rounding of its
-        condensation is found.
+        Whether the whole system of the mesh is solved later: the half-space is kept for it.
 
     Returns
     -------
@@ -267,11 +275,14 @@ def compliance_for(
     NotConverged
         If the stiffness of the mesh is not positive definite.
     """
+    if not is_power_law(modulus, nu):
+        return _fixed_compliance(cast(Hashable, modulus), cast(Hashable, nu), spec, size, recoverable)
+    law = cast(PowerLawModulus, modulus)
+    trace, matrix, unknowns = _unit_compliance(law.k, cast(float, nu), spec, recoverable)
+    of_every_size = ScalingCompliance(trace, matrix, law, unknowns)
     if scaling and is_scaling(modulus, nu, spec.kinks):
-        law = cast(PowerLawModulus, modulus)
-        trace, matrix, rounding, unknowns = _unit_compliance(law.k, cast(float, nu), spec, recoverable)
-        return ScalingCompliance(trace, matrix, law, unknowns, rounding)
-    return _fixed_compliance(cast(Hashable, modulus), cast(Hashable, nu), spec, size, recoverable)
+        return of_every_size
+    return FixedCompliance(trace, matrix, size, unknowns, of_every_size.factor(size))
 
 
 # The search for the width of the edge, and the mesh of it that the bounds need again; a few MB each.
@@ -280,11 +291,11 @@ def _fixed_compliance(modulus: Any, nu: Any, spec: MeshSpec, size: float, recove
     grid, assembly = spec.grid(), half_space_of if recoverable else assembled
     try:
         half_space = assembly(scaled_modulus(modulus, size), scaled_poisson(nu, size), spec)
-        matrix, rounding = _inverse(*condensed(half_space, recoverable))
+        matrix = surface_compliance(half_space, recoverable)
     except NotConverged as error:
         _refuse_thin_elements(grid, size, error)
         raise
-    return FixedCompliance(trace_of(grid, spec.order), matrix, size, half_space.unknowns, rounding)
+    return FixedCompliance(trace_of(grid, spec.order), matrix, size, half_space.unknowns, size)
 
 
 def _refuse_thin_elements(grid: Grid, size: float, error: NotConverged) -> None:

@@ -35,6 +35,9 @@ class CondensedElements:
         Symmetric but for rounding.
     inside : ndarray of int, shape (elements, q)
         Rows of the functions inside.
+    follow : ndarray, shape (elements, q, m)
+        How the displacement inside follows that of the sides, where no load is inside: u[inside] = follow u[sides].
+        Empty if that was not wanted.
     size : int
         Rows of all.
     """
@@ -42,6 +45,7 @@ class CondensedElements:
     sides: Index
     stiffness: Array
     inside: Index
+    follow: Array
     size: int
 
     def assembled(self) -> sparse.csr_array:
@@ -52,7 +56,9 @@ class CondensedElements:
         return sparse.coo_array((self.stiffness.ravel(), (rows, cols)), shape=(self.size, self.size)).tocsr()
 
 
-def condensed_elements(parts: Iterable[tuple[Index, Index, Array]], dofs: Dofs) -> CondensedElements:
+def condensed_elements(
+    parts: Iterable[tuple[Index, Index, Array]], dofs: Dofs, recoverable: bool = False
+) -> CondensedElements:
     """Eliminate the functions inside elements.
 
     Parameters
@@ -62,6 +68,8 @@ def condensed_elements(parts: Iterable[tuple[Index, Index, Array]], dofs: Dofs) 
         shape (e, n, n).
     dofs : skfem.Dofs
         Numbering of the scalar functions.
+    recoverable : bool
+        Whether the displacement inside is to follow that of the sides.
 
     Raises
     ------
@@ -77,6 +85,7 @@ def condensed_elements(parts: Iterable[tuple[Index, Index, Array]], dofs: Dofs) 
                 np.empty((elements, sides), np.intp),
                 np.empty((elements, sides, sides)),
                 np.empty((elements, count), np.intp),
+                np.empty((elements, count, sides) if recoverable else 0),
                 size,
             )
         result.sides[which], result.inside[which] = rows[:, :sides], rows[:, sides:]
@@ -85,13 +94,15 @@ def condensed_elements(parts: Iterable[tuple[Index, Index, Array]], dofs: Dofs) 
         blocks = scale[:, :, None] * K[:, sides:, sides:] * scale[:, None, :]
         couplings = K[:, :sides, sides:] * scale[:, None, :]
         result.stiffness[which] = K[:, :sides, :sides]
-        for element, block, coupling in zip(which, blocks, couplings, strict=True):
+        for element, block, coupling, unit in zip(which, blocks, couplings, scale, strict=True):
             # With Y of L Y = C the product C' B^-1 C is Y' Y: formed with B^-1 C it would lose ten times as much.
             L, failed = dpotrf(block.T, lower=1, overwrite_a=1, clean=0)
             if failed:
                 raise NotConverged("an element is not positive definite; check modulus, mesh and nu")
             Y, _ = dtrtrs(L, coupling.T, lower=1, overwrite_b=1)
             result.stiffness[element] -= Y.T @ Y
+            if recoverable:
+                result.follow[element] = -unit[:, None] * dtrtrs(L, Y, lower=1, trans=1, overwrite_b=1)[0]
     if result is None:
         raise ValueError("there is no element to condense")
     return result

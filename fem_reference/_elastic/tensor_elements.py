@@ -6,7 +6,7 @@ product of two integrals along its sides.  Functions, numbering and degree are t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from skfem import Dofs, MeshQuad
@@ -29,10 +29,23 @@ from fem_reference._typing import Array, Index
 from fem_reference.modulus import Modulus
 from fem_reference.poisson import PoissonRatio
 
-__all__ = ["charted_stiffness", "pressure_functions", "tensor_stiffness", "unit_functions"]
+__all__ = [
+    "BLOCKS",
+    "along_from_start",
+    "charted_stiffness",
+    "depth_integrals",
+    "factors",
+    "pressure_functions",
+    "radial_integrals",
+    "tensor_stiffness",
+    "unit_functions",
+]
+
+#: Functions along a side and their slopes, from points of the unit interval and their degree.
+Along = Callable[[Array, int], tuple[Array, Array]]
 
 
-def _factors(mesh: MeshQuad, order: int) -> tuple[Index, Index]:
+def factors(mesh: MeshQuad, order: int) -> tuple[Index, Index]:
     """Degrees of both factors of each function of an element, along both coordinates of the mesh."""
     edge = range(2, order + 1)
     pairs = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -49,9 +62,23 @@ def _along(points: Array, order: int) -> tuple[Array, Array]:
     return line_functions(ends, order, points), line_slopes(ends, order, points)
 
 
+def along_from_start(points: Array, order: int) -> tuple[Array, Array]:
+    """As `_along`, with 1 and x in place of the functions of both ends: an end counts from the start of the side.
+
+    Examples
+    --------
+    >>> along_from_start(np.array([0.25]), 1)
+    (array([[1.  , 0.25]]), array([[0., 1.]]))
+    """
+    N, slope = _along(points, order)
+    N[:, 0], N[:, 1] = 1.0, points
+    slope[:, 0], slope[:, 1] = 0.0, 1.0
+    return N, slope
+
+
 def unit_functions(mesh: MeshQuad, order: int, X: Array) -> tuple[Array, Array, Array]:
     """Functions of an element at points X of the unit square of (r, z), and their slopes along both; shape (q, n)."""
-    along = _factors(mesh, order)
+    along = factors(mesh, order)
     N, dN = (f[:, along[0]] for f in _along(X[0], order))
     M, dM = (f[:, along[1]] for f in _along(X[1], order))
     return N * M, dN * M, N * dM
@@ -74,10 +101,10 @@ def _integrals(left: Array, weight: Array, right: Array) -> Array:
     return np.asarray(np.swapaxes(left, -1, -2) @ (weight[:, :, None] * right))
 
 
-def _radial(nodes: Array, order: int) -> dict[str, Array]:
+def radial_integrals(nodes: Array, order: int, along: Along = _along) -> dict[str, Array]:
     """Matrices along r of every column; d marks a derivative."""
     x, w = unit_gauss(order + EXTRA_POINTS)
-    N, slope = _along(x, order)
+    N, slope = along(x, order)
     h = np.diff(nodes)[:, None]
     r, weight = nodes[:-1, None] + h * x, h * w
     dN = slope / h[:, :, None]
@@ -91,13 +118,15 @@ def _radial(nodes: Array, order: int) -> dict[str, Array]:
     }
 
 
-def _depth(nodes: Array, modulus: Modulus, nu: float | PoissonRatio, order: int) -> dict[str, Array]:
+def depth_integrals(
+    nodes: Array, modulus: Modulus, nu: float | PoissonRatio, order: int, along: Along = _along
+) -> dict[str, Array]:
     """Matrices along z of every row, weighted with lambda, mu or stiff = lambda + 2 mu; d marks a derivative."""
     rows: list[dict[str, Array]] = []
     x, w = unit_gauss(order + EXTRA_POINTS)
     u, wu = unit_gauss(FIRST_LAYER_POINTS)
     for ends, points, weights in ((nodes[:2], u**3, 3.0 * u**2 * wu), (nodes[1:], x, w)):
-        Z, slope = _along(points, order)
+        Z, slope = along(points, order)
         h = np.diff(ends)[:, None]
         z, stretch = graded_depth(ends[:-1, None] + h * points, float(nodes[1]), modulus.surface_exponent)
         measure, dZ = h * weights * stretch, slope / (h * stretch)[:, :, None]
@@ -149,9 +178,9 @@ def tensor_stiffness(
         If the modulus is not positive, or Poisson's ratio outside its range.
     """
     mesh, order = dofs.topo, int(dofs.element.p)
-    along_r, along_z = _factors(mesh, order)
-    radial = {name: M[:, along_r[:, None], along_r] for name, M in _radial(grid.r, order).items()}
-    depth = {name: M[:, along_z[:, None], along_z] for name, M in _depth(grid.z, modulus, nu, order).items()}
+    along_r, along_z = factors(mesh, order)
+    radial = {name: M[:, along_r[:, None], along_r] for name, M in radial_integrals(grid.r, order).items()}
+    depth = {name: M[:, along_z[:, None], along_z] for name, M in depth_integrals(grid.z, modulus, nu, order).items()}
     columns, layers = element_places(mesh)
     rows = both_components(np.asarray(dofs.element_dofs)).T
     size = rows.shape[1]

@@ -182,3 +182,11 @@ def test_the_path_begins_beyond_the_jump_out_of_contact():
     choice, spec, size = chosen(problem_with(0.0, 8.0), ("zero_load",), "quick")
     points = choice.search_path(spec, size).points
     assert points[0].state.displacement < min(p.state.displacement for p in points if p.branch.touching) < -12.0
+
+
+def test_a_power_law_has_the_same_mesh_at_neighbouring_radii():
+    """A narrow edge has a mesh for each radius, and each mesh would need a condensation."""
+    narrow = MeshChoice(problem_with(0.0, 1500.0), level_for("default"))
+    assert not narrow.scaling
+    width = 1.01 * 2.0**-26
+    assert len({narrow.spec_at(width, radius) for radius in (58.0, 58.5, 59.0)}) == 1

@@ -14,8 +14,8 @@ from fem_reference._contact.events import PathEvents
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tracing import traced
-from fem_reference._contact.uncondensed import UncondensedEvents
-from fem_reference._elastic.assembly import assemble_half_space
+from fem_reference._contact.uncondensed import UncondensedEvents, UncondensedValue
+from fem_reference._elastic.assembly import HalfSpace, assemble_half_space
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.laws import LennardJones
@@ -28,6 +28,9 @@ from fem_reference.states import event_state
 
 #: Largest distance of the whole system from its condensation (measured: 4e-11).
 ALGEBRA = 1e-9
+
+#: What the first order leaves of an error of 1e-6: measured 2e-7 to 1e-4 of it.
+SECOND_ORDER = 1e-3
 
 SPEC = MeshSpec(0.125, 2.5e-3, 64.0, 1.3, 4)
 
@@ -85,7 +88,8 @@ def test_the_value_is_that_of_the_whole_system_and_not_of_the_condensed_path(sof
 
 
 def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeypatch):
-    """With a coarse tolerance the estimate alone, without the distance from the condensed value, covers the error."""
+    """With a coarse tolerance the estimate alone, without the distance from the condensed value, is the error."""
+    monkeypatch.setattr(HalfSpace, "recovered", lambda self, w: np.zeros((self.elements.size, w.shape[1])))
     monkeypatch.setattr(uncondensed, "LINEAR_TOLERANCE", 1e-5)
     monkeypatch.setattr(uncondensed, "NEWTON_TOLERANCE", 1e-2)
     monkeypatch.setattr(uncondensed, "ROUNDING_STEP", 1e-2)
@@ -94,7 +98,7 @@ def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeyp
     for name, row in TABLE.items():
         solution, right = events.value(row.functional), row.functional(soft_path)
         estimate = solution.algebra - abs(solution.value - right)
-        assert abs(solution.value - right) <= estimate, name
+        assert estimate == pytest.approx(abs(solution.value - right), rel=SECOND_ORDER), name
 
 
 @pytest.mark.parametrize("tolerance", ["ROUNDING_STEP", "RESIDUAL_TOLERANCE"])
@@ -153,7 +157,9 @@ def test_an_event_is_taken_beside_where_it_is(soft_path):
 
 def test_a_solution_holds_the_value_of_the_whole_system(solved):
     problem, right = solved
-    assert right.value != right.values[-1]
+    other = right.with_whole_system(UncondensedValue(right.value + 1.0, 0.5, 7, 1e-3))
+    assert (other.value, other.iterations, other.residual) == (right.value + 1.0, 7, 1e-3)
+    assert other.parts["algebra"] == right.parts["algebra"] + 0.5
     assert right.parts["algebra"] <= ALGEBRA
     assert right.iterations <= 5
     assert 0.0 < right.residual <= uncondensed.RESIDUAL_TOLERANCE
