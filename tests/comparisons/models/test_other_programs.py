@@ -66,7 +66,7 @@ LAMMPS = {
 
 #: Radius in m and modulus in Pa of Hertz's fit to one measured force curve, Poisson's ratio 0.5: by nanite
 #: (``tests/test_indent.py`` at commit 77636dd, the whole approach) and by the software of JPK
-#: (``tests/test_model_hertz_parabol.py``, which admits 2e-3 between the two).  Only the numbers are here, not the curve.
+#: (``tests/test_model_hertz_parabol.py``, which admits 2e-3 between the two).  The curve is not here.
 HERTZ_FITS = [(10e-6, 14741.958), (40e-9, 233.1e3)]
 
 
