@@ -87,8 +87,6 @@ class Result:
         Largest residual of the discrete equations at the solution (0 when none).
     seconds : float
         Wall-clock time of the computation.
-    observed_order : float or None
-        Order of convergence seen over several meshes; None where none was measured.
     reason : str
         One sentence on a further assumption of the value, for example an equivalent power law; empty if there is none.
 
@@ -104,7 +102,6 @@ class Result:
     iterations: int = 0
     residual: float = 0.0
     seconds: float = 0.0
-    observed_order: float | None = None
     reason: str = ""
 
     def __post_init__(self) -> None:

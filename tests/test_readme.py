@@ -6,6 +6,10 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from comparisons.judging.gates import gates_text, load_gates, of_tier
+from comparisons.judging.selection import relevant
+from comparisons.runs.cases import grids, grids_for
+
 ROOT = Path(__file__).resolve().parent.parent
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 LARGEST = pd.read_csv(ROOT / "results" / "baseline" / "largest_kappa.csv")
@@ -41,3 +45,11 @@ def test_the_printed_errors_are_those_of_the_baseline():
         assert percent == pytest.approx(100 * worst["kappa"], abs=5e-3)
         assert (n, k) == (worst["n"], worst["k"])
         assert mu == pytest.approx(worst["mu"], rel=1e-3)
+
+
+def test_the_number_of_gates_that_is_stated_is_that_of_a_run():
+    standing = grids_for(grids("quick"), None)
+    count = len(relevant(of_tier(load_gates(gates_text()), "quick"), standing, None))
+    paper = (ROOT / ".github" / "joss" / "paper.md").read_text(encoding="utf-8")
+    stated = [re.findall(r"of (\d+) gates pass", TEXT), re.findall(r"(\d+) gates in the quick tier", paper)]
+    assert stated == [[str(count)]] * 2

@@ -7,7 +7,6 @@ that against the certified pull-off force.
 from __future__ import annotations
 
 import time
-from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
@@ -37,8 +36,6 @@ _SETTINGS = {
     "fem": ("quick", "default", "fine"),
     "fscm-stieltjes": ("250", "500", "1000", "2500"),
 }
-#: Name of the finite elements before they became faster.
-_EARLIER = "fem, earlier"
 #: Measured with `full` only.
 _FULL = "2500"
 
@@ -152,25 +149,9 @@ def time_ratios(rows: pd.DataFrame) -> list[float]:
     return quotients
 
 
-def with_earlier_elements(rows: pd.DataFrame) -> pd.DataFrame:
-    """Return measurements with those of the model "fem, earlier": the finite elements of commit b585bc2.
-
-    Their CPU times are multiples of those of today, measured side by side on one machine.
-
-    Parameters
-    ----------
-    rows : DataFrame
-        With the columns model, mu, setting, cpu_seconds, error and u_error.
-    """
-    earlier = pd.read_csv(str(files("comparisons.data").joinpath("earlier_elements.csv")))
-    joined = rows[rows["model"] == "fem"].drop(columns="error").merge(earlier, on=["mu", "setting"])
-    joined = joined.assign(model=_EARLIER, cpu_seconds=joined["cpu_seconds"] * joined["times"])
-    return pd.concat([rows, joined], ignore_index=True)
-
-
 def draw(rows: pd.DataFrame) -> Figure:
     """Draw error against CPU time, one panel a Tabor number."""
-    drawn = with_earlier_elements(rows).sort_values("cpu_seconds")
+    drawn = rows.sort_values("cpu_seconds")
     # A smaller error is drawn where it is known to be.
     drawn = drawn.assign(error=np.maximum(drawn["error"], drawn["u_error"]))
     tabor_numbers = rows["mu"].unique()
@@ -179,7 +160,7 @@ def draw(rows: pd.DataFrame) -> Figure:
         words = [held(mu=mu) for mu in tabor_numbers]
         lattice = panels(figure, words, "CPU time (s)", "relative error of the pull-off force")
         for axes, mu in zip(lattice, tabor_numbers, strict=True):
-            models = [*_SETTINGS, _EARLIER]
+            models = list(_SETTINGS)
             for index, line in enumerate(of_model(drawn[drawn["mu"] == mu], *models)):
                 style = {"color": COLOURS[index], "marker": MARKERS[index], "label": models[index]}
                 axes.loglog("cpu_seconds", "error", data=line, **style)

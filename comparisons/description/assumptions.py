@@ -29,21 +29,21 @@ _EDGE = 0.5
 _PARABOLOID, _BALL = "sphere", "ball"
 
 
-def _error(change: tuple[float, float] | None, reason: str = "") -> Json:
-    """A relative change with its bound, or the reason why it is unknown."""
-    error, bound = change or (None, None)
-    return {"error": error, "u_num": bound, "reason": "" if change else reason}
+def _error(change: tuple[float, float] | None, reason: str = "", *, is_estimate: bool = False) -> Json:
+    """A relative change with its uncertainty, and whether both are estimates; or the reason why it is unknown."""
+    error, u = change or (None, None)
+    return {"error": error, "u_num": u, "reason": "" if change else reason, "is_estimate": is_estimate}
 
 
 def _product(changes: Sequence[Json]) -> Json:
-    """Error of several relative changes after each other; unknown where one of them is."""
-    total, bound = 1.0, 0.0
+    """Error of several relative changes after each other; unknown where one of them is, an estimate where one is."""
+    total, u = 1.0, 0.0
     for change in changes:
         if change["error"] is None:
             return _error(None, change["reason"])
         factor = 1.0 + change["error"]
-        total, bound = total * factor, bound * abs(factor) + abs(total) * change["u_num"]
-    return _error((total - 1.0, bound))
+        total, u = total * factor, u * abs(factor) + abs(total) * change["u_num"]
+    return _error((total - 1.0, u), is_estimate=any(change.get("is_estimate", False) for change in changes))
 
 
 def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json | None:
@@ -63,9 +63,10 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
     dict or None
         ``measures`` of the equilibrium at pull-off, each with ``key``, ``value``, ``limit`` and ``meaning``, and
         ``contact_radius`` in m, where the tension is largest.  ``geometry``, ``strain`` and ``total`` have ``error``,
-        ``u_num`` and ``reason``: relative errors of the force of small strains against that of a neo-Hookean solid and
-        the exact shape, without friction; None where they are unknown.  ``recommendable`` is false where the contact is
-        larger than the sphere, ``by_solution`` the argument.  None where there is no pull-off force.
+        ``u_num``, ``reason`` and ``is_estimate``: relative errors of the force of small strains against that of a
+        neo-Hookean solid and the exact shape, without friction; None where they are unknown.  ``is_estimate`` is true
+        where they are extrapolated from other problems: ``u_num`` is then no bound.  ``recommendable`` is false where
+        the contact is larger than the sphere, ``by_solution`` the argument.  None where there is no pull-off force.
     """
     if force.value is None:
         return None
@@ -144,7 +145,8 @@ def _tabulated(problem: Problem) -> Json:
     change = strain_change(softness, problem.posed.mu, problem.solid["nu"])
     if change is None:
         return _error(None, f"the table has no solid as soft as w/(E* R) = {softness:.2g}")
-    return _error((-change.value / (1.0 + change.value), change.bound / (1.0 + change.value) ** 2))
+    error, u = -change.value / (1.0 + change.value), change.uncertainty / (1.0 + change.value) ** 2
+    return _error((error, u), is_estimate=change.is_extrapolated)
 
 
 def total_errors(problem: Problem, errors: Sequence[Json], assumed: Json | None) -> list[Json]:
@@ -166,5 +168,8 @@ def total_errors(problem: Problem, errors: Sequence[Json], assumed: Json | None)
     change = change_of(evaluate("jkr-sphere", "pull_off_force", exact), evaluate("fscm", "pull_off_force", exact))
     if change is not None:
         total["jkr-sphere"] = _product((_error(change), assumed["strain"]))
-    rows = [{"model": name, "error": error["error"], "u_num": error["u_num"]} for name, error in total.items()]
+    rows = [
+        {"model": name} | {key: error[key] for key in ("error", "u_num", "is_estimate")}
+        for name, error in total.items()
+    ]
     return sorted(rows, key=lambda row: abs(row["error"]))

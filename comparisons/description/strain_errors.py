@@ -6,8 +6,9 @@ radius: s / (w/(E* R))^(1/3) is smooth, and is what is interpolated.  `python -m
 computes the table.
 
 At large Tabor numbers the tension makes the surface unstable, and the table has no force.  There s lies about where a
-straight line in 1/mu through the last two points is half way to 1/mu = 0; the bound is the whole way, and `FURTHER` of
-the largest value before.
+straight line in 1/mu through the last two points is half way to 1/mu = 0; its uncertainty is the whole way, and
+`FURTHER` of the largest value before.  Between the rows the uncertainty contains the bounds of the forces and a
+measured error of the interpolation.  Outside the table nothing has been solved: value and uncertainty are estimates.
 """
 
 from __future__ import annotations
@@ -32,20 +33,21 @@ FILE = "strain_errors.csv"
 SOFTNESS = (1e-5, 1e-4, 1e-3, 5e-3, 2e-2, 5e-2, 1e-1)
 POISSON_RATIOS = (0.0, 0.2, 0.35, 0.5)
 
-#: Share of the change that the bound has in the middle between two rows (measured: a row from its neighbours, twice as
-#: far apart, misses by up to 1 % beside the difference from a straight line).
+#: Share of the change that the uncertainty has in the middle between two rows (measured: a row from its neighbours,
+#: twice as far apart, misses by up to 1 % beside the difference from a straight line).
 BETWEEN = 0.01
 
-#: Share of the largest change at smaller Tabor numbers that the bound has beyond the last one (measured: forces of the
-#: table from those at smaller Tabor numbers, three at least, miss by up to 0.6 of the bound).
+#: Share of the largest change at smaller Tabor numbers that the uncertainty has beyond the last one (measured: forces
+#: of the table from those at smaller Tabor numbers, three at least, miss by up to 0.6 of the uncertainty).
 FURTHER = 0.5
 
 
 class Change(NamedTuple):
-    """A relative change and its bound."""
+    """A relative change, its uncertainty, and whether both are estimates from outside the table."""
 
     value: float
-    bound: float
+    uncertainty: float
+    is_extrapolated: bool = False
 
 
 def strain_change(softness: float, mu: float, nu: float) -> Change | None:
@@ -63,13 +65,16 @@ def strain_change(softness: float, mu: float, nu: float) -> Change | None:
     Returns
     -------
     Change or None
-        None above the largest w/(E* R) of the table.  Below its smallest one the change is that of the limit.
+        None above the largest w/(E* R) of the table.  Below its smallest one the change is that of the limit, and
+        extrapolated as outside its Tabor numbers.
 
     Examples
     --------
     >>> change = strain_change(5e-3, 2.0, 0.5)
-    >>> round(change.value, 5), change.bound < 1e-5
-    (0.00521, True)
+    >>> round(change.value, 5), change.uncertainty < 1e-5, change.is_extrapolated
+    (0.00521, True, False)
+    >>> strain_change(5e-3, 365.0, 0.5).is_extrapolated
+    True
     >>> strain_change(0.2, 1.0, 0.3) is None
     True
     """
@@ -82,8 +87,9 @@ def strain_change(softness: float, mu: float, nu: float) -> Change | None:
         nodes = [_between_tabor_numbers(x, ratio, mu) for x in SOFTNESS]
         of_ratios.append(_between(roots, nodes, max(root, roots[0])))
     change = _between(np.array(POISSON_RATIOS), of_ratios, nu)
-    below = abs(change.value) if root < roots[0] else 0.0
-    return Change(change.value * root, float((change.bound + below * (1.0 - root / roots[0])) * root))
+    is_below = bool(root < roots[0])
+    below = abs(change.value) * (1.0 - root / roots[0]) if is_below else 0.0
+    return Change(change.value * root, float((change.uncertainty + below) * root), change.is_extrapolated or is_below)
 
 
 def _between_tabor_numbers(softness: float, nu: float, mu: float) -> Change:
@@ -91,9 +97,10 @@ def _between_tabor_numbers(softness: float, nu: float, mu: float) -> Change:
     known = _table()[softness, nu]
     numbers = np.array(sorted(known))
     nodes = [known[number] for number in numbers]
-    if mu <= numbers[0]:
+    if mu < numbers[0]:
         # It vanishes with mu.
-        return Change(0.5 * nodes[0].value, 0.5 * abs(nodes[0].value) + nodes[0].bound)
+        half = 0.5 * nodes[0].value
+        return Change(half, abs(half) + nodes[0].uncertainty, is_extrapolated=True)
     if mu <= numbers[-1]:
         return _between(np.log(numbers), nodes, math.log(mu))
     return beyond(numbers, nodes)
@@ -112,18 +119,21 @@ def beyond(numbers: Array, nodes: Sequence[Change]) -> Change:
     last, previous = nodes[-1], nodes[-2]
     further = (last.value - previous.value) * numbers[-2] / (numbers[-1] - numbers[-2])
     largest = max(abs(node.value) for node in nodes)
-    return Change(last.value + 0.5 * further, abs(further) + FURTHER * largest + last.bound)
+    uncertainty = abs(further) + FURTHER * largest + last.uncertainty
+    return Change(last.value + 0.5 * further, uncertainty, is_extrapolated=True)
 
 
 def _between(points: Array, nodes: Sequence[Change], point: float) -> Change:
-    """Interpolate; the bound is that of the nodes, and what a curve of another form between them differs by."""
-    values, bounds = np.array([node.value for node in nodes]), np.array([node.bound for node in nodes])
+    """Interpolate; the uncertainty is that of the nodes, and what a curve of another form between them differs by."""
+    values, uncertainties = np.array([node.value for node in nodes]), np.array([node.uncertainty for node in nodes])
     value = float(PchipInterpolator(points, values)(point))
     right = int(np.clip(np.searchsorted(points, point), 1, points.size - 1))
     share = (point - points[right - 1]) / (points[right] - points[right - 1])
     form = BETWEEN * 4.0 * share * (1.0 - share) * float(np.abs(values[right - 1 : right + 1]).max())
     straight = abs(value - float(np.interp(point, points, values)))
-    return Change(value, float(np.interp(point, points, bounds) + straight + form))
+    uncertainty = float(np.interp(point, points, uncertainties) + straight + form)
+    weights = zip(nodes[right - 1 : right + 1], (1.0 - share, share), strict=True)
+    return Change(value, uncertainty, any(node.is_extrapolated for node, weight in weights if weight > 0.0))
 
 
 @lru_cache(maxsize=1)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 from types import ModuleType
@@ -64,7 +63,6 @@ def result_of(solution: Any, unit: float = 1.0) -> Result:
     >>> result_of(Result(value=3.0, u_num=3e-9), unit=2.0).value
     1.5
     """
-    order = getattr(solution, "observed_order", None)
     return Result(
         value=solution.value / unit,
         u_num=solution.u_num / unit,
@@ -72,8 +70,6 @@ def result_of(solution: Any, unit: float = 1.0) -> Result:
         iterations=solution.iterations,
         residual=solution.residual,
         seconds=solution.seconds,
-        # Lost in rounding, it is not finite.
-        observed_order=order if order is not None and math.isfinite(order) else None,
     )
 
 

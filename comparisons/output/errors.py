@@ -24,7 +24,9 @@ from comparisons.runs.rows import CASE
 from comparisons.runs.tasks import Task, problem_for
 
 _CASE = ["quantity", *CASE]
-_SERIES = ["quantity", "model", "n", "k"]
+_SERIES = ["quantity", "model", "n", "k", "reference"]
+#: The reference of the errors that the paper prints.
+_OF_PAPER = "fscm"
 _VALUES = ("value", "u_num", "reference_value", "u_reference")
 _KAPPA = ("reference", "reference_value", "u_reference", "kappa", "u_kappa")
 
@@ -119,7 +121,7 @@ def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
 
 
 def largest(kappa: pd.DataFrame) -> pd.DataFrame:
-    """Return the largest abs(kappa) for each quantity, model, n and k, beside the number of the paper.
+    """Return the largest abs(kappa) for each quantity, model, n, k and reference, beside the number of the paper.
 
     Returns
     -------
@@ -135,7 +137,7 @@ def largest(kappa: pd.DataFrame) -> pd.DataFrame:
     >>> largest(relative_error(rows, "fscm"))[["mu", "at_end", "paper_percent", "verdict"]].values.tolist()
     [[2.0, True, '0.73', 'differs']]
     """
-    printed = {("pull_off_force", p.model, p.n, p.k): p for p in paper_values("largest_relative_error")}
+    printed = {("pull_off_force", p.model, p.n, p.k, _OF_PAPER): p for p in paper_values("largest_relative_error")}
     table = worst_rows(kappa, _SERIES)[[*_SERIES, "mu", "kappa", "u_kappa"]].sort_values(_SERIES, ignore_index=True)
     ends = kappa.groupby(_SERIES)["mu"].agg(["size", "min", "max"]).reset_index(drop=True)
     at_end = (table["mu"] == ends["min"]) | (table["mu"] == ends["max"])

@@ -140,9 +140,11 @@ def _printed(table: Table) -> RenderableType:
     return rich_table(replace(table, stored=table.stored.head(_ROWS)).texts, table.caption + more)
 
 
-def largest_errors(kappa: pd.DataFrame) -> RenderableType:
-    """Return the largest relative error of each model and quantity, in percent, and its case."""
-    return _printed(laid_out("largest_on_screen", worst_rows(kappa, ["quantity", "model"])))
+def largest_errors(kappa: pd.DataFrame) -> Iterator[RenderableType]:
+    """Yield a table for each reference: the largest relative error of each model and quantity, and its case."""
+    for reference, rows in kappa.groupby("reference", sort=False) if len(kappa) else ():
+        table = laid_out("largest_on_screen", worst_rows(rows, ["quantity", "model"]))
+        yield _printed(replace(table, caption=f"{table.caption} against {reference}"))
 
 
 def sweep_tables(results: pd.DataFrame, kappa: pd.DataFrame) -> Iterator[RenderableType]:
@@ -170,8 +172,7 @@ def sweep_tables(results: pd.DataFrame, kappa: pd.DataFrame) -> Iterator[Rendera
     for quantity, rows in of_files.groupby("quantity", sort=False):
         layout = [*(key_columns(keys) or columns("problem")), *columns("model"), Column(str(quantity), physical_text)]
         yield _printed(Table("", "values", layout, rows))
-    if len(kappa):
-        yield largest_errors(kappa)
+    yield from largest_errors(kappa)
 
 
 def failure_lines(failures: Sequence[stored_rows.Row]) -> Iterator[str]:

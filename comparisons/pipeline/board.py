@@ -156,7 +156,7 @@ def leaderboard(folders: Sequence[Path], mixed: bool = False) -> str:
 
 
 def entry_of(folder: Path) -> Entry:
-    """Return the results of a folder with the keys that its tables of errors are about, and their references."""
+    """Return the results of a folder with the keys that its tables of errors are about, each with its references."""
     stored = read_folder(folder)
     if shard := stored.record["arguments"].get("shard"):
         raise ValueError(f"{folder} is the part {shard} of a sweep: put the parts together with fscm-bench merge first")
@@ -164,5 +164,5 @@ def entry_of(folder: Path) -> Entry:
     if inputs.cases.sha256 != stored.record["cases_sha256"]:
         log(f"the standing cases have changed since {folder} was computed: its coverage counts every stored result")
         return Entry(str(folder), stored, None)
-    planned = {task.key: grid.reference for grid in inputs.cases.compared for task in plan([grid], inputs.models)}
+    planned = {(task.key, grid.reference) for grid in inputs.cases.compared for task in plan([grid], inputs.models)}
     return Entry(str(folder), stored, planned)

@@ -64,7 +64,7 @@ def make_tables(rows: Sequence[Row], cases: Cases, models: list[str] | None) -> 
 def _kappa(results: pd.DataFrame, cases: Cases, models: list[str] | None) -> pd.DataFrame:
     """Return the relative errors over the grids that are not for the verification of the references."""
     tables = []
-    for reference in sorted({grid.reference for grid in cases.compared} - {""}):
+    for reference in dict.fromkeys(grid.reference for grid in cases.compared if grid.reference):
         keys = {task.key for task in plan((grid for grid in cases.compared if grid.reference == reference), models)}
         of_grids = [key in keys for key in keys_in(results)]
         # An empty list would select no columns.

@@ -41,6 +41,10 @@ TIERS = ("quick", "full")
 #: its tables of errors.
 VERIFICATION = "verification"
 
+#: Grids with this tag compare the closed forms with the finite elements.  A run with --model does not compute them: the
+#: elements would take longer than everything else that it needs.
+AGAINST_ELEMENTS = "against-fem"
+
 #: Grids with this tag are computed by a run with --model alone: no gate is about them, but reports and board show them.
 FOR_GIVEN_MODELS = "given"
 
@@ -215,7 +219,7 @@ def cases_text() -> str:
 
 
 def grids_for(standing: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
-    """Return the grids that a run computes: those of verification only without, and others only with given models.
+    """Return the grids that a run computes: some only without given models, and others only with them.
 
     Examples
     --------
@@ -223,8 +227,8 @@ def grids_for(standing: Iterable[Grid], models: Sequence[str] | None) -> list[Gr
     >>> [grid.id for grid in with_models if grid not in without]
     ['displacements']
     """
-    excluded = FOR_GIVEN_MODELS if models is None else VERIFICATION
-    return [grid for grid in standing if excluded not in grid.tags]
+    excluded = {FOR_GIVEN_MODELS} if models is None else {VERIFICATION, AGAINST_ELEMENTS}
+    return [grid for grid in standing if not excluded & set(grid.tags)]
 
 
 @lru_cache(maxsize=len(TIERS))

@@ -99,7 +99,7 @@ _EVALUATION = ("model", "model_version", "quantity", *PARAMETERS, "problem")
 
 #: Columns of the table of results, in order; those without a unit in `comparisons.data.columns` are texts.
 COLUMNS = (
-    *(*_EVALUATION, "value", "u_num", "observed_order", "unit", *DIMENSIONLESS),
+    *(*_EVALUATION, "value", "u_num", "unit", *DIMENSIONLESS),
     *("status", "reason", "size", "iterations", "residual", "seconds"),
 )
 

@@ -43,7 +43,7 @@ class Row:
         ``"ok"``, ``"not-applicable"`` or ``"failed"``.
     reason : str
         One sentence where there is no value, or on what the value depends on besides.
-    size, iterations, residual, seconds, observed_order
+    size, iterations, residual, seconds
         As of `comparisons.model.Result`.
     points : tuple of (list of float, list of float, float), or None
         Of a curve or a field: horizontal values, vertical values, and the bound on their distance from the
@@ -68,7 +68,6 @@ class Row:
     iterations: int | None = None
     residual: float | None = None
     seconds: float = 0.0
-    observed_order: float | None = None
     points: tuple[list[float], list[float], float] | None = None
     dimensionless_value: float | None = None
     dimensionless_u_num: float | None = None

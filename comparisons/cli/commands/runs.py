@@ -62,8 +62,8 @@ def run_command(args: argparse.Namespace) -> int:
     cases = args.cases or args.tier or TIERS[0]
     finished = run(cases, args.gates, args.model, args.out, jobs=args.jobs, random=args.random, seed=args.seed)
     if not args.quiet:
-        if len(finished.tables.kappa):
-            output().print(largest_errors(finished.tables.kappa))
+        for table in largest_errors(finished.tables.kappa):
+            output().print(table)
         print_lines([computations_sentence(finished.counts)])
     assert finished.judgement is not None  # There are gates: the standing ones, or those of the user.
     _print_verdicts(finished.judgement, args)

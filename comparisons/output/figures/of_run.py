@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Quantity, gradient exponent and models of the figure of errors, as in Fig. 16(b) of the paper.
-_QUANTITY, _K, _MODELS = "pull_off_force", 0.4, ("md-original", "md-improved")
+#: The figure of errors shows these models, as Fig. 16(b) of the paper: errors of one quantity against one reference.
+_MODELS, _SHOWN = ("md-original", "md-improved"), {"quantity": "pull_off_force", "reference": "fscm", "k": 0.4}
 
 #: Panels in a row.
 _COLUMNS = 4
@@ -47,7 +47,7 @@ def figures_of(tables: dict[str, pd.DataFrame]) -> Iterator[tuple[str, Figure]]:
     """
     kappa, differences, points = (tables.get(name, pd.DataFrame()) for name in (KAPPA, AGREEMENT, CURVES))
     if len(kappa):
-        kappa = kappa[kappa["model"].isin(_MODELS) & (kappa["quantity"] == _QUANTITY) & (kappa["k"] == _K)]
+        kappa = kappa[kappa["model"].isin(_MODELS) & (kappa[list(_SHOWN)] == pd.Series(_SHOWN)).all(axis="columns")]
     if len(kappa):
         yield KAPPA_FIGURE, draw_plots([plots.kappa(kappa)])
     if len(differences):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from string import ascii_uppercase
 
@@ -29,14 +29,14 @@ class Entry:
     name : str
         The folder as the user named it.
     stored : Stored
-    planned : mapping of Key to str, or None
-        The keys of the results that its tables of errors are about, and the reference of each; None if they are not
+    planned : set of (Key, str), or None
+        The keys of the results that its tables of errors are about, with a reference of each; None if they are not
         known any more, since the standing cases have changed.
     """
 
     name: str
     stored: Stored
-    planned: Mapping[Key, str] | None = None
+    planned: Collection[tuple[Key, str]] | None = None
 
     @property
     def facts(self) -> tuple[str, ...]:

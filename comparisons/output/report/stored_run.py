@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -67,28 +68,39 @@ class Stored:
         """The SPEC that finds each external model."""
         return dict(self.record["arguments"]["external"])
 
-    def error_summary(self, planned: Mapping[Key, str] | None = None) -> pd.DataFrame:
+    def error_summary(self, planned: Collection[tuple[Key, str]] | None = None) -> pd.DataFrame:
         """Return the summary of errors (`comparisons.output.errors`) over the results that have a reference.
 
         Parameters
         ----------
-        planned : mapping of Key to str, optional
-            The keys of the results that count, and the reference of each; by default every result of a quantity in
-            which a model has an error.
+        planned : set of (Key, str), optional
+            The keys of the results that count, with a reference of each; by default every result in a case in which
+            the reference has a result, if a model has an error in this quantity against it.
         """
         kappa = with_problem(self.kappa)[[*_KEY, "reference", "kappa", "u_kappa"]]
-        of_quantity = dict(kappa.groupby("quantity")["reference"].agg("first"))
+        counted = self._compared() if planned is None else planned
+        references = sorted({reference for _, reference in counted})
         keys = keys_in(self.results)
-        stated = [of_quantity.get(key[1]) if planned is None else planned.get(key) for key in keys]
-        results = with_problem(self.results).assign(stated=stated).dropna(subset="stated")
-        joined = results.merge(kappa, on=_KEY, how="left")
+        pairs = [(row, name) for name in references for row, key in enumerate(keys) if (key, name) in counted]
         # A model without any value has no relative error, which would name the reference.
-        joined["reference"] = joined["reference"].fillna(joined["stated"])
+        results = with_problem(self.results).iloc[[row for row, _ in pairs]]
+        results = results.assign(reference=pd.Series([name for _, name in pairs], results.index, dtype=str))
+        joined = results.merge(kappa, on=[*_KEY, "reference"], how="left")
         summary = errors.error_summary(joined[joined["model"] != joined["reference"]])
         if planned is not None:
             return summary
         # A model with values and no error is compared with no reference: it verifies one.
         return summary[(summary["cases"] > 0) | (summary["answered"] == 0)].reset_index(drop=True)
+
+    def _compared(self) -> set[tuple[Key, str]]:
+        """Return the keys of the results that may have an error, with each reference of a result in their case."""
+        keys = keys_in(self.results)
+        with_errors = set(self.kappa[["reference", "quantity"]].itertuples(index=False, name=None))
+        references = defaultdict(list)
+        for model, quantity, *case in keys:
+            if (model, quantity) in with_errors:
+                references[quantity, *case].append(model)
+        return {(key, reference) for key in keys for reference in references.get(key[1:], ())}
 
 
 def read_folder(folder: Path) -> Stored:

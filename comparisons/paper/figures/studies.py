@@ -64,7 +64,7 @@ def force_of_a_ball(elasto_adhesion_number: float, mu: float) -> dict[str, float
 
 
 def meeting_points(errors: pd.DataFrame) -> pd.DataFrame:
-    """Return w/(E* R) at which the FSCM of a paraboloid has no error, and those at both ends of its bound.
+    """Return w/(E* R) at which the FSCM of a paraboloid has no error, and those at both ends of its uncertainty.
 
     What geometry changes grows as (w/(E* R))^(2/3), and strain as its root, so that kappa over the cube root of
     w/(E* R) is nearly a straight line in that root.
@@ -89,7 +89,7 @@ def _errors(forces: pd.DataFrame, models: pd.DataFrame) -> pd.DataFrame:
     for nu, force in product(_POISSON_RATIOS, forces.dropna().itertuples()):
         change = strain_change(force.elasto_adhesion_number, force.mu, nu) or Change(math.nan, math.nan)
         finite = force.linear * (1.0 + change.value)
-        u_finite = force.u_linear * (1.0 + change.value) + force.linear * change.bound
+        u_finite = force.u_linear * (1.0 + change.value) + force.linear * change.uncertainty
         for model in models[models["mu"] == force.mu].itertuples():
             kappa = relative_difference(model.value, finite)
             u_kappa = relative_uncertainty(model.value, model.u_num, finite, u_finite)

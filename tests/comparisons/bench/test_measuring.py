@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from comparisons.bench import cold_starts, work_precision
@@ -40,14 +39,6 @@ def test_no_problem_comes_twice_the_first_output_counts_and_a_long_one_is_not_re
         assert len(set(solved)) == len(solved) == count
         assert (numbers["value"], numbers["unknowns"]) == (3.0, 7)
         assert (numbers["cold_seconds"], numbers["cpu_seconds"]) == (0.125, seconds)
-
-
-def test_the_earlier_elements_are_drawn_beside_those_of_today():
-    today = {"model": "fem", "mu": 1.0, "setting": "default", "cpu_seconds": 0.1, "error": 2e-9, "u_error": 1e-12}
-    rows = work_precision.with_earlier_elements(pd.DataFrame([today, {**today, "model": "fscm"}]))
-    assert rows["model"].tolist() == ["fem", "fscm", "fem, earlier"]
-    assert rows["cpu_seconds"].tolist() == pytest.approx([0.1, 0.1, 0.443])
-    assert rows["error"].tolist() == [2e-9, 2e-9, 3.12e-10]
 
 
 def test_commands_are_called_from_a_cold_start():

@@ -27,9 +27,9 @@ def no_surface_of_another_test():
 
 
 def test_a_result_has_the_value_and_the_bound_of_the_solution_in_its_unit():
-    solution = Result(value=3.0, u_num=0.5, size=9, iterations=8, residual=7e-16, observed_order=float("nan"))
+    solution = Result(value=3.0, u_num=0.5, size=9, iterations=8, residual=7e-16)
     result = result_of(solution, unit=2.0)
-    assert (result.value, result.u_num, result.observed_order) == (1.5, 0.25, None)
+    assert (result.value, result.u_num) == (1.5, 0.25)
     assert (result.size, result.iterations, result.residual) == (9, 8, 7e-16)
 
 

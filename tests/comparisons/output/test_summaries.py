@@ -28,10 +28,22 @@ def shown(table, width=80):
 def test_each_model_and_quantity_has_its_largest_error_with_its_case():
     errors = [(n, k, -0.01 * n - k) for n in (1.0, 1.5, 2.0, 5.0) for k in (0.0, 0.4)]
     kappa = pd.DataFrame(errors, columns=["n", "k", "kappa"])
-    kappa = kappa.assign(model="jkr", quantity="pull_off_force", mu=0.837, nu=np.nan, u_kappa=1e-9)
+    kappa = kappa.assign(model="jkr", quantity="pull_off_force", mu=0.837, nu=np.nan, u_kappa=1e-9, reference="fscm")
     both = pd.concat([kappa, kappa.assign(quantity="jump_in_gap")], ignore_index=True)
-    lines = [line.split() for line in shown(largest_errors(both))[-2:]]
+    (table,) = largest_errors(both)
+    lines = [line.split() for line in shown(table)[-2:]]
     assert lines == [[name, "jkr", "-45.000(5)", "5", "0.4", "0.837"] for name in ("jump_in_gap", "pull_off_force")]
+
+
+def test_each_reference_has_its_own_table_of_largest_errors():
+    row = CASE | {"model": "jkr", "u_kappa": 1e-9}
+    errors = pd.DataFrame([row | {"reference": name, "kappa": kappa} for name, kappa in (("fscm", 0.2), ("fem", 0.1))])
+    tables = [shown(table) for table in largest_errors(errors)]
+    assert [(lines[0].split()[-1], lines[-1].split()[2]) for lines in tables] == [
+        ("fscm", "20.000(5)"),
+        ("fem", "10.000(5)"),
+    ]
+    assert list(largest_errors(errors.head(0))) == []
 
 
 def gates(*verdicts):
@@ -95,10 +107,20 @@ def test_a_comparison_states_why_the_reference_has_no_value():
 
 
 def test_largest_error_is_signed_and_says_when_it_is_at_an_end():
-    rows = [stored("ref", mu, 1.0) for mu in (0.1, 1, 10)]
+    rows = [stored("fscm", mu, 1.0) for mu in (0.1, 1, 10)]
     rows += [stored("md-improved", mu, value) for mu, value in [(0.1, 1.001), (1, 0.9927), (10, 1.005)]]
     rows += [stored("x", mu, value) for mu, value in [(0.1, 1.5), (1, 1.1), (10, 1.0)]]
     columns = ["mu", "cases", "at_end", "kappa", "paper_percent", "verdict"]
-    improved, worst = largest(relative_error(pd.DataFrame(rows), "ref"))[columns].values.tolist()
+    improved, worst = largest(relative_error(pd.DataFrame(rows), "fscm"))[columns].values.tolist()
     assert improved == [1, 3, False, pytest.approx(-0.0073, abs=1e-12), "0.73", "agrees"]
     assert worst == [0.1, 3, True, 0.5, "", ""]
+
+
+def test_each_reference_has_its_own_largest_error_and_the_paper_prints_those_against_the_fscm():
+    rows = [stored("fscm", mu, 1.0) for mu in (0.1, 1)] + [stored("fem", 1, 1.0)]
+    rows += [stored("md-improved", 0.1, 1.0), stored("md-improved", 1, 0.9927)]
+    tables = [relative_error(pd.DataFrame(rows), name) for name in ("fscm", "fem")]
+    table = pd.concat(tables, ignore_index=True)
+    improved = largest(table[table["model"] == "md-improved"]).set_index("reference")
+    assert improved.loc["fem", ["cases", "paper_percent", "verdict"]].tolist() == [1, "", ""]
+    assert improved.loc["fscm", ["cases", "paper_percent", "verdict"]].tolist() == [2, "0.73", "agrees"]

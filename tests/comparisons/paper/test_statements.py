@@ -4,9 +4,11 @@ import re
 import shlex
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
+import fscm
 from comparisons.cli import main as cli
 from comparisons.data.paper_statements import paper_statements
 from comparisons.numerics.number_text import value_text
@@ -149,3 +151,30 @@ def test_every_statement_that_does_not_hold_is_a_finding_and_every_number_with_a
     quoted = re.findall(r"\d+\.\d+\(\d+\)", FINDINGS)
     assert len(quoted) > 25
     assert [text for text in quoted if text not in texts] == []
+
+
+def test_each_finding_has_the_answer_of_the_authors():
+    """One before each list of statements, and so in each section that has one."""
+    sections = [text for text in re.split("^## ", FINDINGS, flags=re.MULTILINE) if "\nStatements: " in text]
+    assert len(sections) > 5
+    assert [
+        len(re.findall(r"^The authors could answer: .+?\n\nStatements: ", text, re.M | re.S)) for text in sections
+    ] == [1] * len(sections)
+
+
+def test_the_surfaces_inside_the_contact_hang_on_the_central_gap():
+    """The difference of the two mean distances is a third of a thousandth of z0 in the gap of the pull-off state."""
+    path = fscm.trace(fscm.Problem(2, 0.4, 1.0)).to_frame()
+    slope = np.gradient(path["displacement"], path["central_gap"])[path["load"].argmin()]
+    (text,) = re.findall(r"smaller for the original model, by (\d\.\d+) z0", FINDINGS)
+    apart = table_of_distances()
+    assert abs(apart - float(text)) < 5e-5
+    assert 2e-4 < apart / abs(slope) < 3.5e-4
+
+
+def table_of_distances():
+    """By how much the mean distance of the improved model exceeds that of the original one, by the FSCM."""
+    evidence = pd.read_csv(ROOT / "results" / "baseline" / "paper" / "paper_statements_evidence.csv")
+    inside = evidence[(evidence["statement"] == "surface-nearer") & evidence["clause"].str.startswith("inside")]
+    (row,) = inside[inside["model"] == "fscm"].to_dict("records")
+    return row["value"] - row["limit"]

@@ -8,6 +8,9 @@ import pytest
 import comparisons
 from comparisons.cli.main import main
 from comparisons.data.file_names import VERDICT_FILES
+from comparisons.output.report.leaderboard import standing
+from comparisons.output.report.stored_run import read_folder
+from comparisons.pipeline.board import entry_of
 from comparisons.pipeline.figures import make_figures
 from comparisons.pipeline.finished_run import write_run
 from comparisons.pipeline.merge import merge
@@ -58,6 +61,28 @@ def test_grids_of_a_user_can_be_judged_at_once_and_later(small_grid, tmp_path, c
     assert main(["judge", str(tmp_path / "later"), "--gates", str(tmp_path / "gates.toml")]) == 1
     assert read_record(tmp_path / "later" / "run.json")["command_name"] == "run"
     assert main(["judge", str(tmp_path / "later")]) == 1
+
+
+def test_a_model_has_its_errors_against_each_reference_over_the_cases_of_its_grids(tmp_path):
+    """JKR in two cases beside Bradley, and in one of them beside DMT, too."""
+    text = "\n".join(
+        grid_text(["jkr"], reference, id=reference) + f"n = [2]\nk = [0]\nmu = {mu}\n"
+        for reference, mu in (("bradley", "[1, 2]"), ("dmt-strength", "[2]"))
+    )
+    finished = run(text, folder=tmp_path / "run")
+    kappa = finished.tables.kappa
+    assert list(zip(kappa["reference"], kappa["mu"], strict=True)) == [
+        ("bradley", 1),
+        ("bradley", 2),
+        ("dmt-strength", 2),
+    ]
+    assert finished.tables.largest["reference"].tolist() == ["bradley", "dmt-strength"]
+    for summary in (read_folder(tmp_path / "run").error_summary(), standing(entry_of(tmp_path / "run"))):
+        counts = summary.set_index(["model", "reference"])[["asked", "cases"]]
+        assert counts.to_dict("index") == {
+            ("jkr", "bradley"): {"asked": 2, "cases": 2},
+            ("jkr", "dmt-strength"): {"asked": 1, "cases": 1},
+        }
 
 
 def test_names_are_exported_and_the_import_is_light():

@@ -146,7 +146,9 @@ def test_a_larger_tabor_number_is_inside_the_bound_of_smaller_ones():
         numbers = np.array(sorted(nodes))
         for count in range(3, numbers.size):
             change = beyond(numbers[:count], [nodes[number] for number in numbers[:count]])
-            worst = max(worst, *(abs(nodes[number].value - change.value) / change.bound for number in numbers[count:]))
+            worst = max(
+                worst, *(abs(nodes[number].value - change.value) / change.uncertainty for number in numbers[count:])
+            )
     assert 0.5 < worst < 0.7
 
 
@@ -159,16 +161,53 @@ def test_between_rows_the_error_is_inside_the_bound():
         for left_out in known[1:-1]:
             others = [i for i in known if i != left_out]
             change = strain_errors._between(roots[others], [nodes[i] for i in others], roots[left_out])
-            ratios.append(abs(change.value - nodes[left_out].value) / change.bound)
+            ratios.append(abs(change.value - nodes[left_out].value) / change.uncertainty)
     assert 0.5 < max(ratios) < 1.0
 
 
 def test_the_limits_of_the_table():
     small, smaller = strain_change(1e-5, 1.0, 0.5), strain_change(1e-8, 1.0, 0.5)
     assert smaller.value == pytest.approx(small.value / 10.0, rel=0.05)
-    assert strain_change(1e-3, 0.05, 0.5).bound < 1e-4
+    assert strain_change(1e-3, 0.05, 0.5).uncertainty < 1e-4
     assert strain_change(0.11, 1.0, 0.5) is None
-    assert beyond(np.array([1.0, 2.0]), [Change(1.0, 0.0), Change(1.5, 0.1)]) == (1.75, 0.5 + 0.75 + 0.1)
+    assert beyond(np.array([1.0, 2.0]), [Change(1.0, 0.0), Change(1.5, 0.1)]) == (1.75, 0.5 + 0.75 + 0.1, True)
+
+
+@pytest.mark.parametrize(
+    ("softness", "mu", "nu", "is_extrapolated"),
+    [
+        # Rows of the table, values between them, and beyond the last Tabor number of either neighbour.
+        (5e-3, 2.0, 0.5, False),
+        (5e-3, 0.1, 0.0, False),
+        (2e-3, 1.5, 0.4, False),
+        (5e-3, 365.0, 0.5, True),
+        (2e-2, 2.0, 0.4, True),
+        (3e-3, 4.0, 0.5, True),
+        # Below the first Tabor number, and below the least w/(E* R).
+        (5e-3, 0.05, 0.5, True),
+        (9e-6, 1.0, 0.5, True),
+    ],
+)
+def test_a_change_outside_the_table_is_an_estimate(softness, mu, nu, is_extrapolated):
+    assert strain_change(softness, mu, nu).is_extrapolated is is_extrapolated
+
+
+def test_an_estimated_error_of_the_assumptions_is_called_so(quickly):
+    """The bead has the Tabor number 365; that of a small sphere on a stiff solid, 2.4, is in the table."""
+    for problem, is_estimate in ((BEAD, True), (on_solid("homogeneous", {"E": 4e8, "nu": 0.5}), False)):
+        assumed = quickly(problem, **{"fscm": 2.0, "jkr-sphere": 2.0})
+        assert [assumed[key]["is_estimate"] for key in ("geometry", "strain", "total")] == [
+            False,
+            is_estimate,
+            is_estimate,
+        ]
+        errors = overview(problem, FORCE, assumed)["total_errors"]
+        assert {error["is_estimate"] for error in errors} == {is_estimate}
+
+
+def test_the_text_calls_an_estimate_one(bead):
+    """Those of the strain, of all assumptions together, and of the models with them."""
+    assert description_text(BEAD, bead, None, [], None).count("an estimate") == 3
 
 
 @pytest.mark.heavy
@@ -176,5 +215,5 @@ def test_the_limits_of_the_table():
 def test_rows_and_values_between_them_are_what_both_references_give(softness, mu, nu):
     finite, small = forces_of_a_ball(softness, mu, nu)
     change = strain_change(softness, mu, nu)
-    bound = change.bound + (finite.u_num + small.u_num) / small.value
+    bound = change.uncertainty + (finite.u_num + small.u_num) / small.value
     assert finite.value / small.value - 1.0 == pytest.approx(change.value, abs=bound)

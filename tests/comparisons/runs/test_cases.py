@@ -5,7 +5,9 @@ import re
 import pytest
 
 from comparisons.problem import Problem
-from comparisons.runs.cases import grids, load_grids
+from comparisons.registry import MODELS
+from comparisons.runs.cases import AGAINST_ELEMENTS, VERIFICATION, grids, grids_for, load_grids
+from comparisons.runs.tasks import plan
 from tests.comparisons.grid_text import PAD, grid_text
 
 #: What a grid has besides its cases.
@@ -69,3 +71,44 @@ def test_the_grids_of_a_sweep_have_no_tier():
 
 def test_the_full_tier_holds_the_quick_one():
     assert set(grids("quick")) < set(grids("full"))
+
+
+#: Closed forms of a power-law punch; that of a ball has a gate against the elements at finite strain.
+CLOSED_FORMS = MODELS.keys() - {
+    "fscm-stieltjes",
+    "fscm-stieltjes-400",
+    "fscm",
+    "fem",
+    "fem-large-strain",
+    "atlas",
+    "jkr-sphere",
+}
+
+
+@pytest.mark.parametrize("tier", ["quick", "full"])
+def test_every_closed_form_is_compared_with_the_finite_elements_beside_the_fscm(tier):
+    compared = [grid for grid in grids_for(grids(tier), None) if VERIFICATION not in grid.tags]
+    keys = {
+        name: {task.key for task in plan(grid for grid in compared if grid.reference == name)}
+        for name in ("fscm", "fem")
+    }
+    against_elements = {key for key in keys["fem"] if key[0] != "fem"}
+    assert {key[0] for key in against_elements} == CLOSED_FORMS
+    # Both errors of a pull-off force are in the table, beside each other.
+    assert {key for key in against_elements if key[1] == "pull_off_force"} <= keys["fscm"]
+    assert "fem" not in {grid.reference for grid in grids_for(grids(tier), ["jkr"])}
+
+
+@pytest.mark.parametrize(("tier", "most"), [("quick", 8), ("full", 2)])
+def test_few_finite_element_solutions_are_computed_for_the_closed_forms_alone(tier, most):
+    """Each takes a second or more; of the others a gate compares both references."""
+    standing = grids_for(grids(tier), None)
+    problems = [
+        {
+            task.problem
+            for task in plan(grid for grid in standing if (AGAINST_ELEMENTS in grid.tags) is tagged)
+            if task.model == "fem"
+        }
+        for tagged in (True, False)
+    ]
+    assert 0 < len(problems[0] - problems[1]) <= most

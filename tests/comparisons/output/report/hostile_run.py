@@ -37,7 +37,7 @@ def rows():
                 yield row(SCRIPT, mu, true * (0.9 + 0.02 * mu), n=n, k=k)
                 yield row("jkr", mu, n=n, k=k, status="failed", reason=f"{SCRIPT} {LINE}", **REFUSED)
     for mu in (0.5, 1.0):
-        more = {"size": 20000, "observed_order": 3.9, "u_num": 4e-7}
+        more = {"size": 20000, "u_num": 4e-7}
         yield row("fem", mu, 1.9 + mu, quantity="zero_load_displacement", **more)
 
 

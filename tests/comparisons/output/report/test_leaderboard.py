@@ -110,7 +110,7 @@ def test_cases_of_the_verification_and_fresh_ones_do_not_count():
         ("pull_off_force", "a", 2.0, 0.0, mu, math.nan, "exact", x, u)
         for mu, x, u in ((0.1, -0.3, 1e-9), (0.2, 0.4, 0.0))
     ]
-    planned = {("a", "pull_off_force", 2.0, 0.0, mu, None, ""): "exact" for mu in (0.1, 0.2)}
+    planned = {(("a", "pull_off_force", 2.0, 0.0, mu, None, ""), "exact") for mu in (0.1, 0.2)}
     for keys, asked in ((planned, 2), (None, 3)):
         (row,) = standing(entry(record(), kappa, results, keys)).to_dict("records")
         assert (row["asked"], row["answered"], row["cases"], row["mu"], row["largest"]) == (asked, asked, 2, 0.2, 0.4)
@@ -118,7 +118,7 @@ def test_cases_of_the_verification_and_fresh_ones_do_not_count():
 
 
 def test_a_verdict_on_the_whole_model_counts_for_every_quantity():
-    results = pd.DataFrame([CASE | {"model": "a", "mu": 1.0}])
+    results = pd.DataFrame([CASE | {"model": model, "mu": 1.0} for model in ("a", "exact")])
     run_entry = entry(record(), [("pull_off_force", "a", 2.0, 0.0, 1.0, math.nan, "exact", 0.0, 0.0)], results)
     rows = [("A", "a", "jump_in_gap", "ERROR"), ("A", "b", "pull_off_force", "FAIL")]
     passed, on_whole = ("A", "a", "pull_off_force", "PASS"), ("CARD-DIFFERS", "a", "", "INCONCLUSIVE")
