@@ -1,4 +1,4 @@
-"""Settings of all tests: one thread for the linear algebra, whose processes share the cores, and no deadlines."""
+"""Settings of all tests: one thread for the linear algebra unless asked, as processes share the cores; no deadlines."""
 
 import gc
 import signal
@@ -13,6 +13,11 @@ settings.register_profile("no deadline", deadline=None)
 settings.load_profile("no deadline")
 
 
+def pytest_addoption(parser):
+    """More threads add in another order: `tests.blas.kernels` runs the tests with two."""
+    parser.addoption("--blas-threads", type=int, default=1, metavar="N", help="threads of the linear algebra")
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_collection():
     """Do not search all the tests for garbage, neither while they are collected nor afterwards."""
@@ -25,9 +30,9 @@ def pytest_collection():
 
 
 @pytest.fixture(scope="session", autouse=True)
-def one_thread():
-    """Limit every library for the whole session."""
-    with threadpool_limits(1):
+def blas_threads(pytestconfig):
+    """Set the threads of every library for the whole session."""
+    with threadpool_limits(pytestconfig.getoption("--blas-threads")):
         yield
 
 

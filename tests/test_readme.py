@@ -25,6 +25,13 @@ def test_each_command_is_one_line(command):
     assert line.endswith(command) or line.endswith(f"{command} -n 2")
 
 
+@pytest.mark.parametrize("path", ["README.md", "docs", ".ci", ".github"])
+def test_what_is_installed_has_its_bytecode(path):
+    """Where Python may not write bytecode, as in many containers, every process would compile all modules again."""
+    files = [file for file in [ROOT / path, *(ROOT / path).rglob("*")] if file.is_file()]
+    assert not [file for file in files if b"--no-compile" in file.read_bytes()]
+
+
 def test_the_printed_errors_are_those_of_the_baseline():
     assert {row[0] for row in PRINTED} >= {"jkr", "md-improved"}
     for model, *numbers in PRINTED:

@@ -11,6 +11,7 @@ import argparse
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tomllib
@@ -60,7 +61,13 @@ def copy_of_the_repository() -> Iterator[Path]:
 
 
 def noticed_by(tests: tuple[str, ...], copy: Path) -> str:
-    """Run tests in a copy; return what noticed the change, or an empty text."""
+    """Run tests in a copy; return what noticed the change, or an empty text.
+
+    Raises
+    ------
+    RuntimeError
+        If pytest cannot run them.
+    """
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-o", "addopts="]
     variables = {"PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1"}
     for test in tests:
@@ -71,6 +78,8 @@ def noticed_by(tests: tuple[str, ...], copy: Path) -> str:
             )  # fmt: skip
         except subprocess.TimeoutExpired:
             return f"{test}: did not end"
+        if run.returncode < 0:
+            return f"{test}: ended by {signal.Signals(-run.returncode).name}"
         if run.returncode not in (0, 1, 2):
             raise RuntimeError(f"{' '.join(call)} ended with the status {run.returncode}: {run.stdout[-2000:]}")
         if run.returncode:
@@ -80,7 +89,13 @@ def noticed_by(tests: tuple[str, ...], copy: Path) -> str:
 
 
 def is_noticed(mutant: Mutant, copy: Path) -> str:
-    """Apply a mutant to a copy and run its tests; return what notices it, which must pass without the mutant."""
+    """Apply a mutant to a copy and run its tests; return what notices it.
+
+    Raises
+    ------
+    RuntimeError
+        If its tests cannot be run, or fail without the mutant, too.
+    """
     path = copy / mutant.path
     before = path.read_bytes()
     path.write_text(mutant.text(copy), encoding="utf-8")
@@ -102,9 +117,14 @@ def main(arguments: list[str]) -> int:
     count = 0
     with copy_of_the_repository() as copy:
         for mutant in selected:
-            by = is_noticed(mutant, copy)
+            try:
+                by = is_noticed(mutant, copy)
+            except RuntimeError as error:
+                by, outcome = "", f"ERROR ({error})"
+            else:
+                outcome = by or "NOT NOTICED"
             count += bool(by)
-            print(f"{by or 'NOT NOTICED'}  {mutant.path}: {mutant.old!r} -> {mutant.new!r}", flush=True)
+            print(f"{outcome}  {mutant.path}: {mutant.old!r} -> {mutant.new!r}", flush=True)
     print(f"{count} of {len(selected)} mutants are noticed")
     return 0 if count == len(selected) else 1
 
