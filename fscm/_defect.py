@@ -19,9 +19,8 @@ import numpy as np
 import scipy
 
 from fscm._equilibrium import Discretisation, Linearisation, State
-from fscm._kernel import kernel_of
 from fscm._panels import PanelMesh
-from fscm._tail import tail_energy, tail_errors
+from fscm._tail import deformation_beyond, tail_energy, tail_errors, tail_variation
 from fscm._typing import Array
 
 __all__ = ["Defect", "Errors", "finer"]
@@ -252,15 +251,21 @@ class Defect:
         computed, remainder = tail_errors(problem, f.end, f.displacement)
         # The closed tail is too large by `computed`.
         of_tail = np.concatenate([-effect * computed, effect * remainder])
-        # The tail neglects w, which decreases outwards from the last node on.
+        # The tail neglects w, which decreases outwards from the last node on, or as under a distant load.
         w = abs(float(f.deformation[-1]))
+        if problem.response is not None:
+            w = max(w, deformation_beyond(problem, f.end, abs(f.load - tail.load) + abs(tail.load)))
         neglected = effect * np.array([tail.load_slope * w, tail.displacement_slope * w, tail.load * w])
         elastic = float(functional == "energy") * 0.5 * tail.load * w
-        # A ring at t > T displaces r by t^-k F(a, a; 1; r^2/t^2); the tail has F = 1.
-        T, r = f.end, f.radius
-        response = kernel_of(problem.k).response(r, np.full_like(r, T), T - r) * T**problem.k - 1.0
+        # The tail displaces all radii as the center.
         ring = adjoint + (0.5 * self._area * f.pressure if functional == "energy" else 0.0)
-        return of_tail, np.concatenate([neglected, [elastic], self._by_panel(ring * response) * tail.displacement])
+        variation = self._by_panel(ring * self._variation)
+        return of_tail, np.concatenate([neglected, [elastic], variation])
+
+    @cached_property
+    def _variation(self) -> Array:
+        f = self.fine
+        return tail_variation(f.disc.problem, f.end, f.displacement, f.radius)
 
     def _kernel(self, adjoint: Array, border: float, functional: str, control: str) -> float:
         """Bound of the error of the response of a graded solid, weighed by the adjoint."""

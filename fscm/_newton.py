@@ -12,6 +12,7 @@ from fscm._bordered_factor import BorderedFactor
 from fscm._equilibrium import Control, Linearisation, State
 from fscm._typing import Array
 from fscm.errors import NotConverged
+from fscm.laws import SurfaceLaw
 from fscm.punch import kinks_of
 
 __all__ = ["STEP_TOLERANCE", "newton", "shifted"]
@@ -25,9 +26,10 @@ _MAX_ITERATIONS = 80  #: with old or new factors; measured: 41 at n = 2, k = 0.9
 #: step).
 _CHORD, _CONTRACTION, _REMAINDER = 0.5, 0.1, 1.8
 #: In one iteration a gap may fall to this fraction of its distance to the singular gap, but not below _LOWEST times the
-#: singular gap: there the 9-3 law reaches 7e5 times its strength.
+#: singular gap, or less where the repulsion is not yet _STRONGEST times the strength of the law: that of the 9-3 law is
+#: 7e5 times there, while a repulsion that hardly exceeds the attraction, as r^-1.9 beside r^-1.1, has not begun.
 _SHRINK = 0.4
-_LOWEST = 0.25
+_LOWEST, _STRONGEST = 0.25, 5e5
 #: Largest change of the logarithm of the scale in one iteration: a factor of two.
 _LARGEST_GROWTH = 0.7
 #: Bound on any change of log c, against overflow of iterates that Newton's method rejects.
@@ -79,11 +81,20 @@ def shifted(state: State, gap: Array, displacement: float, log_scale: float, fac
     return replace(state, scale=scale, gap=moved, displacement=displacement)
 
 
+def _least_clearance(law: SurfaceLaw) -> float:
+    """Least distance from the singular gap."""
+    clearance = _LOWEST * -law.singular_gap
+    strength = -float(law.traction(np.array(law.peak_gap)))
+    while clearance > 0.0 and float(law.traction(np.array(law.singular_gap + clearance))) < _STRONGEST * strength:
+        clearance *= 0.5
+    return clearance
+
+
 def _largest_damping(state: State, step: Array) -> float:
     """Largest fraction of a step that keeps the gaps away from the singular one."""
     floor = state.disc.problem.law.singular_gap
     clearance = state.gap - floor
-    least = np.maximum(_SHRINK * clearance, _LOWEST * -floor)
+    least = np.maximum(_SHRINK * clearance, _least_clearance(state.disc.problem.law))
     dH, log_scale = step[:-2], float(step[-1])
     largest = _LARGEST_GROWTH / max(abs(log_scale), 1e-300)
     if state.lift is not None or (log_scale != 0.0 and kinks_of(state.disc.problem.punch)):

@@ -1,7 +1,9 @@
-"""Contributions of the radii beyond the mesh to load, displacement and energy, in closed form.
+"""Contributions of the radii beyond the mesh to load, displacement and energy.
 
 Beyond the last node, at the radius T, the height f is so large that p = -C f^-m (1 - m e/f), with
-e = w - delta - singular gap.  There f grows as F (t/T)^g, and every integral is one of a power.
+e = w - delta - singular gap.  There f grows as F (t/T)^g, and every integral on a power-law solid is one of a power.
+On any other solid a ring at t moves the contact by G(0, t) (`fscm.graded.distant_ring`), which varies with t as far as
+the modulus varies with depth: there the displacement is by quadrature over t, until G is a power of t again.
 """
 
 from __future__ import annotations
@@ -11,10 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fscm._kernel import kernel_of
 from fscm._typing import Array
 from fscm.problem import Problem
 
-__all__ = ["Tail", "tail_energy", "tail_errors", "tail_of"]
+__all__ = ["Tail", "deformation_beyond", "tail_energy", "tail_errors", "tail_of", "tail_variation"]
 
 #: Quadrature behind the mesh: pieces on which the radius grows by _FARTHER (less for steep punches), nodes of each.
 _FARTHER, _PIECES = 4.0, 3
@@ -27,6 +30,13 @@ _SAME = 1e-9
 _FARTHEST = 1e12
 #: Height above which the tail is neglected: the tension there is below 1e-60 for m > 1.
 _ZERO = 1e60
+#: Quadrature over distant rings: t^-a falls by at most exp(-_FALL) on a piece, and by exp(-_LEFT) on all of them.
+_FALL, _LEFT = 8.0, 42.0
+#: Factor beyond the reach of the distant rings up to which their response is computed in the other way.
+_BEYOND_REACH = 100.0
+#: Radii, in T, at which the variation of the displacement over the mesh is computed, and factors from T of the rings.
+_VARIATION = np.sort(np.concatenate([0.5 ** np.arange(1, 14), 1.0 - 0.5 ** np.arange(2, 21)]))
+_RINGS = 4.0 ** np.arange(8)
 
 
 @dataclass(frozen=True)
@@ -68,25 +78,35 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
     e = (-displacement - problem.law.singular_gap) / F
     strength = C * F**-m
 
-    def powers(power: float) -> tuple[float, float, float]:
-        """-int of t^(power-1) p from T on, over C F^-m T^power; its derivatives by log T and by delta."""
-        leading, following = 1.0 / (m * g - power), m / ((m + 1.0) * g - power)
+    def tail(factor: float, leading: float, following: float, at_start: float) -> tuple[float, float, float]:
+        """A part, and its derivatives by log T and by delta, from integrals of t^(-m g) and t^(-(m+1) g) over t/T."""
+        rate = -factor * at_start * (1.0 - m * e)
         # e falls like 1/F, hence like T^-g.
-        return leading - e * following, (power - m * g) * (leading - e * following) + g * e * following, following / F
+        return factor * (leading - m * e * following), rate, factor * m * following / F
 
-    load_factor = -2.0 * strength * T**2
+    load = tail(-2.0 * strength * T**2, 1.0 / (m * g - 2.0), 1.0 / ((m + 1.0) * g - 2.0), 1.0)
     w_factor = -problem.compliance * (1.0 - k) * strength * T ** (1.0 - k)
-    if problem.response is not None:
-        w_factor *= problem.response.far(T)
-    (load, load_rate, load_slope), (w, w_rate, w_slope) = powers(2.0), powers(1.0 - k)
-    return Tail(
-        load_factor * load,
-        w_factor * w,
-        load_factor * load_rate,
-        w_factor * w_rate,
-        load_factor * load_slope,
-        w_factor * w_slope,
-    )
+    if problem.response is None:
+        w = tail(w_factor, 1.0 / (m * g - 1.0 + k), 1.0 / ((m + 1.0) * g - 1.0 + k), 1.0)
+    else:
+        w = tail(w_factor, *_ring_integrals(problem, T))
+    return Tail(load[0], w[0], load[1], w[1], load[2], w[2])
+
+
+def _ring_integrals(problem: Problem, T: float) -> tuple[float, float, float]:
+    """Integrals of (t/T)^-(m g) G(0, t) and (t/T)^-((m+1) g) G(0, t) over t/T from 1 on, and G(0, T)."""
+    rings, g = problem.response.distant, problem.punch.growth
+    m = problem.law.decay[1]
+    stop = min(max(T, rings.reach), T * math.exp(_LEFT / (m * g - 1.0)))
+    t, weights = _pieces(T, stop, min(math.log(_FARTHER), _FALL / (m * g)))
+    at_start, *response, at_stop = rings.by_images(np.concatenate([[T], t, [stop]]))
+    # From there on both are powers; far inside the reach nothing is left.
+    exponent = rings.at_reach[1] if stop >= rings.reach else 0.0
+    integrals = []
+    for power in (m * g, (m + 1.0) * g):
+        beyond = at_stop * (stop / T) ** (1.0 - power) / (power - 1.0 - exponent)
+        integrals.append(float((weights * (t / T) ** -power) @ response) / T + float(beyond))
+    return integrals[0], integrals[1], float(at_start)
 
 
 def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array, Array]:
@@ -121,23 +141,80 @@ def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array,
     far = T * math.exp(_PIECES * _log_ratio(g))
     t, weights = _quadrature(T, far, g)
     pressure = problem.law.traction(problem.punch.height(t) - displacement)
-    share = 1.0 if problem.response is None else problem.response.far(T)
-    quadrature = np.array(
-        [
-            2.0 * float((weights * t) @ pressure),
-            problem.compliance * share * (1.0 - k) * float((weights * t**-k) @ pressure),
-        ]
-    )
     closed, beyond = tail_of(problem, T, displacement), tail_of(problem, far, displacement)
-    computed = np.array([closed.load - beyond.load, closed.displacement - beyond.displacement]) - quadrature
+    computed = [closed.load - beyond.load - 2.0 * float((weights * t) @ pressure)]
+    relative, _ = _deviations(problem, far, displacement)
+    remainder = [abs(beyond.load) * relative]
+    if problem.response is None:
+        lifted = problem.compliance * (1.0 - k) * float((weights * t**-k) @ pressure)
+        computed.append(closed.displacement - beyond.displacement - lifted)
+        remainder.append(abs(beyond.displacement) * relative)
+    else:
+        lifted, left = _lifted_by_waves(problem, T, displacement)
+        computed.append(closed.displacement - lifted)
+        remainder.append(left)
     of_energy = tail_energy(problem, T, displacement) - _tail_energy(problem, T, displacement, 2)
 
-    relative, _ = _deviations(problem, far, displacement)
-    remainder = np.array([abs(beyond.load), abs(beyond.displacement)]) * relative
     farthest = _farthest(problem)
     relative, e = _deviations(problem, farthest, displacement)
     work = abs(tail_of(problem, farthest, displacement).load * (displacement + problem.law.singular_gap))
     return np.append(computed, of_energy), np.append(remainder, work * (relative + m * abs(e)))
+
+
+def _lifted_by_waves(problem: Problem, T: float, displacement: float) -> tuple[float, float]:
+    """Displacement of the tail on a solid that is no power law, without images, and a bound of the error far out.
+
+    The tension of the law on the shape is integrated with the response that follows from the wave numbers.
+    """
+    rings, g = problem.response.distant, problem.punch.growth
+    power = problem.law.decay[1] * g
+    far = min(max(T, _BEYOND_REACH * rings.reach), T * math.exp(_LEFT / (power - 1.0)))
+    far = max(far, T * math.exp(_PIECES * _log_ratio(g)))
+    t, weights = _pieces(T, far, min(_log_ratio(g), _FALL / power))
+    pressure = problem.law.traction(problem.punch.height(t) - displacement)
+    lifted = problem.compliance * float((weights * rings.by_waves(t)) @ pressure)
+    beyond = tail_of(problem, far, displacement).displacement
+    farther = np.array(_FARTHER * far)
+    relative = abs(float(rings.by_images(farther) / rings.by_waves(farther)) - 1.0)
+    return lifted + beyond, abs(beyond) * (relative + _deviations(problem, far, displacement)[0])
+
+
+def tail_variation(problem: Problem, T: float, displacement: float, radii: Array) -> Array:
+    """Displacement of the tail at radii of the mesh minus that at the center, or a bound of its size.
+
+    On a power-law solid a ring at t > T displaces r by t^-k F(a, a; 1; r^2/t^2): at most by the factor of t = T.
+
+    Parameters
+    ----------
+    problem, T, displacement
+        As for `tail_of`.
+    radii : ndarray
+        Below T.
+    """
+    tail, k = tail_of(problem, T, displacement), problem.k
+    if problem.response is None or tail.load == 0.0:
+        factor = kernel_of(k).response(radii, np.full_like(radii, T), T - radii) * T**k
+        return np.asarray((factor - 1.0) * tail.displacement)
+    rings = np.append(T * _RINGS, np.inf)
+    t, at = rings[:-1, None], T * _VARIATION
+    kernel = problem.response.kernel
+    change = np.abs(kernel.response(at, np.broadcast_to(t, (t.size, at.size)), t - at) - kernel.response(0.0 * at, t))
+    # The change falls or rises with t between two rings; beyond the last one it falls.
+    largest = np.maximum(change, np.append(change[1:], change[-1:], axis=0))
+    power = problem.law.decay[1] * problem.punch.growth
+    strength = abs(float(problem.law.traction(np.array(_height(problem, T) - displacement)))) * T / (power - 1.0)
+    shares = -np.diff(np.append(_RINGS ** (1.0 - power), 0.0))
+    bound = np.maximum.accumulate(problem.compliance * strength * (shares @ largest))
+    # Near the center it falls like r^2.
+    inner = bound[0] * (radii / at[0]) ** 2
+    return np.where(radii < at[0], inner, np.exp(np.interp(radii, at, np.log(bound))))
+
+
+def deformation_beyond(problem: Problem, T: float, load: float) -> float:
+    """Bound of the deformation beyond T by a load near the center, on a solid that is no power law."""
+    t = T * _RINGS
+    response = problem.response.distant.by_images(t)
+    return float(np.max(np.abs(response) / t)) * problem.compliance * 0.5 * load
 
 
 def _deviations(problem: Problem, far: float, displacement: float) -> tuple[float, float]:
@@ -191,10 +268,15 @@ def _tail_energy(problem: Problem, T: float, displacement: float, cuts: int) -> 
 
 
 def _quadrature(start: float, stop: float, growth: float, cuts: int = 1) -> tuple[Array, Array]:
-    """Radii and weights from one radius to another, also inwards."""
+    """Radii and weights from one radius to another, also inwards, on pieces that suit the growth of the punch."""
+    return _pieces(start, stop, _log_ratio(growth), cuts)
+
+
+def _pieces(start: float, stop: float, log_ratio: float, cuts: int = 1) -> tuple[Array, Array]:
+    """Radii and weights on pieces of the logarithm of the radius, of at most that length over `cuts`."""
     x, w = _GAUSS
     length = math.log(stop / start)
-    pieces = cuts * max(1, math.ceil(abs(length) / _log_ratio(growth) - _SAME))
+    pieces = cuts * max(1, math.ceil(abs(length) / log_ratio - _SAME))
     half = 0.5 * length / pieces
     t = start * np.exp(half * (2.0 * np.arange(pieces)[:, None] + 1.0 + x).ravel())
     return t, half * np.tile(w, pieces) * t

@@ -80,16 +80,23 @@ def edge_radius(state: State) -> float:
 
 
 def folds_between(a: Point, b: Point) -> list[tuple[State, str, bool]]:
-    """State, quantity, and whether it is a maximum, of the folds between neighbouring points of one segment."""
+    """State, quantity, and whether it is a maximum, of the folds between neighbouring points.
+
+    The last point of a segment and the first of the next are the same state on two meshes.  Where a path coils up, a
+    fold may be so near that its rates there differ in sign: it is at that state.
+    """
     located = []
     for quantity, condition in _FOLDS.items():
         before, after = condition(a.state, a.rates), condition(b.state, b.rates)
         if before * after < 0.0:
-            located.append((events.locate(a, b, condition), quantity, before > 0.0))
+            state = b.state if a.segment != b.segment else events.locate(a, b, condition)
+            located.append((state, quantity, before > 0.0))
+    if a.segment != b.segment:
+        return located
     direction = a.state.orientation
     return sorted(located, key=lambda item: direction * parameter_of(item[0]))
 
 
 def folds_of(points: Sequence[Point]) -> tuple[Fold, ...]:
     """The folds of a path that is complete (see `fscm._completeness`)."""
-    return tuple(fold_at(*fold) for a, b in pairwise(points) if a.segment == b.segment for fold in folds_between(a, b))
+    return tuple(fold_at(*fold) for a, b in pairwise(points) for fold in folds_between(a, b))

@@ -226,6 +226,7 @@ def _with_events(points: list[Point]) -> tuple[list[State], list[tuple[State, st
     for a, b in pairwise(points):
         if a.segment != b.segment:
             states[-1] = b.state  # the same state on the mesh that follows the edge
+            folds += folds_between(a, b)
             continue
         between = folds_between(a, b)
         folds += between

@@ -17,8 +17,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fem_reference._contact.far_rule import far_rule
 from fem_reference._elastic.compliance import Compliance
-from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._typing import Array
 from fem_reference.laws import SurfaceLaw
 from fem_reference.punch import Punch
@@ -26,7 +26,7 @@ from fem_reference.punch import Punch
 __all__ = ["Contact"]
 
 
-#: Gauss points for the load beyond the mesh in x = R/r: the integrand is close to a power of x.
+#: Gauss points for the load beyond the mesh.
 TAIL_POINTS = 24
 
 
@@ -84,10 +84,8 @@ class Contact:
 
     def _tail(self, y: Array) -> tuple[Array, Array, Array]:
         """Radii, weights of dr, and gaps beyond the mesh."""
-        x, w = unit_gauss(TAIL_POINTS)
-        R = self.compliance.trace.extent * y[-1]
-        r = R / x
-        return r, w * R / x**2, self.punch.height(r) - y[-2]
+        r, weight = far_rule(TAIL_POINTS, self.punch, self.law, self.compliance.trace.extent * float(y[-1]))
+        return r, weight, self.punch.height(r) - y[-2]
 
     def load(self, y: Array) -> float:
         """Total load P, compression positive (Eq. 11), with the load beyond the mesh."""

@@ -15,13 +15,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference._contact.contact import Contact
-from fem_reference._elastic.gauss import unit_gauss
+from fem_reference._contact.far_rule import far_rule
 from fem_reference._typing import Array
 
 __all__ = ["TailContact"]
 
-#: Gauss points in t, with r = R / t^4: powers of r that are not integers are integrated to 1e-12 of themselves.
-POINTS = 96
+#: Gauss points in t, and least power s, with r = R / t^s: powers of r that are not integers are integrated to 1e-12 of
+#: themselves.
+POINTS, LEAST_POWER = 96, 4.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,11 +44,10 @@ class TailContact(Contact):
 
     def _tail(self, y: Array) -> tuple[Array, Array, Array]:
         """Radii, weights of dr, and gaps beyond the mesh."""
-        t, w = unit_gauss(POINTS)
         R = self.compliance.trace.extent * float(y[-1])
-        r = R / t**4
-        rise = y[self._last] * t ** (4.0 * (1.0 + self.depth_exponent))
-        return r, 4.0 * w * R / t**5, self.punch.height(r) - y[-2] + rise
+        r, weight = far_rule(POINTS, self.punch, self.law, R, least=LEAST_POWER)
+        rise = y[self._last] * (R / r) ** (1.0 + self.depth_exponent)
+        return r, weight, self.punch.height(r) - y[-2] + rise
 
     def _shift(self, y: Array) -> float:
         """Displacement of the contact under the traction beyond the mesh."""

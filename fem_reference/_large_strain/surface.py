@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem_reference._elastic.gauss import unit_gauss
+from fem_reference._contact.far_rule import far_rule
 from fem_reference._elastic.trace import Trace
 from fem_reference._typing import Array, Index
 from fem_reference.laws import SurfaceLaw
@@ -119,9 +119,8 @@ class Surface:
 
     def _beyond(self, end: float, delta: float) -> tuple[Array, Array, Array]:
         """Current radii, weights of d rho, and gaps beyond the mesh, where u_z is left out."""
-        x, w = unit_gauss(TAIL_POINTS)
-        r = end / x
-        return r, w * end / x**2, self.punch.height(self.size * r) / self.size - delta
+        r, weight = far_rule(TAIL_POINTS, self.punch, self.law, end, self.size)
+        return r, weight, self.punch.height(self.size * r) / self.size - delta
 
     def load(self, faces: Faces, end: float, delta: float) -> float:
         """Load P in units of the input, compression positive.

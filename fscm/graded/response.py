@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from fscm._panels import PanelMesh
 from fscm._typing import Array
+from fscm.graded.distant_ring import DistantRing
 from fscm.graded.kernel import GradedKernel
 from fscm.graded.panels import Remainder, remainder
 from fscm.graded.patches import ImageTable
@@ -66,9 +67,10 @@ class GradedResponse:
             previous = reusable[0], reusable[2].moved(math.log(c / reusable[1]))
         return remainder(self._table(mesh.order), self._length, mesh, c, previous)
 
-    def far(self, radius: float) -> float:
-        """Response at the center to a distant ring, in units of that of a homogeneous solid."""
-        return float(self.kernel.response(np.zeros(1), np.array([radius]))[0])
+    @cached_property
+    def distant(self) -> DistantRing:
+        """Response at the center to distant rings, in units of that of a homogeneous solid."""
+        return DistantRing(self.kernel)
 
     def error(self, mesh: PanelMesh, c: float, pressure: Array) -> tuple[Array, float]:
         """Bound of the error of W p at the nodes and on the axis by the kernel, from the sizes of the pressures."""

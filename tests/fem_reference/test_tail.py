@@ -1,12 +1,15 @@
 """Displacement, load and energy behind the mesh against an adaptive quadrature of their integrals."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from fem_reference import Mie, PowerPunch
 from fem_reference._contact.contact import Contact
+from fem_reference._contact.far_rule import far_rule
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.tail import TailContact
 from fem_reference._elastic.mesh import MeshSpec
@@ -60,14 +63,27 @@ def test_load_and_energy_behind_the_mesh(k):
     assert change == pytest.approx(surface + elastic, abs=QUADRATURE * (abs(surface) + abs(elastic)))
 
 
-def test_the_gradient_of_the_load_is_its_derivative():
-    _, _, tail, y = _contacts(0.3)
+@pytest.mark.parametrize("law", [None, Mie(1.0, 1.0, m=9.0, n=1.1)])
+def test_the_gradient_of_the_load_is_its_derivative(law):
+    """Under a slow law the quadrature lost 2 % of the load beyond, so that the load did not change as its gradient."""
+    _, plain, tail, y = _contacts(0.3)
     h = 1e-6
-    for index in (0, int(tail.compliance.trace.nodes.size) - 1, -2, -1):
-        step = np.zeros(y.size)
-        step[index] = h
-        slope = (tail.load(y + step) - tail.load(y - step)) / (2 * h)
-        assert tail.load_gradient(y)[index] == pytest.approx(slope, rel=1e-6, abs=1e-9)
+    for contact in (plain, tail):
+        contact = replace(contact, law=law or contact.law)
+        for index in (0, int(tail.compliance.trace.nodes.size) - 1, -2, -1):
+            step = np.zeros(y.size)
+            step[index] = h
+            slope = (contact.load(y + step) - contact.load(y - step)) / (2 * h)
+            assert contact.load_gradient(y)[index] == pytest.approx(slope, rel=1e-6, abs=1e-9)
+
+
+@pytest.mark.parametrize(("growth", "n"), [(2.0, 3.0), (2.0, 1.1), (2.0, 1.001), (1.0, 2.1), (10.0, 4.0)])
+def test_the_load_beyond_a_distant_end_is_that_of_a_power(growth, n):
+    """R^2 p(R)/(m g - 2), up to the height of the end; m g - 2 from 0.002 to 38."""
+    punch, law, R = PowerPunch(growth, 1.0), Mie(1.0, 1.0, m=20.0, n=n), 1e13 ** (1.0 / growth)
+    r, weight = far_rule(24, punch, law, R)
+    load = float((weight * r) @ law.traction(punch.height(r)))
+    assert load == pytest.approx(R**2 * float(law.traction(punch.height(R))) / (n * growth - 2.0), rel=1e-11)
 
 
 def test_the_traction_behind_the_mesh_moves_the_surface_by_the_integral_of_a_homogeneous_half_space():

@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fscm import NotConverged, Problem, solve
+from fscm import Coating, LennardJones, Mie, NotConverged, PowerPunch, Problem, solve
 from fscm._arc_length import parameter_control, parameter_of
 from fscm._continuation import equilibrium_path
 from fscm._equilibrium import Control, State
-from fscm._newton import newton
+from fscm._newton import _least_clearance, newton
 from tests.marks import heavy
 
 # The deformation is the unknown under the last punch.
@@ -105,3 +105,23 @@ def test_at_a_large_tabor_number_newton_ends_at_rounding() -> None:
     solution = solve(Problem(2, 0, 5e5), "pull_off_force")
     assert solution.parts["rounding"] < solution.u_num < 1e-7
     assert abs(solution.value - 1.5) <= solution.u_num
+
+
+def test_iterates_stay_where_the_repulsion_is_strong_and_go_as_far() -> None:
+    """A repulsion that hardly exceeds the attraction has not begun where the 9-3 law is 7e5 times its strength."""
+    assert _least_clearance(LennardJones()) == 0.25
+    law = Mie(m=2.352, n=1.2016)
+    clearance = _least_clearance(law)
+    strength = -float(law.traction(np.array(law.peak_gap)))
+    assert float(law.traction(np.array(0.25 - 1.0))) < 100.0 * strength
+    assert float(law.traction(np.array(clearance - 1.0))) > 1e5 * strength
+
+
+@pytest.mark.heavy
+def test_a_law_with_a_soft_repulsion_has_a_zero_load() -> None:
+    """Refused because Newton's method was driven into the singular gap."""
+    coating = Coating(
+        73780.54203558447, 1154.3143529930994, 89.18567516488058, 0.0, 0.3008163741869798, 0.45922860411101324
+    )
+    problem = Problem(coating, PowerPunch(n=2.0, Q=29779.364927597602), Mie(m=2.3519028939091093, n=1.2015510827386442))
+    assert solve(problem, "zero_load_displacement").value == pytest.approx(1.0039246136470368, rel=1e-9)

@@ -1,6 +1,7 @@
 """Events and quantities: reference values, limits, the short path to a pull-off, several at once, refusals."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from fscm import Analysis, NoSuchEvent, Problem, Solution, profile, solve, solve
 from fscm import _pull_off_path as short
 from fscm._meshes import Meshes
 from fscm._threads import one_thread
+from fscm.folds import folds_between
 from fscm.quantities import TABLE
 from tests.fscm.random_problems import problems
 from tests.fscm.solved_once import analysis_of
@@ -148,3 +150,23 @@ def test_paths_and_fields_are_as_accurate_as_requested() -> None:
     inner = coarse.radius < 3.0
     between = np.interp(coarse.radius[inner], fine.radius, fine.gap)
     np.testing.assert_allclose(coarse.gap[inner], between, atol=1e-2)  # linear between the nodes of the finer mesh
+
+
+def _point(segment: int, load_rate: float) -> SimpleNamespace:
+    rates = SimpleNamespace(load=load_rate, displacement=-1.0)
+    return SimpleNamespace(segment=segment, rates=rates, state=SimpleNamespace(parameter="gap", orientation=-1.0))
+
+
+def test_a_fold_at_a_change_of_segment_is_a_fold() -> None:
+    """The last state of a segment is the first of the next, on another mesh: in a coil its rates may change sign."""
+    before, after = _point(0, -1e-11), _point(1, 1e-11)
+    assert folds_between(before, after) == [(after.state, "load", False)]
+    assert folds_between(before, _point(1, -1e-11)) == []
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("mu", [1e4, 3e4, 1e5])
+def test_the_jump_out_at_large_tabor_numbers_is_that_of_jkr(mu: float) -> None:
+    """At mu = 3e4 the path coils up seven times where contact begins, and no part in contact was found to be stable."""
+    solution = solve(Problem(2, 0, mu), "jump_out_displacement")
+    assert solution.value == pytest.approx(-0.75 * math.pi ** (2.0 / 3.0) * mu, rel=1e-7)
