@@ -155,7 +155,7 @@ DEFECTS = (
 
 def test_a_defect_of_a_program_is_one_sentence_and_costs_one_result(write_program, monkeypatch):
     """The defect depends on the Tabor number; after it the program is started again."""
-    monkeypatch.setattr(child, "_LONGEST_REPLY", 3_000_000)
+    monkeypatch.setattr(child, "_LONGEST_REPLY", dict.fromkeys(child._LONGEST_REPLY, 3_000_000))
     cases = [f"*'\"mu\": {number}.0'*)\n{body}\n;;" for number, (body, _) in enumerate(DEFECTS, 1)]
     model = create(write_program("\n".join(["case $request in", *cases, f"*)\n{ok()}\n;; esac"])))
     for number, (body, sentence) in enumerate(DEFECTS, 1):
@@ -182,7 +182,7 @@ ARRAYS = '{"status": "ok", "displacement": %s, "load": %s}'
         ('{"status": "ok", "value": 1.7}', "u_num missing"),
         ('{"value": 1.7, "u_num": 0}', "status = None"),
         ('{"status": "failed", "reason": "no root"}', "^no root$"),
-        (2_000_000 * "[", "which is not one JSON object"),
+        (2_000_000 * "[", "more than 2500 brackets"),
     ],
 )
 def test_a_reply_that_is_no_result_is_one_sentence(reply, sentence):
