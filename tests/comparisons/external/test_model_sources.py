@@ -148,7 +148,7 @@ DEFECTS = (
     ("kill -9 $$", "was killed by signal 9"),
     ("echo 1.7", "wrote '1.7', which is not one JSON object"),
     (f"{ok()}; {ok()}", "more than one line for"),
-    ("yes | tr -d '\\n'", "wrote 3 MB without the end of a line"),
+    ("yes | tr -d '\\n'", "wrote 3000000 bytes without the end of a line"),
     ("exec 1>&-; sleep 60", "closed its standard output"),
 )
 
