@@ -100,6 +100,12 @@ class LennardJones:
         return -self.z0
 
     @property
+    def powers(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """(A, a) of each power A (1 + H/z0)^-a of the traction."""
+        strength = 8.0 / 3.0 * self.work_of_adhesion / self.z0
+        return (strength, 9.0), (-strength, 3.0)
+
+    @property
     def decay(self) -> tuple[float, float]:
         """Tension (8 w z0^2 / 3) H^-3 at large gaps."""
         return 8.0 / 3.0 * self.work_of_adhesion * self.z0**2, 3.0
@@ -176,6 +182,11 @@ class Mie:
     def singular_gap(self) -> float:
         """The repulsion diverges at H = -z0."""
         return -self.z0
+
+    @property
+    def powers(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """(A, a) of each power A (1 + H/z0)^-a of the traction."""
+        return (self._stress, self.m), (-self._stress, self.n)
 
     @property
     def decay(self) -> tuple[float, float]:

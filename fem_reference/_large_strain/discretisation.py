@@ -23,6 +23,7 @@ from fem_reference._large_strain.start import small_strain_state
 from fem_reference._large_strain.surface import Surface
 from fem_reference._large_strain.surface_stability import largest_tension
 from fem_reference.errors import NotConverged
+from fem_reference.interaction import Interaction
 from fem_reference.modulus import Modulus, OffsetPowerLawModulus, PowerLawModulus
 from fem_reference.poisson import PoissonRatio
 from fem_reference.problem import Problem
@@ -122,6 +123,7 @@ class Discretisation:
     mixed : bool
         Whether the pressure is an unknown of its own.
     friction : {"frictionless", "bonded"}
+    interaction : Interaction
     extra : int
         Gauss points a direction beyond the degree.
     feature : str
@@ -134,6 +136,7 @@ class Discretisation:
     extent: float
     mixed: bool
     friction: Friction
+    interaction: Interaction
     extra: int = EXTRA_POINTS
     feature: str = ""
 
@@ -162,7 +165,8 @@ class Discretisation:
     def surface(self, block: Block, radius: float) -> Surface:
         """Return punch and law at a radius of the edge."""
         unit = float(self.problem.solid.modulus(np.array(radius))) if self._without_length else 1.0
-        return Surface(block.trace, block.slopes, self.problem.punch, self.problem.law, radius, unit)
+        punch, law = self.problem.punch, self.problem.law
+        return Surface(block.trace, block.slopes, punch, law, self.interaction, radius, unit)
 
     def first_state(self, event: LinearEvent, radius: float, control: Callable[[Block], Control]) -> State:
         """Solve a state from one of small strain, in one step or by raising the factor of the strains to 1.

@@ -249,8 +249,8 @@ def _load_slope(state: State, response: Array, approach: Array) -> float:
     """Change of the load with the approach along the path: P is the derivative of the energy by delta."""
     surface, block = state.surface, state.block
     faces = state.faces
-    change = state.block.trace.weight * np.asarray(surface.law.slope(surface.size * faces.gap)) * surface.size
-    direct = -float((change * faces.rho) @ faces.stretch) / surface.modulus
+    _, by_height = surface.pressure_slopes(faces)
+    direct = -float((block.trace.weight * by_height * faces.rho) @ faces.stretch)
     # The tangent is symmetric but for the end of the surface: the load changes with u as the residual with delta.
     total = direct + float(approach[block.free] @ response[block.free])
     return 2.0 * math.pi * surface.size * surface.modulus * total

@@ -1,11 +1,12 @@
 """Surface force on the deformed surface: residual, tangent, load and energy.
 
-The energy of the faces is the integral of U(H) 2 pi rho d rho over the current radius rho = r + u_r, with the gap
-H = f(rho) - delta + u_z.  With p = -dU/dH its variation per radian is
+The pressure p(rho, h) of an `Interaction` acts at the current radius rho = r + u_r and the height h = u_z - delta below
+the apex of the punch.  The energy is the integral of p over the solid, that is of e(rho, h) 2 pi rho d rho over the
+surface with de/dh = -p.  Its variation per radian is
 
     integral of p [rho u_z' du_r - rho rho' du_z] dr,
 
-a pressure normal to the deformed surface; the ends of the surface, where U is negligible, have been left out.
+a pressure normal to the deformed surface; the ends of the surface, where e is negligible, have been left out.
 Lengths are in units of the size c of the mesh, and tractions in units of E1, the modulus at the depth c.
 """
 
@@ -19,6 +20,7 @@ import numpy as np
 from fem_reference._contact.far_rule import far_rule
 from fem_reference._elastic.trace import Trace
 from fem_reference._typing import Array, Index
+from fem_reference.interaction import Interaction
 from fem_reference.laws import SurfaceLaw
 from fem_reference.punch import Punch
 
@@ -34,13 +36,15 @@ class Faces:
 
     Attributes
     ----------
-    rho, stretch, tilt, gap : ndarray, shape (q,)
-        Current radius, its derivative, derivative of u_z, and gap H.
+    rho, stretch, tilt, height, gap : ndarray, shape (q,)
+        Current radius, its derivative, derivative of u_z, height of the apex of the punch above the point, and vertical
+        gap H.
     """
 
     rho: Array
     stretch: Array
     tilt: Array
+    height: Array
     gap: Array
 
 
@@ -55,6 +59,8 @@ class Surface:
         Derivatives of the functions of each element.
     punch : Punch
     law : SurfaceLaw
+    interaction : Interaction
+        Of both.
     size, modulus : float
         Units of length and of traction.
     finiteness : float
@@ -65,6 +71,7 @@ class Surface:
     slopes: Array
     punch: Punch
     law: SurfaceLaw
+    interaction: Interaction
     size: float
     modulus: float
     finiteness: float = 1.0
@@ -76,13 +83,23 @@ class Surface:
         rho = trace.s + t * (trace.local @ moved).ravel()
         stretch = 1.0 + t * (self.slopes @ moved).ravel()
         tilt = t * (self.slopes @ dropped).ravel()
+        height = (trace.local @ dropped).ravel() - delta
         # A trial step may lead beyond the axis.
-        height = self.punch.height(self.size * np.maximum(rho, 0.0)) / self.size
-        return Faces(rho, stretch, tilt, height - delta + (trace.local @ dropped).ravel())
+        shape = self.punch.height(self.size * np.maximum(rho, 0.0)) / self.size
+        return Faces(rho, stretch, tilt, height, shape + height)
 
     def pressure(self, faces: Faces) -> Array:
         """p at the Gauss points, in units of the modulus."""
-        return np.asarray(self.law.traction(self.size * faces.gap) / self.modulus)
+        return self._traction(faces.rho, faces.height)
+
+    def _traction(self, rho: Array, height: Array) -> Array:
+        return self.interaction.traction(self.size * np.maximum(rho, 0.0), self.size * height) / self.modulus
+
+    def pressure_slopes(self, faces: Faces) -> tuple[Array, Array]:
+        """Derivatives of p at the Gauss points by the radius and by the height."""
+        rho, height = self.size * np.maximum(faces.rho, 0.0), self.size * faces.height
+        by_radius, by_height = self.interaction.slopes(rho, height)
+        return by_radius * self.size / self.modulus, by_height * self.size / self.modulus
 
     def residual(self, faces: Faces) -> tuple[Array, Array]:
         """Return the derivatives of the energy of the faces by both components, shape (e, p + 1)."""
@@ -100,27 +117,26 @@ class Surface:
         e, per, n = N.shape
         weight = self.trace.weight
         p = weight * self.pressure(faces)
-        change = weight * np.asarray(self.law.slope(self.size * faces.gap)) * self.size / self.modulus
-        rise = np.asarray(self.punch.slope(self.size * faces.rho))
+        across, down = (weight * slope for slope in self.pressure_slopes(faces))
         rho, stretch, tilt = faces.rho, faces.stretch, faces.tilt
 
         def product(values: Array, functions: Array) -> Array:
             return np.swapaxes(N, 1, 2) @ (values.reshape(e, per, 1) * functions)
 
         K = np.empty((e, 2 * n, 2 * n))
-        K[:, 0::2, 0::2] = t**2 * product(change * rise * rho * tilt + p * tilt, N)
-        K[:, 0::2, 1::2] = t * (product(change * rho * tilt, N) + t * product(p * rho, dN))
-        K[:, 1::2, 0::2] = -t * (product(change * rise * rho * stretch + p * stretch, N) + product(p * rho, dN))
-        K[:, 1::2, 1::2] = -product(change * rho * stretch, N)
+        K[:, 0::2, 0::2] = t**2 * product(across * rho * tilt + p * tilt, N)
+        K[:, 0::2, 1::2] = t * (product(down * rho * tilt, N) + t * product(p * rho, dN))
+        K[:, 1::2, 0::2] = -t * (product(across * rho * stretch + p * stretch, N) + product(p * rho, dN))
+        K[:, 1::2, 1::2] = -product(down * rho * stretch, N)
         by_delta = np.empty((e, 2 * n))
-        by_delta[:, 0::2] = -t * product(change * rho * tilt, np.ones((1, per, 1)))[:, :, 0]
-        by_delta[:, 1::2] = product(change * rho * stretch, np.ones((1, per, 1)))[:, :, 0]
+        by_delta[:, 0::2] = -t * product(down * rho * tilt, np.ones((1, per, 1)))[:, :, 0]
+        by_delta[:, 1::2] = product(down * rho * stretch, np.ones((1, per, 1)))[:, :, 0]
         return K, by_delta
 
     def _beyond(self, end: float, delta: float) -> tuple[Array, Array, Array]:
-        """Current radii, weights of d rho, and gaps beyond the mesh, where u_z is left out."""
+        """Current radii, weights of d rho, and heights beyond the mesh, where u_z is left out."""
         r, weight = far_rule(TAIL_POINTS, self.punch, self.law, end, self.size)
-        return r, weight, self.punch.height(self.size * r) / self.size - delta
+        return r, weight, np.full_like(r, -delta)
 
     def load(self, faces: Faces, end: float, delta: float) -> float:
         """Load P in units of the input, compression positive.
@@ -133,16 +149,17 @@ class Surface:
         delta : float
         """
         inside = float((self.trace.weight * self.pressure(faces) * faces.rho) @ faces.stretch)
-        r, w, gap = self._beyond(end, delta)
-        beyond = float(w * r @ self.law.traction(self.size * gap)) / self.modulus
+        r, w, height = self._beyond(end, delta)
+        beyond = float(w * r @ self._traction(r, height))
         return 2.0 * math.pi * self.size**2 * self.modulus * (inside + beyond)
 
     def energy(self, faces: Faces, end: float, delta: float) -> float:
         """Energy of the faces in units of the input."""
-        density = self.trace.weight * np.asarray(self.law.energy(self.size * faces.gap))
+        density = self.trace.weight * self.interaction.energy(self.size * faces.rho, self.size * faces.height)
         inside = float((density * faces.rho) @ faces.stretch)
-        r, w, gap = self._beyond(end, delta)
-        return 2.0 * math.pi * self.size**2 * (inside + float(w * r @ self.law.energy(self.size * gap)))
+        r, w, height = self._beyond(end, delta)
+        beyond = float(w * r @ self.interaction.energy(self.size * r, self.size * height))
+        return 2.0 * math.pi * self.size**2 * (inside + beyond)
 
 
 def local_slopes(trace: Trace) -> Array:

@@ -33,6 +33,7 @@ from fem_reference._large_strain.error_parts import state_bounds, variants_of
 from fem_reference._large_strain.events import Family, found_event
 from fem_reference._large_strain.surface import Surface, local_slopes
 from fem_reference._large_strain.whole_path import path_states
+from fem_reference.interaction import interaction_of
 from fem_reference.large_strain import _discretisation
 from tests.fem_reference.triangles_of_finite_strain import Square
 from tests.marks import heavy
@@ -56,10 +57,10 @@ small_strain = cache(linear_event)
 
 
 @cache
-def family(problem, event="pull_off", friction="frictionless", form="auto", order=4):
+def family(problem, event="pull_off", friction="frictionless", form="auto", order=4, interaction="auto"):
     """States on coarse meshes."""
     linear = small_strain(problem, event, "quick", friction)
-    discretisation = _discretisation(problem, linear, friction, form)
+    discretisation = _discretisation(problem, linear, friction, form, interaction)
     return Family(replace(discretisation, spec=replace(discretisation.spec, order=order)), linear)
 
 
@@ -192,11 +193,15 @@ def test_a_manufactured_solution_converges_with_the_order_of_the_elements(nu, mi
     assert math.log2(coarse / fine) > 3.5  # 4 for the degree 3
 
 
-def test_the_surface_force_is_the_derivative_of_its_energy():
+@pytest.mark.parametrize(
+    ("punch", "interaction"), [(PowerPunch(2.0, 1.0), "derjaguin"), (Ball(1.0), "derjaguin"), (Ball(1.0), "body")]
+)
+def test_the_surface_force_is_the_derivative_of_its_energy(punch, interaction):
     grid = graded_grid(1.0, 0.25, 0.25, 4.0, 0.4)
     trace = trace_of(grid, 4)
-    problem = sphere(0.01, 1.0, 0.3, punch=PowerPunch(2.0, 1.0))
-    surface = Surface(trace, local_slopes(trace), problem.punch, problem.law, 0.3, 70.0)
+    problem = sphere(0.01, 1.0, 0.3, punch=punch)
+    force = interaction_of(punch, problem.law, interaction)
+    surface = Surface(trace, local_slopes(trace), punch, problem.law, force, 0.2, 70.0)
     size, s = trace.phi.shape[1], trace.nodes
     u, direction = np.zeros((2, size)), np.zeros((2, size))
     # They vanish at the end of the mesh, which takes part in the energy beyond it.
@@ -251,7 +256,7 @@ def test_the_work_of_the_load_is_the_energy(nu, friction):
 
 
 def test_a_sphere_pulls_off_as_the_first_trial_did():
-    states = family(sphere(5e-3, 2.0, 0.3))
+    states = family(sphere(5e-3, 2.0, 0.3), interaction="derjaguin")
     assert -found_event("pull_off", states).state.load / math.pi == pytest.approx(1.525, abs=1e-3)
     assert 2.0 * variants_of(states.discretisation)["core"].extent == states.discretisation.extent
 
@@ -277,7 +282,8 @@ def test_triangles_and_an_energy_without_integration_by_parts_give_the_same_forc
     square = Square(z0, modulus, nu, 0.25, float(guess.radius[np.argmin(guess.pressure)]))
     start = square.linear(lambda r: np.interp(r, guess.radius, guess.pressure))
     force = square.pull_off(start, z0 + float(guess.gap[0]), 3e-4 * z0)
-    assert force == pytest.approx(solve_large_strain(problem, "pull_off_force").value / math.pi, rel=1e-4)
+    solution = solve_large_strain(problem, "pull_off_force", interaction="derjaguin")
+    assert force == pytest.approx(solution.value / math.pi, rel=1e-4)
 
 
 @pytest.mark.heavy
@@ -306,7 +312,7 @@ def test_the_limit_of_small_strain_is_reached_with_the_order_of_the_strains(nu):
         linear = solve(
             replace(sphere(number, 2.0, 0.3), solid=PowerLaw(0.91 / number, 1.0, 0.0, 0.3)), "pull_off_force"
         )
-        solution = solve_large_strain(sphere(number, 2.0, nu), "pull_off_force")
+        solution = solve_large_strain(sphere(number, 2.0, nu), "pull_off_force", interaction="derjaguin")
         changes.append(abs(solution.value / linear.value - 1.0))
     decades = np.log10(NUMBERS[-1] / NUMBERS[0]) / (len(changes) - 1)
     orders = np.diff(np.log10(changes)) / decades
@@ -348,6 +354,9 @@ def test_what_has_no_answer_is_refused():
     refused("hybrid", solve_large_strain, problem, "pull_off_force", form="hybrid")
     event = SimpleNamespace(radius=0.1)
     refused("incompressible", _discretisation, sphere(5e-3, 2.0, 0.5), event, "frictionless", "displacement")
+    refused("sideways", solve_large_strain, problem, "pull_off_force", interaction="sideways")
+    cone = replace(problem, punch=PowerPunch(1.0, 8.0))
+    refused("not for PowerPunch", solve_large_strain, cone, "pull_off_force", interaction="body")
     refused("nowhere", profile_large_strain, problem, "nowhere")
     refused("z_s = -1", NeoHookean, 1.0, 0.5, 0.5, 1.0, -1.0)
     soft_surface = replace(problem, solid=PowerLaw(200.0, 1.0, 0.4, 0.3))
