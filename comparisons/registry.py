@@ -34,6 +34,7 @@ MODELS = {
     "schwarz": "comparisons.models.transition_formulas:Schwarz",
     "jump-asymptotes": "comparisons.models.jump_asymptotes:JumpAsymptotes",
     "jkr-sphere": "comparisons.models.jkr_sphere:JKRSphere",
+    "jkr-sphere-projected": "comparisons.models.jkr_sphere:JKRSphereProjected",
     "atlas": "comparisons.models.fscm_model:Atlas",
     "fem-large-strain": "comparisons.models.fem_model:LargeStrain",
 }

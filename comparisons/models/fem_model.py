@@ -21,6 +21,7 @@ from comparisons.quantities import QUANTITIES
 
 if TYPE_CHECKING:
     from fem_reference import export
+    from fem_reference.interaction import InteractionName
 
 
 #: Meshes of a curve: the coarser one, which gives its uncertainty, and that of its points.
@@ -161,6 +162,12 @@ def built(problem: Problem) -> fem_reference.Problem:
 class LargeStrain(SolverModel):
     """`fem_reference.solve_large_strain`: a neo-Hookean solid and the traction on its deformed surface, no friction.
 
+    Parameters
+    ----------
+    interaction : str
+        Where the surface force is taken: "auto" is the potential of the punch where that is known, else the law at the
+        vertical gap, which is "derjaguin".
+
     Examples
     --------
     >>> from comparisons.problem import Section
@@ -180,12 +187,15 @@ class LargeStrain(SolverModel):
     quantities = fem_reference.LARGE_STRAIN_QUANTITIES
     checks_problems: ClassVar[bool] = True
 
+    def __init__(self, interaction: InteractionName = "auto") -> None:
+        self._interaction = interaction
+
     def _result(self, problem: Problem, quantity: str) -> Result:
-        solution = fem_reference.solve_large_strain(_body(problem), quantity)
+        solution = fem_reference.solve_large_strain(_body(problem), quantity, interaction=self._interaction)
         return result_of(solution, unit=problem.units[QUANTITIES[quantity].scale])
 
     def _curve(self, problem: Problem) -> Curve:
-        return curve_of(fem_reference.trace_large_strain(_body(problem)), problem.units)
+        return curve_of(fem_reference.trace_large_strain(_body(problem), interaction=self._interaction), problem.units)
 
 
 def _body(problem: Problem) -> fem_reference.Problem:

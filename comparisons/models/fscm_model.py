@@ -71,10 +71,10 @@ def _check_ball(problem: Problem) -> None:
         return
     if problem.is_of_the_paper("solid") and problem.posed.k == 0.0:
         # Imported here: other problems do not need it.
-        from comparisons.models.jkr_sphere import JKRSphere
+        from comparisons.models.jkr_sphere import JKRSphereProjected
 
         try:
-            JKRSphere().evaluate(problem, "pull_off_force")
+            JKRSphereProjected().evaluate(problem, "pull_off_force")
         except NotApplicable as reason:
             raise ComputationFailed(str(reason)) from None
 

@@ -1,12 +1,16 @@
 """The JKR model of a ball on a homogeneous half-space: Sneddon's exact sphere in place of the paraboloid.
 
-With alpha = a/R, x = dgamma/(E* R) and Sneddon's h = (1 + alpha^2) artanh(alpha) - alpha, the load in pi R dgamma and
-the displacement in R are
+With alpha = a/R, x = dgamma/(E* R), Sneddon's h = (1 + alpha^2) artanh(alpha) - alpha, and the energy g dgamma that an
+increase of the projected contact area sets free, the load in pi R dgamma and the displacement in R are
 
-    P = [h - sqrt(8 pi x alpha^3)] / (pi x),    delta = alpha artanh(alpha) - sqrt(2 pi x alpha).
+    P = [h - sqrt(8 pi x g alpha^3)] / (pi x),    delta = alpha artanh(alpha) - sqrt(2 pi x g alpha).
 
-At each event a function that rises as alpha^(3/2) or faster is theta sqrt(2 pi x): h' / alpha^(1/2) at pull-off
-(theta = 3), (alpha artanh(alpha))' alpha^(1/2) at jump-out (1/2) and h / alpha^(3/2) at zero load (2).
+Maugis counts the work of adhesion for the projected area, g = 1.  Atoms count it for the true area of the sphere,
+2 pi R^2 (1 - sqrt(1 - alpha^2)), whose increase by that of pi a^2 is g = (1 - alpha^2)^(-1/2).
+
+At each event a function that rises as alpha^(3/2) or faster is theta sqrt(2 pi x).  With q = alpha g'/g it is
+h' / [(alpha g)^(1/2) (1 + q/3)] at pull-off (theta = 3), (alpha artanh(alpha))' (alpha/g)^(1/2) / (1 + q) at jump-out
+(1/2) and h / (alpha^3 g)^(1/2) at zero load (2).
 """
 
 from __future__ import annotations
@@ -39,55 +43,96 @@ def _sneddon(alpha: ArrayLike) -> NDArray[np.float64]:
     return np.where(x < _SERIES_BELOW, series, (1.0 + x**2) * np.arctanh(x) - x)
 
 
+def _sneddon_slope(alpha: ArrayLike) -> NDArray[np.float64]:
+    """Derivative of `_sneddon`."""
+    x = np.asarray(alpha, float)
+    return np.asarray(2.0 * x * (np.arctanh(x) + x / (1.0 - x * x)))
+
+
+@dataclass(frozen=True, slots=True)
+class Release:
+    """Energy that an increase of the projected contact area sets free, in dgamma: (1 - alpha^2)^(-power)."""
+
+    power: float
+
+    def __call__(self, alpha: ArrayLike) -> NDArray[np.float64]:
+        """Return g."""
+        return np.asarray((1.0 - np.asarray(alpha, float) ** 2) ** -self.power)
+
+    def rate(self, alpha: ArrayLike) -> NDArray[np.float64]:
+        """Return q = alpha g'/g."""
+        square = np.asarray(alpha, float) ** 2
+        return np.asarray(2.0 * self.power * square / (1.0 - square))
+
+
+def _at_pull_off(a: ArrayLike, g: Release) -> NDArray[np.float64]:
+    return np.asarray(_sneddon_slope(a) / np.sqrt(a * g(a)) / (1.0 + g.rate(a) / 3.0))
+
+
+def _at_jump_out(a: ArrayLike, g: Release) -> NDArray[np.float64]:
+    x = np.asarray(a, float)
+    return np.asarray((np.arctanh(x) + x / (1.0 - x * x)) * np.sqrt(x / g(x)) / (1.0 + g.rate(x)))
+
+
+def _at_zero_load(a: ArrayLike, g: Release) -> NDArray[np.float64]:
+    return np.asarray(_sneddon(a) / np.sqrt(np.asarray(a, float) ** 3 * g(a)))
+
+
 #: Of each event: the function that rises as `start` alpha^(3/2) or faster, `start`, and theta.
-_EVENTS: dict[str, tuple[Callable[[float], float], float, float]] = {
-    "pull_off": (lambda a: (2.0 * math.atanh(a) + 2.0 * a / (1.0 - a * a)) * math.sqrt(a), 4.0, 3.0),
-    "jump_out": (lambda a: (math.atanh(a) + a / (1.0 - a * a)) * math.sqrt(a), 2.0, 0.5),
-    "zero_load": (lambda a: float(_sneddon(a)) / a**1.5, 4.0 / 3.0, 2.0),
+_EVENTS: dict[str, tuple[Callable[[ArrayLike, Release], NDArray[np.float64]], float, float]] = {
+    "pull_off": (_at_pull_off, 4.0, 3.0),
+    "jump_out": (_at_jump_out, 2.0, 0.5),
+    "zero_load": (_at_zero_load, 4.0 / 3.0, 2.0),
 }
+
+#: Contact radii among which the end of the rise of such a function is looked for.
+_RADII = np.linspace(0.3, LARGEST_CONTACT, 651)
 
 
 @dataclass(frozen=True, slots=True)
 class _Ball:
-    """A ball by x = dgamma/(E* R) and by its radius in z0."""
+    """A ball by x = dgamma/(E* R), by its radius in z0 and by g."""
 
     softness: float
     radius: float
+    release: Release
 
     @classmethod
-    def of(cls, problem: Problem) -> _Ball:
+    def of(cls, problem: Problem, release: Release) -> _Ball:
         """Return the ball of a problem: x = (mu z0 / R)^(3/2) for n = 2 and k = 0 (Eq. 29)."""
         radius = problem.punch["R"] / problem.units["displacement"]
-        return cls((problem.posed.mu / radius) ** 1.5, radius)
+        return cls((problem.posed.mu / radius) ** 1.5, radius, release)
 
     def displacement(self, alpha: ArrayLike) -> NDArray[np.float64]:
         """Delta / R."""
         x = np.asarray(alpha, float)
-        return x * np.arctanh(x) - np.sqrt(2.0 * math.pi * self.softness * x)
+        return x * np.arctanh(x) - np.sqrt(2.0 * math.pi * self.softness * self.release(x) * x)
 
     def load(self, alpha: ArrayLike) -> NDArray[np.float64]:
         """P / (pi R dgamma)."""
         x = np.asarray(alpha, float)
-        return (_sneddon(x) - np.sqrt(8.0 * math.pi * self.softness * x**3)) / (math.pi * self.softness)
+        adhesive = np.sqrt(8.0 * math.pi * self.softness * self.release(x) * x**3)
+        return (_sneddon(x) - adhesive) / (math.pi * self.softness)
 
     def at(self, event: str) -> float:
         """Return alpha where the rising function of an event is theta sqrt(2 pi x)."""
         rise, start, theta = _EVENTS[event]
         target = theta * math.sqrt(2.0 * math.pi * self.softness)
-        largest = (target / start) ** (2.0 / 3.0)
-        if rise(LARGEST_CONTACT) < target:
+        first = (target / start) ** (2.0 / 3.0)
+        values = rise(_RADII, self.release)
+        last = int(np.argmax(values))
+        if values[last] < target:
             raise NotApplicable(
-                f"the ball is smaller than the contact, which reaches beyond {LARGEST_CONTACT} of its radius; "
+                f"the ball is smaller than the contact, which reaches beyond {_RADII[last]:.2g} of its radius; "
                 "check the modulus and the work of adhesion"
             )
-        smallest = min(largest, LARGEST_CONTACT) / 1e3
-        largest = min(largest * (1.0 + 8.0 * EPS), LARGEST_CONTACT)
+        ends = min(first, _RADII[last]) / 1e3, float(_RADII[last])
         tolerances = {"xtol": 1e-300, "rtol": 4.0 * EPS}
-        return float(scipy.optimize.brentq(lambda alpha: rise(alpha) - target, smallest, largest, **tolerances))
+        return float(scipy.optimize.brentq(lambda a: float(rise(a, self.release)) - target, *ends, **tolerances))
 
 
 class JKRSphere(ContactBranch):
-    """JKR of a ball: Sneddon's punch and Griffith's balance at the contact edge.
+    """JKR of a ball: Sneddon's punch and Griffith's balance at the contact edge, with the true area of contact.
 
     Examples
     --------
@@ -96,14 +141,19 @@ class JKRSphere(ContactBranch):
     >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 3e-10})
     >>> ball = Problem(solid, Section("ball", {"R": 1e-5}), law)
     >>> round(JKRSphere().evaluate(ball, "pull_off_force").value, 6)
-    1.460549
+    1.510628
     """
 
     name = "jkr-sphere"
-    citation = "Maugis, Langmuir 11 (1995) 679, with the sphere of Sneddon, Int. J. Eng. Sci. 3 (1965) 47"
-    domain = "a ball on a homogeneous solid, contact radius up to 0.95 R; exact as mu -> infinity"
+    citation = (
+        "Maugis, Langmuir 11 (1995) 679, with the sphere of Sneddon, Int. J. Eng. Sci. 3 (1965) 47, and the work of "
+        "adhesion counted for the true area of contact"
+    )
+    domain = "a ball on a homogeneous solid, contact radius up to 0.95 R; small strains, mu -> infinity"
     checks_problems: ClassVar[bool] = True
     limits: ClassVar[Limits | None] = None
+    #: The area of a sphere over its projection grows as the secant of its slope.
+    release: ClassVar[Release] = Release(0.5)
 
     def check(self, problem: Problem) -> None:
         """Raise `NotApplicable` unless the punch is a ball and the solid homogeneous."""
@@ -114,16 +164,19 @@ class JKRSphere(ContactBranch):
 
     def pull_off_force(self, problem: Problem) -> Result:
         """-min P."""
-        ball = _Ball.of(problem)
+        ball = _Ball.of(problem, self.release)
         alpha = ball.at("pull_off")
-        terms = float(_sneddon(alpha)) + math.sqrt(8.0 * math.pi * ball.softness * alpha**3)
+        adhesive = math.sqrt(8.0 * math.pi * ball.softness * float(self.release(alpha)) * alpha**3)
+        terms = float(_sneddon(alpha)) + adhesive
         return Result(-float(ball.load(alpha)), 32.0 * EPS * terms / (math.pi * ball.softness))
 
     def displacement_at(self, problem: Problem, event: str) -> Result:
         """Delta at an event, with the rounding of its terms and that of alpha."""
-        ball = _Ball.of(problem)
+        ball = _Ball.of(problem, self.release)
         alpha = ball.at(event)
-        terms = alpha * math.atanh(alpha) + math.sqrt(2.0 * math.pi * ball.softness * alpha)
+        terms = alpha * math.atanh(alpha) + math.sqrt(
+            2.0 * math.pi * ball.softness * float(self.release(alpha)) * alpha
+        )
         rounding = 32.0 * EPS * (terms + alpha**2) / (1.0 - alpha**2)
         return Result(ball.radius * float(ball.displacement(alpha)), ball.radius * rounding)
 
@@ -132,7 +185,7 @@ class JKRSphere(ContactBranch):
 
         It ends where the contact reaches 0.95 R.  Column ``contact_radius``.
         """
-        ball = _Ball.of(problem)
+        ball = _Ball.of(problem, self.release)
         end = pull_off = ball.at("pull_off")
         while end < LARGEST_CONTACT and ball.load(end) < -ball.load(pull_off):
             end = min(1.02 * end, LARGEST_CONTACT)
@@ -142,3 +195,20 @@ class JKRSphere(ContactBranch):
             load=ball.load(alpha),
             columns={"contact_radius": math.sqrt(ball.radius) * alpha},
         )
+
+
+class JKRSphereProjected(JKRSphere):
+    """JKR of a ball as Maugis has it, with the projected area of contact: the limit of a force of vertical gaps.
+
+    Examples
+    --------
+    >>> from comparisons.description.strain_errors import ball_on
+    >>> model = JKRSphereProjected()
+    >>> round(model.evaluate(ball_on(5e-3, 100.0, 0.5), "pull_off_force").value / 1.5, 6)
+    0.973699
+    """
+
+    name = "jkr-sphere-projected"
+    citation = "Maugis, Langmuir 11 (1995) 679, with the sphere of Sneddon, Int. J. Eng. Sci. 3 (1965) 47"
+    domain = "a ball on a homogeneous solid, contact radius up to 0.95 R; exact for vertical gaps as mu -> infinity"
+    release: ClassVar[Release] = Release(0.0)

@@ -32,8 +32,9 @@ _SIGNS = "○□△◇▽⬡▣☆"
 LINES: tuple[Any, ...] = ("-", "--", "-.", ":")
 LINES += ((0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (4, 1, 4, 1, 1, 1)), (0, (2, 2)))
 
-#: Dashes in Matplotlib -> in Bokeh.
-_DASHES = {"-": "solid", "--": "dashed", "-.": "dotdash", ":": "dotted"}
+#: Dashes in Matplotlib -> in Bokeh, which has no names for the last ones.
+_DASHES: dict[Any, str] = {"-": "solid", "--": "dashed", "-.": "dotdash", ":": "dotted"}
+_DASHES |= {line: " ".join(str(2 * length) for length in line[1]) for line in LINES[len(_DASHES) :]}
 
 #: Model -> its dashes, in the order of the colours and markers; a model needs no entry.
 _MODEL_DASHES: dict[str, str] = LAYOUT["dashes"]
@@ -52,7 +53,8 @@ class ModelStyle:
     ----------
     colour : str
         In hexadecimal digits.
-    line, dash : str
+    line : str or tuple
+    dash : str
         Its dashes in Matplotlib and Bokeh.
     symbol, marker, sign : str
         Its marker in Matplotlib, in Bokeh and as a character.
@@ -61,7 +63,7 @@ class ModelStyle:
     """
 
     colour: str
-    line: str
+    line: Any
     dash: str
     symbol: str
     marker: str

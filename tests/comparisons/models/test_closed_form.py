@@ -13,6 +13,7 @@ from comparisons.description.strain_errors import ball_on
 from comparisons.domain import declared_domain
 from comparisons.model import NotApplicable
 from comparisons.models.closed_form import ClosedForm, monomial
+from comparisons.models.jkr_sphere import JKRSphere
 from comparisons.problem import Problem
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES
 
@@ -28,7 +29,7 @@ def model(request: pytest.FixtureRequest) -> ClosedForm:
 
 def problem_of(model: ClosedForm, mu: float, n: float = 2.0, k: float = 0.4) -> Problem:
     """A problem in the domain of the model, for a ball and formulas for a paraboloid with their only n and k."""
-    if model.name == "jkr-sphere":
+    if isinstance(model, JKRSphere):
         return ball_on((mu / (30.0 * n**4)) ** 1.5, mu, 0.0)
     return Problem.dimensionless(*((2.0, 0.0) if model.limits and "k" in model.limits else (n, k)), mu)
 

@@ -28,7 +28,7 @@ def test_the_bound_of_a_curve_is_the_largest_of_its_points_in_parts_of_the_pictu
         u_displacement=np.array([0.0, 0.012, 0.0]) * units["displacement"],
         u_load=np.array([0.0, 0.008, 0.009]) * units["load"],
     )
-    monkeypatch.setattr(fem_reference, "trace_large_strain", lambda body: path)
+    monkeypatch.setattr(fem_reference, "trace_large_strain", lambda body, interaction: path)
     curve = LargeStrain().curve(GEL)
     assert curve.displacement == pytest.approx([-4.0, -2.0, 0.0])
     assert curve.load == pytest.approx([0.0, -1.0, 1.0])
@@ -40,7 +40,7 @@ def test_a_curve_on_finer_meshes_is_within_both_bounds(monkeypatch):
     curve = LargeStrain().curve(GEL)
     assert curve.u_distance < LARGEST_BOUND
     trace = fem_reference.trace_large_strain
-    monkeypatch.setattr(fem_reference, "trace_large_strain", lambda body: trace(body, accuracy="default"))
+    monkeypatch.setattr(fem_reference, "trace_large_strain", lambda body, interaction: trace(body, "default", interaction=interaction))
     finer = LargeStrain().curve(GEL)
     distance = curve_distance(curve.displacement, curve.load, finer.displacement, finer.load)
     assert distance.value <= curve.u_distance + finer.u_distance + distance.u_interpolation
