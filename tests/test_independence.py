@@ -36,6 +36,8 @@ ALLOWED = {
     "comparisons.problem.reading": ("fscm",),
     # The equilibria under a machine, which are no quantity of a model.
     "comparisons.fitting.equilibria": ("fscm",),
+    # The loads of a rigid ball by two interactions, which are no quantity of a model.
+    "comparisons.description.strain_errors": ("fem_reference",),
     # Derivatives of a value, which are no quantity of a model.
     "comparisons.description.uncertainty": ("fscm",),
     # The Stieltjes scheme from an accurate surface on.
@@ -69,7 +71,7 @@ LAYERS = {
     "fem_reference": (
         ("_typing", "_threads", "_validation", "_presentation", "errors"),
         ("modulus", "coating", "poisson", "depth_profiles", "modulus_checks", "layers", "solids", "neo_hookean"),
-        ("punch", "profiles", "laws", "tabulated_law", "problem", "accuracy"),
+        ("punch", "profiles", "laws", "tabulated_law", "interaction", "problem", "accuracy"),
         ("_elastic",),
         ("_linear",),
         ("_contact",),

@@ -1,16 +1,17 @@
-"""What all models assume: small slopes, small strains, a paraboloid for a sphere; how well it holds, and its error."""
+"""What all models assume: a paraboloid, small strains, forces over vertical gaps; how well it holds, and its error."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from comparisons.description.forces import change_of
-from comparisons.description.strain_errors import strain_change
+from comparisons.description.strain_errors import Change, body_change, strain_change
 from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.models.fem_model import LargeStrain
 from comparisons.models.fscm_model import FullSelfConsistent
 from comparisons.models.jkr_sphere import LARGEST_CONTACT
 from comparisons.problem import Problem, Section
@@ -29,21 +30,32 @@ _EDGE = 0.5
 _PARABOLOID, _BALL = "sphere", "ball"
 
 
-def _error(change: tuple[float, float] | None, reason: str = "", *, is_estimate: bool = False) -> Json:
-    """A relative change with its uncertainty, and whether both are estimates; or the reason why it is unknown."""
-    error, u = change or (None, None)
-    return {"error": error, "u_num": u, "reason": "" if change else reason, "is_estimate": is_estimate}
+#: What is known of an error, from the best to the worst: a bound on it, an estimate, nothing.
+BASES = ("bound", "estimate", "unknown")
+
+#: The assumptions in the order of the text, and their names there.
+ASSUMPTIONS = {"geometry": "the paraboloid", "derjaguin": "vertical gaps", "strain": "small strains"}
 
 
-def _product(changes: Sequence[Json]) -> Json:
-    """Error of several relative changes after each other; unknown where one of them is, an estimate where one is."""
-    total, u = 1.0, 0.0
-    for change in changes:
-        if change["error"] is None:
-            return _error(None, change["reason"])
+def _error(change: tuple[float, float] | None, basis: str = "bound", reason: str = "") -> Json:
+    """A relative change with its uncertainty, or the reason why it is unknown."""
+    error, bound = change or (None, None)
+    return {"error": error, "u_num": bound, "basis": basis if change else "unknown", "reason": "" if change else reason}
+
+
+def _product(changes: Mapping[str, Json]) -> Json:
+    """Error of the relative changes that are known, after each other; the reason names the others."""
+    total, bound, basis = 1.0, 0.0, BASES[0]
+    unknown = [ASSUMPTIONS[name] for name, change in changes.items() if change["error"] is None]
+    reason = f"without {' and '.join(unknown)}" if unknown else ""
+    known = [change for change in changes.values() if change["error"] is not None]
+    if unknown and not any(change["error"] or change["u_num"] for change in known):
+        return _error(None, reason=reason)
+    for change in known:
         factor = 1.0 + change["error"]
-        total, u = total * factor, u * abs(factor) + abs(total) * change["u_num"]
-    return _error((total - 1.0, u), is_estimate=any(change.get("is_estimate", False) for change in changes))
+        total, bound = total * factor, bound * abs(factor) + abs(total) * change["u_num"]
+        basis = max(basis, change["basis"], key=BASES.index)
+    return {"error": total - 1.0, "u_num": bound, "basis": basis, "reason": reason}
 
 
 def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json | None:
@@ -62,11 +74,12 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
     -------
     dict or None
         ``measures`` of the equilibrium at pull-off, each with ``key``, ``value``, ``limit`` and ``meaning``, and
-        ``contact_radius`` in m, where the tension is largest.  ``geometry``, ``strain`` and ``total`` have ``error``,
-        ``u_num``, ``reason`` and ``is_estimate``: relative errors of the force of small strains against that of a
-        neo-Hookean solid and the exact shape, without friction; None where they are unknown.  ``is_estimate`` is true
-        where they are extrapolated from other problems: ``u_num`` is then no bound.  ``recommendable`` is false where
-        the contact is larger than the sphere, ``by_solution`` the argument.  None where there is no pull-off force.
+        ``contact_radius`` in m, where the tension is largest.  ``geometry``, ``derjaguin``, ``strain`` and ``total``
+        have ``error``, ``u_num``, ``basis`` and ``reason``: relative errors of a paraboloid against the ball, of
+        vertical gaps against the potential of the ball, of small strains against a neo-Hookean solid without friction,
+        and of those of them that are known.  ``basis`` is "bound", "estimate" or "unknown".  ``recommendable`` is
+        false where the contact is larger than the sphere, ``by_solution`` the argument.  None where there is no
+        pull-off force.
     """
     if force.value is None:
         return None
@@ -77,20 +90,24 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
     is_sphere = problem.punch.kind in (_PARABOLOID, _BALL)
     is_too_large = is_sphere and measures["contact_radius"] > LARGEST_CONTACT * problem.punch["R"]
     if is_too_large:
-        geometry = strain = _error(None, "the contact is larger than the sphere")
+        errors = dict.fromkeys(ASSUMPTIONS, _error(None, reason="the contact is larger than the sphere"))
     else:
-        geometry, strain = _error((0.0, 0.0)), _strain(problem, by_solution)
-        if problem.punch.kind == _PARABOLOID:
-            ball = evaluate("fscm", "pull_off_force", _exact(problem))
-            geometry = _error(change_of(force, ball), ball.reason)
+        errors = {"geometry": _geometry(problem, force), **_of_strain(problem, by_solution)}
     return {
         **measures,
-        "geometry": geometry,
-        "strain": strain,
-        "total": _product((geometry, strain)),
+        **errors,
+        "total": _product({name: errors[name] for name in ASSUMPTIONS}),
         "recommendable": not is_too_large,
         "by_solution": by_solution,
     }
+
+
+def _geometry(problem: Problem, force: Row) -> Json:
+    """Relative error of the force for a paraboloid in place of the sphere."""
+    if problem.punch.kind != _PARABOLOID:
+        return _error((0.0, 0.0))
+    ball = evaluate("fscm", "pull_off_force", _exact(problem))
+    return _error(change_of(force, ball), reason=ball.reason)
 
 
 def _measures(problem: Problem) -> Json:
@@ -124,33 +141,42 @@ def _exact(problem: Problem) -> Problem:
     return replace(problem, punch=Section(_BALL, {"R": problem.punch["R"]}))
 
 
-def _strain(problem: Problem, by_solution: bool) -> Json:
-    """Relative error of the force for linear elasticity."""
-    if not by_solution:
-        return _tabulated(problem)
+def _of_strain(problem: Problem, by_solution: bool) -> dict[str, Json]:
+    """Relative errors of the force for vertical gaps, and for linear elasticity."""
     exact = _exact(problem)
-    finite = evaluate("fem-large-strain", "pull_off_force", exact)
-    solved = _error(change_of(evaluate("fscm", "pull_off_force", exact), finite), finite.reason)
-    tabulated = solved if solved["error"] is not None else _tabulated(problem)
-    return tabulated if tabulated["error"] is not None else solved
+    tabulated = _tabulated(exact)
+    if not by_solution:
+        return tabulated
+    small = evaluate("fscm", "pull_off_force", exact)
+    vertical = evaluate(LargeStrain("derjaguin"), "pull_off_force", exact)
+    solved = {"strain": _error(change_of(small, vertical), reason=vertical.reason), "derjaguin": tabulated["derjaguin"]}
+    if exact.punch.kind == _BALL:
+        body = evaluate("fem-large-strain", "pull_off_force", exact)
+        solved["derjaguin"] = _error(change_of(vertical, body), reason=body.reason)
+    return {name: tabulated[name] if error["error"] is None else error for name, error in solved.items()}
 
 
-def _tabulated(problem: Problem) -> Json:
-    """The same where the table of forces of spheres has it."""
-    if problem.punch.kind not in (_PARABOLOID, _BALL) or not problem.is_of_the_paper("law"):
-        return _error(None, "the table has only spheres under the 9-3 law")
+def _tabulated(problem: Problem) -> dict[str, Json]:
+    """The same where the table of forces of balls has them."""
+    names = ("derjaguin", "strain")
+    if problem.punch.kind != _BALL or not problem.is_of_the_paper("law"):
+        return dict.fromkeys(names, _error(None, reason="the table has only spheres under the 9-3 law"))
     if not problem.is_of_the_paper("solid") or problem.posed.k != 0.0:
-        return _error(None, "the table has only homogeneous solids")
-    softness = (problem.posed.mu * problem.units["displacement"] / problem.punch["R"]) ** 1.5
-    change = strain_change(softness, problem.posed.mu, problem.solid["nu"])
-    if change is None:
-        return _error(None, f"the table has no solid as soft as w/(E* R) = {softness:.2g}")
-    error, u = -change.value / (1.0 + change.value), change.uncertainty / (1.0 + change.value) ** 2
-    return _error((error, u), is_estimate=change.is_extrapolated)
+        return dict.fromkeys(names, _error(None, reason="the table has only homogeneous solids"))
+    mu = problem.posed.mu
+    softness = (mu * problem.units["displacement"] / problem.punch["R"]) ** 1.5
+    changes = body_change(softness, mu, problem.solid["nu"]), strain_change(softness, mu, problem.solid["nu"])
+    reason = f"the table has no solid as soft as w/(E* R) = {softness:.2g}"
+    return {name: _error(_inverse(change), "estimate", reason) for name, change in zip(names, changes, strict=True)}
+
+
+def _inverse(change: Change | None) -> tuple[float, float] | None:
+    """Relative error of what a change leads away from."""
+    return change and (-change.value / (1.0 + change.value), change.uncertainty / (1.0 + change.value) ** 2)
 
 
 def total_errors(problem: Problem, errors: Sequence[Json], assumed: Json | None) -> list[Json]:
-    """Return the errors of models with that of the assumptions, smallest first; none where that is unknown.
+    """Return the errors of models with those of the assumptions that are known, smallest first; none where none is.
 
     Parameters
     ----------
@@ -162,14 +188,15 @@ def total_errors(problem: Problem, errors: Sequence[Json], assumed: Json | None)
     """
     if assumed is None or assumed["total"]["error"] is None:
         return []
-    total = {row["model"]: _product((row, assumed["total"])) for row in errors}
-    # JKR of the exact sphere does not share the error of the shape.
+    assumptions_known = {name: assumed[name] for name in ASSUMPTIONS}
+    total = {row["model"]: _product({"model": row | {"basis": "bound"}, **assumptions_known}) for row in errors}
+    # JKR of the exact sphere does not share the error of the shape, and has the true area of contact.
     exact = _exact(problem)
-    change = change_of(evaluate("jkr-sphere", "pull_off_force", exact), evaluate("fscm", "pull_off_force", exact))
-    if change is not None:
-        total["jkr-sphere"] = _product((_error(change), assumed["strain"]))
-    rows = [
-        {"model": name} | {key: error[key] for key in ("error", "u_num", "is_estimate")}
-        for name, error in total.items()
-    ]
+    force = evaluate("fscm", "pull_off_force", exact)
+    shared = {name: assumed[name] for name in ("derjaguin", "strain")}
+    for name in ("jkr-sphere", "jkr-sphere-projected"):
+        change = change_of(evaluate(name, "pull_off_force", exact), force)
+        if change is not None:
+            total[name] = _product({"model": _error(change), **shared})
+    rows = [{"model": name} | {key: error[key] for key in ("error", "u_num", "basis")} for name, error in total.items()]
     return sorted(rows, key=lambda row: abs(row["error"]))

@@ -23,6 +23,7 @@ LIMITS = (0.01, 0.05)
 SIMPLEST_FIRST = (
     "jkr",
     "jkr-sphere",
+    "jkr-sphere-projected",
     "dmt",
     "bradley",
     "semi-rigid",
@@ -45,7 +46,7 @@ def model_errors(problem: Problem, force: Row) -> list[Json]:
     """
     names = [name for name in MODELS if name not in REFERENCES] if problem.is_of_the_paper() else []
     if problem.punch.kind == "ball":
-        names = ["jkr-sphere"]
+        names = ["jkr-sphere", "jkr-sphere-projected"]
     changes = {name: change_of(evaluate(name, "pull_off_force", problem), force) for name in names}
     errors = [{"model": name, "error": change[0], "u_num": change[1]} for name, change in changes.items() if change]
     return sorted(errors, key=lambda row: abs(row["error"]))
@@ -122,7 +123,7 @@ def _regime(errors: Sequence[Json]) -> str:
     limits = [
         row["model"]
         for row in errors
-        if row["model"] in ("bradley", "jkr", "jkr-sphere") and _is_within(row, LIMITS[-1])
+        if row["model"] in ("bradley", "jkr", "jkr-sphere-projected") and _is_within(row, LIMITS[-1])
     ]
     if len(limits) == 2:
         return "the rigid limit (Bradley) and the limit of JKR are both within 5 % of the pull-off force"

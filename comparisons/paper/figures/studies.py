@@ -1,8 +1,10 @@
 """Studies beyond the paper: errors against a true sphere and finite strain, and what a fit by JKR finds.
 
 *Finite strain*: errors of JKR, improved M-D and the FSCM of a paraboloid against a ball on a neo-Hookean solid.  The
-reference is the pull-off force of the linear solid and the exact sphere, by the FSCM, times what finite strain changes,
-from the table of `comparisons.description.strain_errors`.
+reference is the pull-off force of the linear solid and the exact sphere, by the FSCM, times what finite strain and the
+potential of the ball change, from the table of `comparisons.description.strain_errors`.
+
+*What JKR neglects*: the same errors of JKR one by one in its limit mu -> infinity, and how they cancel.
 
 *Fit*: work of adhesion and modulus that a fit by JKR finds in curves of the FSCM.  The curves have no noise: retreat
 from a largest load until the surfaces part, at a prescribed displacement.
@@ -18,7 +20,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from comparisons.description.strain_errors import Change, ball_on, strain_change
+from comparisons.description.strain_errors import Change, area_limit, ball_on, body_change, strain_change
 from comparisons.fitting.equilibria import by_fscm
 from comparisons.fitting.fit import fit_record
 from comparisons.fitting.machine import Machine
@@ -64,7 +66,7 @@ def force_of_a_ball(elasto_adhesion_number: float, mu: float) -> dict[str, float
 
 
 def meeting_points(errors: pd.DataFrame) -> pd.DataFrame:
-    """Return w/(E* R) at which the FSCM of a paraboloid has no error, and those at both ends of its uncertainty.
+    """Return w/(E* R) at which the FSCM of a paraboloid has no error, and those at both ends of its bound.
 
     What geometry changes grows as (w/(E* R))^(2/3), and strain as its root, so that kappa over the cube root of
     w/(E* R) is nearly a straight line in that root.
@@ -87,9 +89,12 @@ def _errors(forces: pd.DataFrame, models: pd.DataFrame) -> pd.DataFrame:
     """Errors of the models at each force of the linear ball, for each of Poisson's ratios."""
     rows: list[dict[str, Any]] = []
     for nu, force in product(_POISSON_RATIOS, forces.dropna().itertuples()):
-        change = strain_change(force.elasto_adhesion_number, force.mu, nu) or Change(math.nan, math.nan)
-        finite = force.linear * (1.0 + change.value)
-        u_finite = force.u_linear * (1.0 + change.value) + force.linear * change.uncertainty
+        where = force.elasto_adhesion_number, force.mu, nu
+        strain, body = (change(*where) or Change(math.nan, math.nan) for change in (strain_change, body_change))
+        factor = (1.0 + strain.value) * (1.0 + body.value)
+        finite = force.linear * factor
+        relative = strain.uncertainty / (1.0 + strain.value) + body.uncertainty / (1.0 + body.value)
+        u_finite = force.u_linear * factor + finite * relative
         for model in models[models["mu"] == force.mu].itertuples():
             kappa = relative_difference(model.value, finite)
             u_kappa = relative_uncertainty(model.value, model.u_num, finite, u_finite)
@@ -122,6 +127,62 @@ def finite_strain() -> Plan[Tables]:
     tables = yield from together({"forces": rows_of(force_of_a_ball, balls), "models": models})
     errors = _errors(tables["forces"], tables["models"])
     return {"": errors, "cancel": meeting_points(errors)}
+
+
+def neglected_by_jkr(elasto_adhesion_number: float) -> dict[str, float]:
+    """Return errors of JKR in the limit mu -> infinity on an incompressible solid, and the uncertainty of the last two.
+
+    ``geometry`` is that of the paraboloid, ``derjaguin`` of the projected area, ``strain`` of small strains, and
+    ``total`` of all.
+
+    Parameters
+    ----------
+    elasto_adhesion_number : float
+        w/(E* R).
+    """
+    ball = ball_on(elasto_adhesion_number, 1.0, 0.5)
+    projected = evaluate("jkr-sphere-projected", "pull_off_force", ball).value
+    strain = strain_change(elasto_adhesion_number, math.inf, 0.5)
+    if projected is None or strain is None:
+        return {}
+    area = 1.0 + area_limit(elasto_adhesion_number)
+    errors = {
+        "geometry": 1.5 * math.pi / projected,
+        "derjaguin": 1.0 / area,
+        "strain": 1.0 / (1.0 + strain.value),
+        "total": 1.5 * math.pi / projected / area / (1.0 + strain.value),
+    }
+    return {name: factor - 1.0 for name, factor in errors.items()} | {
+        "u_strain": strain.uncertainty,
+        "u_total": strain.uncertainty,
+    }
+
+
+#: Column of the errors that JKR neglects -> legend.
+_CAUSES = {
+    "geometry": "paraboloid",
+    "derjaguin": "projected area",
+    "strain": r"small strains, $\nu$ = 0.5",
+    "total": "together",
+}
+
+
+def _neglected(figure: Figure, table: pd.DataFrame) -> None:
+    (axes,) = panels(figure, [r"JKR, $\mu \to \infty$"], r"$w/(E^*R)$", "error of the force (%)")
+    x = table["elasto_adhesion_number"]
+    for index, (cause, label) in enumerate(_CAUSES.items()):
+        style = dashed(index + 1) if cause != "total" else {"color": COLOURS[0], "ls": "-", "lw": 1.8}
+        banded(axes, x, table[cause], table.get(f"u_{cause}", 0.0 * x), label=label, **style)
+    level(axes, color="0.5", lw=0.6)
+    axes.set(xscale="log", ylim=(-9.0, 9.0))
+    legend_below(figure, 2)
+
+
+@paper_figure(_neglected, size=(4.6, 3.8))
+def what_jkr_neglects() -> Plan[Tables]:
+    """What JKR neglects on a soft incompressible solid, and how it cancels."""
+    balls = cases(elasto_adhesion_number=_SOFTNESS)
+    return {"": (yield from rows_of(neglected_by_jkr, balls, *_CAUSES, "u_strain", "u_total"))}
 
 
 def sphere_of_tabor_number(k: float, mu: float) -> Problem:
