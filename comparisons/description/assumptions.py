@@ -148,7 +148,8 @@ def _of_strain(problem: Problem, by_solution: bool) -> dict[str, Json]:
     if not by_solution:
         return tabulated
     small = evaluate("fscm", "pull_off_force", exact)
-    vertical = evaluate(LargeStrain("derjaguin"), "pull_off_force", exact)
+    vertical_gaps: Any = LargeStrain("derjaguin")
+    vertical = evaluate(vertical_gaps, "pull_off_force", exact)
     solved = {"strain": _error(change_of(small, vertical), reason=vertical.reason), "derjaguin": tabulated["derjaguin"]}
     if exact.punch.kind == _BALL:
         body = evaluate("fem-large-strain", "pull_off_force", exact)

@@ -66,7 +66,8 @@ class Release:
 
 
 def _at_pull_off(a: ArrayLike, g: Release) -> NDArray[np.float64]:
-    return np.asarray(_sneddon_slope(a) / np.sqrt(a * g(a)) / (1.0 + g.rate(a) / 3.0))
+    x = np.asarray(a, float)
+    return np.asarray(_sneddon_slope(x) / np.sqrt(x * g(x)) / (1.0 + g.rate(x) / 3.0))
 
 
 def _at_jump_out(a: ArrayLike, g: Release) -> NDArray[np.float64]:

@@ -61,7 +61,7 @@ class DistantRing:
     >>> ring = DistantRing(GradedKernel(Exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3)))
     >>> radii = np.array([10.0, 1e9])
     >>> ring.by_images(radii).round(6), ring.by_waves(radii).round(6)
-    (array([0.253...]), array([0.253...]))
+    (array([0.25039, 0.25   ]), array([0.25039, 0.25   ]))
     """
 
     def __init__(self, kernel: GradedKernel) -> None:

@@ -168,7 +168,8 @@ _CAUSES = {
 
 
 def _neglected(figure: Figure, table: pd.DataFrame) -> None:
-    (axes,) = panels(figure, [r"JKR, $\mu \to \infty$"], r"$w/(E^*R)$", "error of the force (%)")
+    axes = figure.subplots()
+    axes.set(title=r"JKR, $\mu \to \infty$", xlabel=r"$w/(E^*R)$", ylabel="error of the force (%)")
     x = table["elasto_adhesion_number"]
     for index, (cause, label) in enumerate(_CAUSES.items()):
         style = dashed(index + 1) if cause != "total" else {"color": COLOURS[0], "ls": "-", "lw": 1.8}
