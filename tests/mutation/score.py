@@ -2,7 +2,7 @@
 
 ``python -m tests.mutation.score`` applies the mutants of ``mutants.toml``, one at a time, to a copy of the repository,
 runs the tests of each there, and prints the outcomes; ``--only TEXT`` those of the files with that text in their path.
-About an hour on one core.
+About three quarters of an hour on one core (267 mutants).
 """
 
 from __future__ import annotations
