@@ -2,7 +2,7 @@
 
 ``python -m tests.mutation.score`` applies the mutants of ``mutants.toml``, one at a time, to a copy of the repository,
 runs the tests of each there, and prints the outcomes; ``--only TEXT`` those of the files with that text in their path.
-About an hour on one core.
+About three quarters of an hour on one core (267 mutants).
 """
 
 from __future__ import annotations
@@ -16,10 +16,14 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Iterator
+from compileall import compile_dir
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from py_compile import PycInvalidationMode
 from tempfile import TemporaryDirectory
+
+from tests.test_independence import PACKAGES
 
 ROOT = Path(__file__).resolve().parents[2]
 MUTANTS = Path(__file__).with_name("mutants.toml")
@@ -53,12 +57,17 @@ def mutants() -> list[Mutant]:
 
 @contextmanager
 def copy_of_the_repository() -> Iterator[Path]:
-    """A copy of its files, but those that are built or belong to git."""
+    """A copy of its files, but those that are built or belong to git, with bytecode.
+
+    The bytecode is valid by what the source is, not by its time: a mutant is compiled again, and nothing else is.
+    """
     with TemporaryDirectory() as folder:
         copy = Path(folder, "copy")
         shutil.copytree(
             ROOT, copy, ignore=shutil.ignore_patterns(".git", ".venv", ".*_cache", "build", "__pycache__", "*.egg-info")
         )
+        for package in PACKAGES:
+            compile_dir(copy / package, quiet=1, invalidation_mode=PycInvalidationMode.CHECKED_HASH)
         yield copy
 
 
