@@ -1,24 +1,30 @@
 """Surface law through points of traction against gap, in physical units.
 
-Between the points the law is a spline of degree five.  Above the last point it is a power -C (H - t)^-m, below the
-first one a wall b + A (H - s)^-9; both have the value, slope and curvature of the spline there.
+Between the points the law is a spline of degree five, through denser points where they are few.  Above
+the last point it is a power -C (H - t)^-m, below the first one a wall b + A (H - s)^-9; both have the value, slope and
+curvature of the spline there.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.interpolate import BSpline, PPoly, make_interp_spline
 
+from fem_reference._law_between_points import denser_points
 from fem_reference._typing import Array, Index
 
 __all__ = ["TabulatedLaw"]
 
 #: Smallest number of points: a spline of degree five needs six, and wall, well and tail have some each.
 FEWEST = 10
+
+#: Number of points from which on the spline goes through them without denser ones.
+SPARSE = 40
 
 #: Exponent of the wall: that of the repulsion between two half-spaces of atoms.
 WALL = 9.0
@@ -115,11 +121,7 @@ class TabulatedLaw:
         # Gaps in lengths of the law and tractions of size 1: the equations of the spline are then well scaled.
         stress = float(np.max(np.abs(columns[1])))
         x, p = columns[0] / self.z0, columns[1] / stress
-        free = make_interp_spline(x, p, k=5)
-        wall = _wall_of(x[0], p[0], float(free(x[0], 1)), float(free(x[0], 2)))
-        tail = _tail_of(x, p, wall.origin, self.tail_exponent)
-        spline = _joined_spline(x, p, wall, tail)
-        zero, peak = _shape(spline, x, p)
+        spline, wall, tail, zero, peak = _law(x, p, self.tail_exponent)
         beyond = 0.0 if tail is None else float(tail.integral(x[-1:], np.array([math.inf]))[0])
         work = -(float(spline.integrate(zero, x[-1])) + beyond) * stress * self.z0
         if not work > 0.0:
@@ -227,6 +229,30 @@ def _columns(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, 
     return x, p
 
 
+def _law(x: Array, p: Array, exponent: float | None) -> tuple[PPoly, _Power, _Power | None, float, float]:
+    """Spline, wall and tail, gap without traction and gap of the largest tension."""
+    if len(x) < SPARSE:
+        with suppress(ValueError):
+            return _through(*denser_points(x, p), exponent, _turns(p))
+    return _through(x, p, exponent, _turns(p))
+
+
+def _through(
+    x: Array, p: Array, exponent: float | None, turns: int
+) -> tuple[PPoly, _Power, _Power | None, float, float]:
+    free = make_interp_spline(x, p, k=5)
+    wall = _wall_of(x[0], p[0], float(free(x[0], 1)), float(free(x[0], 2)))
+    tail = _tail_of(x, p, wall.origin, exponent)
+    spline = _joined_spline(x, p, wall, tail)
+    return spline, wall, tail, *_shape(spline, x, turns)
+
+
+def _turns(p: Array) -> int:
+    """Number of times that the points rise after falling, or fall after rising."""
+    rises = np.diff(p)
+    return int(np.count_nonzero(np.diff(np.sign(rises[rises != 0]))))
+
+
 def _wall_of(x: float, p: float, slope: float, curvature: float) -> _Power:
     """The wall with a value, slope and curvature at the first gap."""
     if not (slope < 0 and curvature > 0):
@@ -276,12 +302,10 @@ def _joined_spline(x: Array, p: Array, wall: _Power, tail: _Power | None) -> PPo
     return PPoly.from_spline(spline)
 
 
-def _shape(spline: PPoly, x: Array, p: Array) -> tuple[float, float]:
+def _shape(spline: PPoly, x: Array, turns: int) -> tuple[float, float]:
     """Gap without traction and gap of the largest tension; the spline must turn as often as the points."""
     roots = spline.derivative().roots(discontinuity=False, extrapolate=False)
     inside = [r for r in roots if x[0] < r < x[-1] - END_SHARE * (x[-1] - x[-2])]
-    rises = np.diff(p)
-    turns = np.count_nonzero(np.diff(np.sign(rises[rises != 0])))
     if len(inside) != turns:
         raise ValueError(
             f"the spline through the points turns {len(inside)} times and the points {turns} times: they are too far "

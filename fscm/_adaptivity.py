@@ -20,9 +20,10 @@ from fscm._panels import PanelMesh
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
-from fscm.punch import kinks_of
+from fscm.punch import joints_of, kinks_of
 
 __all__ = [
+    "at_joints",
     "at_kinks",
     "edge_mesh",
     "end_radius",
@@ -31,6 +32,7 @@ __all__ = [
     "indicator",
     "initial_mesh",
     "newton_tolerance",
+    "off_joints",
     "on_mesh",
     "resolved",
     "resolving",
@@ -65,6 +67,11 @@ _KNOWN_ROUNDS, _GUESS_ROUNDS = 6, 2
 _NEAR_KINK, _SLIVER = 0.3, 1e-7
 #: Largest distance of a kink to its break, in units of the root of the tolerance: its effect is of second order.
 _OFF_KINK = 0.1
+#: Largest distance of a joint to the nearest end of its panel, relative to its length: where the third derivative jumps
+#: the error falls with the fourth power of it, and a node of the panel is farther than this from both ends.
+_OFF_JOINT = 5e-3
+#: Joints are rounded to this number, 2^40, of steps: ends with more digits are not stored (`fscm._response_store`).
+_STORED = 2.0**40
 #: r^n at the tip of a punch is not smooth: coefficients of the innermost panel fall algebraically, so that the
 #: omitted ones together exceed the last.  Measured on n = 1.5, k = 0.6, mu = 3: by up to 10.
 _ALGEBRAIC = 30.0
@@ -107,16 +114,49 @@ def initial_mesh(problem: Problem, order: int, end_height: float) -> PanelMesh:
 def at_kinks(problem: Problem, mesh: PanelMesh, old_scale: float, new_scale: float) -> PanelMesh:
     """Mesh with panel ends at the kinks of the punch: moved from their radii at the old scale, or inserted."""
     kinks = np.array(kinks_of(problem.punch))
-    if not kinks.size:
+    return _with_ends(mesh, kinks / old_scale, kinks / new_scale)
+
+
+def at_joints(problem: Problem, mesh: PanelMesh, scale: float) -> PanelMesh:
+    """Mesh with panel ends at the joints of the punch: moved from near them, or inserted.
+
+    A mesh whose scale changes leaves them behind: an end near a joint serves nearly as well as one on it.
+    """
+    joints = _joints(problem, scale)
+    if not joints.size:
+        return mesh
+    ends = np.append(np.array(kinks_of(problem.punch)) / scale, joints)
+    return _with_ends(mesh, ends, ends)
+
+
+def _joints(problem: Problem, scale: float) -> Array:
+    """Joints of the punch in the scaled radius, rounded so that the response of panels between them can be stored."""
+    mantissa, exponent = np.frexp(np.array(joints_of(problem.punch)) / scale)
+    return np.asarray(np.ldexp(np.rint(mantissa * _STORED) / _STORED, exponent))
+
+
+def off_joints(state: State) -> bool:
+    """Whether a joint inside the mesh has left its panel end."""
+    mesh = state.disc.mesh
+    joints = _joints(state.disc.problem, state.scale) - mesh.origin
+    joints = joints[joints < mesh.offsets[-1]]
+    panel = mesh.locate(joints)
+    from_end = np.minimum(joints - mesh.offsets[panel], mesh.offsets[panel + 1] - joints)
+    return bool(np.any(from_end > _OFF_JOINT * mesh.lengths[panel]))
+
+
+def _with_ends(mesh: PanelMesh, old: Array, new: Array) -> PanelMesh:
+    """Mesh with panel ends at new radii: moved from near the old ones, or inserted."""
+    if not new.size:
         return mesh
     ends, edge = mesh.offsets, 1.0 - mesh.origin
-    for s in kinks / old_scale - mesh.origin:
+    for s in old - mesh.origin:
         i = int(np.argmin(np.abs(ends - s)))
         if not 0 < i < len(ends) - 1 or ends[i] == edge:
             continue
         if abs(ends[i] - s) < _NEAR_KINK * min(ends[i] - ends[i - 1], ends[i + 1] - ends[i]):
             ends = np.delete(ends, i)
-    new = kinks / new_scale - mesh.origin
+    new = new - mesh.origin
     fixed = np.array([ends[0], edge, ends[-1]])
     new = new[(new < ends[-1]) & (np.min(np.abs(new[:, None] - fixed), axis=1) > _SLIVER)]
     # A remaining break next to a kink would make an unnecessarily narrow panel.
@@ -267,8 +307,9 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
     jump = np.maximum(np.abs(new_start - at_start[:-1]), np.abs(new_end - at_end[1:]))
     effect = _unseen(modes, jump) * _weights(_Field(state), starts, lengths)
     keeps_edge = mesh.offsets[1:-1] != 1.0 - mesh.origin
+    keeps_joint = ~np.isin(mesh.offsets[1:-1], _joints(state.disc.problem, state.scale) - mesh.origin)
     not_too_long = lengths <= (_LARGEST_RATIO - 1.0) * mesh.starts[:-1]
-    removable = (effect < _MERGE_MARGIN * tolerance) & keeps_edge & not_too_long
+    removable = (effect < _MERGE_MARGIN * tolerance) & keeps_edge & keeps_joint & not_too_long
     if len(mesh.lengths) < _MANY and not kinks_of(state.disc.problem.punch):
         removable &= _halves(mesh)
     indices: list[int] = []

@@ -30,12 +30,17 @@ __all__ = ["EventErrors", "bounds", "root_shift"]
 #: Share of the error that the finer mesh may not see: measured at most 0.02 over 60 problems (n = 0.8 to 10, k = 0 to
 #: 0.9, mu = 0.005 to 20), against meshes of order 18.
 _LEFT = 0.5
-#: The error of the tail is computed to first order: its square remains.
+#: The error of the tail, and that of a located extreme, are computed to first order: their squares remain.
 _SECOND_ORDER = 1.1
 #: Steps of the continuation parameter, relative to its unit: for the rate of an error, and for the curvature at an
 #: extreme, which varies fast near a critical Tabor number.  A step of 1e-2 gave a rate that was 7 times too small at
 #: contact initiation (n = 3.75, k = 0.82, mu = 1.9); 1e-3 and 1e-4 agree.
 _ERROR_STEP, _CURVATURE_STEP = 1e-3, 1e-4
+#: The error on a mesh waves along the path where nodes pass by a bend of the punch or of the law: measured periods from
+#: 2e-3 on, and a rate that was 3 times too small (a law through 77 points).  The step is shortened by this factor while
+#: the error bends over it by more than this share of its change, at most so often: each time gains a digit.  A share of
+#: 0.06 had the wrong sign by accident (an unstated jump of the curvature of a punch, at 1e-10).
+_SHORTER, _BENT, _SHORTENINGS = 0.1, 0.02, 2
 #: Rate of the error of the response per unit of the continuation parameter, in units of the bound of that error.  The
 #: error at the scale c is c int eps(xi) K(xi c) d(xi), and its derivative by log c the same integral of -xi eps'(xi):
 #: measured worst 7.7 and 11.3 times the bound of eps on two processors, over a quarter of a decade, on a smooth coating
@@ -91,6 +96,7 @@ class EventErrors:
         self.state = state
         self.parameter = "central_gap" if state.parameter == "gap" else state.parameter
         self._unit = 1.0
+        self._beside: tuple[float, tuple[Defect, Defect]] | None = None
         if self.parameter == "central_gap":
             self._unit = state.central_gap - state.disc.problem.law.singular_gap
         elif self.parameter != "log_scale":
@@ -104,9 +110,15 @@ class EventErrors:
     def _defect(self) -> Defect:
         return Defect(self.state, self._fine)
 
-    @cached_property
-    def _defects_beside(self) -> tuple[Defect, Defect]:
-        states = [self._at(step)[0] for step in (-_ERROR_STEP, _ERROR_STEP)]
+    def _defects_beside(self, step: float) -> tuple[Defect, Defect]:
+        """Defects of the neighbouring states; those of one step at a time, because each holds square matrices."""
+        if self._beside is None or self._beside[0] != step:
+            self._beside = None  # frees its memory first
+            self._beside = step, self._new_defects_beside(step)
+        return self._beside[1]
+
+    def _new_defects_beside(self, step: float) -> tuple[Defect, Defect]:
+        states = [self._at(side * step)[0] for side in (-1.0, 1.0)]
         # The mesh of a punch with kinks moves with them.
         fine_before, fine_after = (
             self._fine if state.disc is self.state.disc else finer(state.disc) for state in states
@@ -142,9 +154,7 @@ class EventErrors:
 
     def rate(self, functional: str) -> Errors:
         """Errors of the derivative of a functional by the continuation parameter."""
-        step = 2.0 * _ERROR_STEP * self._unit
-        before, after = (defect.errors(functional, self.parameter) for defect in self._defects_beside)
-        change = after.plus(before, -1.0)
+        change, step = self._changes(functional)
         rounding = self._defect.rate_rounding(functional, self.parameter)
         mesh = change.mesh / step
         if kinks_of(self.state.disc.problem.punch):
@@ -152,6 +162,20 @@ class EventErrors:
         # The error of the response varies over a radius as the response itself: per unit of the parameter, by its size.
         kernel = _KERNEL_RATE * change.kernel / (2.0 * self._unit)
         return Errors(mesh, change.tail / step, change.domain / step, rounding, kernel)
+
+    def _changes(self, functional: str) -> tuple[Errors, float]:
+        """Change of the errors of a functional over a step of the parameter, and the length of the step."""
+        at, step = self._defect.errors(functional, self.parameter), _ERROR_STEP
+        for shortenings in range(_SHORTENINGS + 1):
+            before, after = (defect.errors(functional, self.parameter) for defect in self._defects_beside(step))
+            change = after.plus(before, -1.0)
+            if shortenings == _SHORTENINGS or not before.mesh.shape == at.mesh.shape == after.mesh.shape:
+                break
+            bend = float(np.abs(before.mesh - 2.0 * at.mesh + after.mesh).sum())
+            if bend <= max(_BENT * float(np.abs(change.mesh).sum()), at.rounding):
+                break
+            step *= _SHORTER
+        return change, 2.0 * step * self._unit
 
     def _moving(self, functional: str) -> float:
         """Mean rate of a functional on meshes that move with the kinks minus that on fixed ones (Simpson)."""
@@ -177,8 +201,10 @@ class EventErrors:
         factor = root_shift(size, curvature, third) * abs(curvature) / size if size else 1.0
         at_parameter = self.controlled(functional, self.parameter)
         # The remaining rate at the located extreme changes the functional, too.
-        left = Parts(rounding=abs(getattr(self.rates, extremal) * getattr(self.rates, functional) / curvature))
-        return bounds(at_parameter.plus(rate, -getattr(self.rates, functional) / curvature), factor).plus(left)
+        left = abs(getattr(self.rates, extremal) * getattr(self.rates, functional) / curvature)
+        return bounds(at_parameter.plus(rate, -getattr(self.rates, functional) / curvature), factor).plus(
+            Parts(rounding=_SECOND_ORDER * left)
+        )
 
     def prescribed(self, functional: str, control: str, value: float) -> Parts:
         """Bounds on the error of a functional at a prescribed value of a control, also next to its extreme."""

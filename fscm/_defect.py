@@ -7,6 +7,9 @@ has the same value of a control C.  For a functional J, to first order in u - u*
 
 with the bordered matrix B of the finer mesh.  The right side is a sum of contributions, one for each source of error:
 a panel, the closed tail, the kernel beyond the mesh.
+
+The adjoint y and the deformation are smooth on a panel.  The pressure is only as smooth as the punch and the law are,
+and they may bend between the nodes of any mesh: its error, and the surface energy, are integrated over samples.
 """
 
 from __future__ import annotations
@@ -20,6 +23,7 @@ import scipy
 
 from fscm._equilibrium import Discretisation, Linearisation, State
 from fscm._panels import PanelMesh
+from fscm._samples import POINTS, Samples
 from fscm._tail import deformation_beyond, tail_energy, tail_errors, tail_variation
 from fscm._typing import Array
 
@@ -122,8 +126,8 @@ class Defect:
         coarse, mesh = state.disc.mesh, fine.mesh
         height = fine.height(state.scale * mesh.nodes)
         # The deformation is smoother than the gap.
-        lift = state.gap - fine.height(state.radius) + state.displacement if state.lift is None else state.lift
-        lift = coarse.transfer(lift, mesh)
+        nodal = state.gap - fine.height(state.radius) + state.displacement if state.lift is None else state.lift
+        lift = coarse.transfer(nodal, mesh)
         unknowns = state.scale, lift, state.displacement, state.follows_edge, state.edge_gap
         self.fine = f = State.lifted(fine, *unknowns) if fine.steep else _from_gap(fine, *unknowns)
         self._system = Linearisation(f)
@@ -131,7 +135,12 @@ class Defect:
         self._area = 2.0 * state.scale**2 * mesh.weights * mesh.nodes
         polynomial = coarse.transfer(state.pressure, mesh)
         # Errors of the interpolated pressure, and of the deformation between the nodes.
-        self._pressure_error = f.pressure - polynomial
+        samples, law = Samples(mesh), fine.problem.law
+        radii = state.scale * samples.radii
+        gap = fine.height(radii) - state.displacement + coarse.transfer(nodal, mesh, POINTS)
+        self._pressure_error = samples.projected(law.traction(gap) - coarse.transfer(state.pressure, mesh, POINTS))
+        self._pressure = polynomial + self._pressure_error
+        self._surface_energy = samples.integrals(2.0 * state.scale * radii * law.energy(gap))
         deformation = self._stiffness * (fine.response(state.scale) @ polynomial) + f.tail.displacement
         self._gap_error = lift - deformation if fine.steep else f.gap + state.displacement - height - deformation
         axis = (d.axis_response(state.scale) @ p for d, p in ((fine, polynomial), (state.disc, state.pressure)))
@@ -227,15 +236,20 @@ class Defect:
             )
             by_panel[0] += self._axis_error
             return by_panel
-        if name == "energy":
-            coarse = self._energy_density(self.coarse).reshape(self._panels, -1)
-            return self._by_panel(self._energy_density(self.fine)) - coarse.sum(axis=1)
-        return np.zeros(self._panels)
+        return self._energy() - self._coarse_energy() if name == "energy" else np.zeros(self._panels)
 
-    def _energy_density(self, state: State) -> Array:
+    def _energy(self) -> Array:
+        """Elastic and surface energy of the interpolated state, by panel."""
+        f = self.fine
+        deformation = self._stiffness * (f.disc.response(f.scale) @ self._pressure) + f.tail.displacement
+        surface = np.bincount(self._owner[:: f.disc.mesh.order], self._surface_energy, minlength=self._panels)
+        return self._by_panel(0.5 * self._area * self._pressure * deformation) + surface
+
+    def _coarse_energy(self) -> Array:
+        state = self.coarse
         mesh, law = state.disc.mesh, state.disc.problem.law
         density = 0.5 * state.pressure * state.deformation + law.energy(state.gap)
-        return 2.0 * state.scale**2 * mesh.weights * mesh.nodes * density
+        return (2.0 * state.scale**2 * mesh.weights * mesh.nodes * density).reshape(self._panels, -1).sum(axis=1)
 
     def _explicit(self, name: str) -> Array:
         """Derivatives of a functional by load, displacement and energy of the tail, at fixed unknowns."""

@@ -13,7 +13,17 @@ from itertools import pairwise
 import numpy as np
 import scipy
 
-from fscm._adaptivity import fit, graded, indicator, lengthened, newton_tolerance, on_mesh, resolved
+from fscm._adaptivity import (
+    at_joints,
+    fit,
+    graded,
+    indicator,
+    lengthened,
+    newton_tolerance,
+    off_joints,
+    on_mesh,
+    resolved,
+)
 from fscm._arc_length import Point, parameter_control, parameter_of, rates_of
 from fscm._continuation import moved
 from fscm._equilibrium import Rates, State
@@ -253,6 +263,7 @@ def refined(state: State, order: int, tolerance: float, end_height: float | None
     narrow = tolerance > _SEEN or float(np.min(mesh.lengths)) < _NARROW
     if narrow:
         mesh = graded(mesh)
+    mesh = at_joints(state.disc.problem, mesh, state.scale)
     guess = resolved(on_mesh(state, mesh), tolerance)
     return fit(newton(guess, control, newton_tolerance(tolerance)), control, tolerance, coarsen=not narrow)
 
@@ -334,9 +345,9 @@ def _sharpen(
     state = refined(state, order, tolerance, end_height)
     for _ in range(_REFITS):
         state, slope = _root(state, condition, tolerance, slope)
-        if np.max(indicator(state)) <= _UNRESOLVED * tolerance:
+        if np.max(indicator(state)) <= _UNRESOLVED * tolerance and not off_joints(state):
             return state, slope
-        # The steep rise of a flat punch has moved off the panels that resolve it.
+        # The steep rise of a flat punch, or a joint, has moved off the panels that resolve it.
         state = refined(state, order, tolerance)
     raise NotConverged("the mesh at an event does not resolve the pressure; the event moves with the mesh")
 

@@ -195,18 +195,26 @@ class PanelMesh:
         row[panel * self.order : (panel + 1) * self.order] = self.rule.interpolation(np.array([end]))[0]
         return row
 
-    def transfer(self, values: Array, target: PanelMesh) -> Array:
-        """Nodal values on the mesh `target` of the function with nodal `values` on this one.
+    def transfer(self, values: Array, target: PanelMesh, points: Array | None = None) -> Array:
+        """Values on the panels of the mesh `target` of the function with nodal `values` on this one.
 
         Local coordinates come from offsets, so that panels far below the rounding of the radius keep full relative
         accuracy.
+
+        Parameters
+        ----------
+        values : ndarray, shape (m q,)
+        target : PanelMesh
+        points : ndarray, shape (d,), optional
+            Local coordinates on each panel of `target`, in [0, 1]; by default its nodes.
         """
-        q, shift = target.order, target.origin - self.origin
+        at_nodes, u_target = points is None, target.rule.nodes if points is None else points
+        q, shift = len(u_target), target.origin - self.origin
         by_panel = values.reshape(-1, self.order)
         panel = self.locate(target.middles + shift)
         out = np.empty((len(panel), q))
         unchanged = np.zeros(len(panel), bool)
-        if q == self.order and shift == 0.0:
+        if at_nodes and q == self.order and shift == 0.0:
             unchanged = (self.offsets[panel] == target.offsets[:-1]) & (self.offsets[panel + 1] == target.offsets[1:])
             out[unchanged] = by_panel[panel[unchanged]]
         new = np.flatnonzero(~unchanged)
@@ -214,12 +222,12 @@ class PanelMesh:
             return out.ravel()
         panel = panel[new]
         start = target.offsets[new] + shift - self.offsets[panel]
-        u = (start[:, None] + target.lengths[new, None] * target.rule.nodes) / self.lengths[panel, None]
+        u = (start[:, None] + target.lengths[new, None] * u_target) / self.lengths[panel, None]
         rows = self.rule.interpolation(u.ravel()).reshape(len(new), q, self.order)
         out[new] = (rows @ by_panel[panel][:, :, None])[:, :, 0]
         outside = ((u < 0.0) | (u > 1.0)).any(axis=1)
         if outside.any():  # merged panels, whose nodes lie in several panels of this mesh
             merged = new[outside]
-            offsets = target.seen_from(self.origin).reshape(-1, q)[merged]
+            offsets = (target.offsets[merged, None] + target.lengths[merged, None] * u_target) + shift
             out[merged] = self.evaluate_at_offsets(values, offsets.ravel()).reshape(-1, q)
         return out.ravel()

@@ -63,6 +63,17 @@ def kinks_of(punch: PunchShape) -> tuple[float, ...]:
     return tuple(getattr(punch, "kinks", None) or ())
 
 
+def joints_of(punch: PunchShape) -> tuple[float, ...]:
+    """Radii at which a punch with a continuous slope is less smooth: its attribute `joints`, if it has one.
+
+    Examples
+    --------
+    >>> joints_of(Ball(R=20.0))
+    (19.0,)
+    """
+    return tuple(getattr(punch, "joints", None) or ())
+
+
 @dataclass(frozen=True, slots=True)
 class PowerPunch:
     """f(r) = r^n / (n Q) (Eq. 24); n = 1 is a cone, n = 2 a paraboloid, n -> infinity a flat punch.
@@ -151,6 +162,11 @@ class Ball:
     def reach(self) -> float:
         """Largest radius of a contact."""
         return _REACH * self.R
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """The reach, where the third derivative jumps."""
+        return (self.reach,)
 
     @property
     def growth(self) -> float:
@@ -347,6 +363,11 @@ class ScaledPunch:
     def kinks(self) -> tuple[float, ...]:
         """Those of the shape."""
         return tuple(r / self.radius for r in kinks_of(self.punch))
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """Those of the shape."""
+        return tuple(r / self.radius for r in joints_of(self.punch))
 
     @property
     def reach(self) -> float:

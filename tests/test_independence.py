@@ -51,11 +51,11 @@ ALLOWED = {
 #: First layer to last: the modules and folders of each package.  A module imports from its own layer and those before.
 LAYERS = {
     "fscm": (
-        ("errors", "_typing", "_threads", "_validation", "_presentation", "_response_factor", "_smoothed_table"),
+        ("errors", "_typing", "_threads", "_validation", "_presentation", "_response_factor", "_law_curve"),
         ("laws", "tabulated_law", "punch", "custom_punch", "measured_punch"),
         ("solids", "layers", "tabulated_modulus", "custom_solid"),
         ("_units",),
-        ("_meshes", "_kernel", "_azimuthal_kernel", "_panels", "_response_store", "_deformation"),
+        ("_meshes", "_kernel", "_azimuthal_kernel", "_panels", "_samples", "_response_store", "_deformation"),
         ("graded",),
         ("problem",),
         ("_tail",),
@@ -69,7 +69,7 @@ LAYERS = {
         ("experiment", "states", "solver", "_event_adjoint", "_sensitivity"),
     ),
     "fem_reference": (
-        ("_typing", "_threads", "_validation", "_presentation", "errors"),
+        ("_typing", "_threads", "_validation", "_presentation", "errors", "_law_between_points"),
         ("modulus", "coating", "poisson", "depth_profiles", "modulus_checks", "layers", "solids", "neo_hookean"),
         ("punch", "profiles", "laws", "tabulated_law", "interaction", "problem", "accuracy"),
         ("_elastic",),

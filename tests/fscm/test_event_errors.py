@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from fscm import Analysis, CustomPunch, Problem, RoundedCone, _bounds
-from fscm._arc_length import rates_of
+from fscm._arc_length import parameter_of, rates_of
 from fscm._bounds import EventErrors, bounds, energy_of_jump, root_shift
+from fscm._continuation import moved
 from fscm._defect import Errors
 from fscm._events import MISSED_EXTREME
 from fscm._meshes import Meshes
@@ -68,9 +69,9 @@ def test_a_value_at_the_extreme_of_another_moves_with_its_place(event):
     errors = EventErrors(event_pair.state)
     _, curvature, _ = errors.derivatives(extremal)
     distance = (getattr(rates_of(event_pair.state), extremal) - getattr(event_pair.rates, extremal)) / curvature
-    moved = event_pair.error(functional) - distance * getattr(errors.rates, functional)
+    shifted = event_pair.error(functional) - distance * getattr(errors.rates, functional)
     bound = errors.at_extreme(functional, extremal).total
-    assert abs(moved) < bound < LARGEST * abs(moved)
+    assert abs(shifted) < bound < LARGEST * abs(shifted)
     # Neither of the two alone explains the bound.
     assert bounds(errors.controlled(functional, errors.parameter)).total != pytest.approx(bound, rel=1e-2)
 
@@ -87,6 +88,55 @@ def test_a_value_at_a_displacement_next_to_its_fold_moves_with_the_root_of_the_e
     least = errors.on_path("load").total + abs(errors.rates.load) * shift
     assert least * (1.0 - 1e-3) < error < 2.0 * least
     assert error > 3.0 * errors.on_path("load").total
+
+
+def test_a_state_beside_the_extreme_says_how_far_its_value_is_from_there():
+    """A millionth of the parameter off: the displacement is wrong by what it changes on the way."""
+    state = pair(2.0, 0.4, 1.0, "pull_off").state
+    beside = moved(state, rates_of(state), parameter_of(state) + 1e-4)
+    errors, at = (EventErrors(of).at_extreme("displacement", "load") for of in (beside, state))
+    distance = abs(beside.displacement - state.displacement)
+    assert distance > 10.0 * at.total
+    assert distance <= errors.rounding < 1.2 * distance
+
+
+@pytest.mark.parametrize(("slope", "amplified"), [(0.6, False), (1.5, True)])
+def test_a_control_near_its_extreme_is_not_divided_by(slope, amplified, monkeypatch):
+    """With 2 e c between 1/2 and 2 times the slope squared, the root of the error decides, not the slope."""
+    free, curvature = Parts(mesh=0.1), 2.0
+    infinite = Errors(np.full(1, math.inf), np.zeros(1), np.zeros(1), 0.0)
+    for name, value in (
+        ("on_path", lambda self, functional: free),
+        ("derivatives", lambda self, functional: (slope, curvature, 0.0)),
+        ("controlled", lambda self, *names: infinite),
+    ):
+        monkeypatch.setattr(EventErrors, name, value)
+    errors = EventErrors(pair(2.0, 0.4, 1.0, "jump_in").state)
+    assert math.isinf(errors.prescribed("load", "displacement", 0.0).total) == amplified
+
+
+def _waving(period):
+    """A state on a line, on whose path a functional has an error of one panel that waves with a period."""
+
+    def defect(step):
+        mesh = 1e-9 * np.array([math.sin(2.0 * math.pi * step / period)])
+        return SimpleNamespace(
+            errors=lambda *names: Errors(mesh, np.zeros(1), np.zeros(1), 1e-16), rate_rounding=lambda *names: 0.0
+        )
+
+    return defect
+
+
+@pytest.mark.parametrize("period", [1.0, 3e-3, 7e-4, 3e-4])
+def test_the_rate_of_an_error_that_waves_along_the_path(period, monkeypatch):
+    """Nodes that pass by the knots of a law make such waves: a rate over steps of 1e-3 was 3 times too small."""
+    errors, defect, phase = EventErrors(pair(2.0, 0.4, 1.0, "pull_off").state), _waving(period), 0.1 * period
+    monkeypatch.setattr(EventErrors, "_defect", defect(phase))
+    monkeypatch.setattr(
+        EventErrors, "_new_defects_beside", lambda self, step: (defect(phase - step), defect(phase + step))
+    )
+    exact = 2e-9 * math.pi / period * math.cos(0.2 * math.pi)
+    assert errors.rate("load").mesh[0] == pytest.approx(exact, rel=0.1)
 
 
 @pytest.fixture

@@ -10,6 +10,7 @@ from fscm._newton import shifted
 from fscm.custom_punch import CustomPunch
 from fscm.measured_punch import MeasuredPunch
 from fscm.problem import Problem
+from fscm.punch import unit_of_radii
 from fscm.solver import solve
 from tests.refusals import refused
 
@@ -55,6 +56,29 @@ def test_functions_that_break_a_promise_are_refused():
     ):
         refused(reason, CustomPunch, f, growth)
     refused("not the slope", CustomPunch, paraboloid, 2.0, lambda r: 1.01 * r)
+
+
+class Step:
+    """A punch that is 2 higher everywhere but at its very tip."""
+
+    growth = 2.0
+
+    def __init__(self):
+        self.evaluations = 0
+
+    def height(self, r):
+        self.evaluations += 1
+        assert self.evaluations < 10_000
+        return np.where(r > 0.0, 2.0 + r**2, 0.0)
+
+    def slope(self, r):
+        return 2.0 * r
+
+
+def test_the_unit_of_radii_of_a_step_is_found_in_a_bounded_number_of_evaluations():
+    n, Q = unit_of_radii(Step(), 1.0)
+    assert n == 2.0
+    assert 0.0 < Q < 1e-50
 
 
 def test_a_steep_profile_with_kinks_is_continuous_in_its_growth():
