@@ -2,8 +2,8 @@
 
 Physical quantities in any consistent units: a half-space with Young's modulus E(z) and Poisson's ratio nu(z), a
 rigid punch f(r), a surface law p(H).  The solid is meshed with high-order elements and closed by the exact
-stiffness of the infinite exterior.  The equilibrium path is traced on the system condensed to the surface; at an event
-the displacement of the whole mesh is solved with pyamg.
+stiffness of the infinite exterior.  The equilibrium path is traced on the system condensed to the surface; a value is
+that of the whole system at an event, solved by Newton's method with conjugate gradients and pyamg.
 
 The names in `__all__` of the modules of solids, punches and laws are names of the package, too.  `_lazy.pyi` lists the
 others; a module is loaded when one of its names is first used.

@@ -27,7 +27,7 @@ class Solution:
     size : int
         Unknowns of the finest finite-element mesh.
     iterations : int
-        Conjugate-gradient iterations with pyamg at the events, on the finest mesh.
+        Conjugate-gradient iterations with pyamg at the events, on the finest mesh: the fewest of them, at least one.
     residual : float
         Residual of the whole nonlinear system there, relative to the traction.
     seconds : float

@@ -28,6 +28,9 @@ _INTERRUPTED, _BROKEN_PIPE, _TERMINATED = 130, 141, 143
 #: Module -> the extra of fscm-bench that installs it.
 EXTRAS = {"bokeh": "report"}
 
+#: The packages of this project, in which an import that fails is an error of ours.
+OWN = ("comparisons", "fem_reference", "fscm", "fscm_bench")
+
 #: The environment variable that shows the traceback of an error.
 TRACEBACK = "FSCM_BENCH_TRACEBACK"
 
@@ -64,7 +67,7 @@ def guarded(command: Callable[[], int], program: str = "fscm-bench") -> int:
     int
         What the command returned; 2 after a `ValueError` (wrong input) or if the extra that a command needs is not
         installed, 130 after Ctrl-C, 141 when the reader of a pipe has left, 143 after SIGTERM, and 4 after any other
-        exception, as that of a full disk.
+        exception, as that of a full disk or of a package that is missing though it belongs to the installation.
 
     Examples
     --------
@@ -132,6 +135,8 @@ def _explained(error: Exception) -> tuple[int, str]:
     if isinstance(error, ModuleNotFoundError) and (extra := EXTRAS.get((error.name or "").partition(".")[0])):
         package = f"the package {error.name} is not installed, which this command needs"
         return WRONG_INPUT, f"{package}: pip install 'fscm-bench[{extra}]'"
+    if isinstance(error, ImportError) and (name := (error.name or "").partition(".")[0]) not in ("", *OWN):
+        return FAILED, f"the package {name} of the installation is missing or cannot be loaded: pip install {name}"
     if isinstance(error, OSError):
         if error.strerror is None:  # a sentence of ours
             return FAILED, str(error)

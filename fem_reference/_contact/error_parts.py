@@ -26,8 +26,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-import numpy as np
-
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.mesh_choice import MeshChoice
 from fem_reference._contact.mesh_lengths import OTHER_LENGTHS
@@ -161,14 +159,9 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
     """
     fine = choice.traced(spec, size)
     contact = fine.contact
-    plain, below = replace(spec, order=SEARCH_DEGREE), replace(spec, order=spec.order - 1)
-    placements: tuple[float, ...] = (-PLACEMENT, PLACEMENT)
-    other_size = size
-    if not choice.scaling:
-        # Another placement of the edge needs another mesh here: that of the degree below.
-        r = spec.grid().r
-        other_size = size * (0.5 + 0.5 * float(r[np.argmin(abs(r - 1.0)) + 1]))
-        placements = ()
+    plain = replace(spec, order=SEARCH_DEGREE)
+    # Another placement of the edge needs another mesh if the solid does not scale: that of the degree below.
+    placements = (-PLACEMENT, PLACEMENT) if choice.scaling else ()
     doubts = (-1.0, 1.0) if fine.doubt(choice.event) > 0.0 else ()
 
     @lru_cache(maxsize=2 * len(FEATURES))
@@ -179,7 +172,7 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
     resized = [replace(spec, density=ratio * spec.density) for ratio in OTHER_LENGTHS if has_kinks]
     return EventsOnMeshes(
         fine,
-        ResolvedEvents(fine, choice.contact(below.moved(other_size / size), other_size)),
+        ResolvedEvents(fine, choice.lower_contact(spec, size)),
         ResolvedEvents(fine, choice.contact(plain, size)),
         feature,
         (

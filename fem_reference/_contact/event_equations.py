@@ -1,7 +1,8 @@
 """Equations of one event, whose unknowns are an equilibrium, its rate along the path, and the parameter.
 
-The displacement under the traction is given: another module solves the elastic system.  The tangent is that of the
-condensed system, which decides how fast the steps fall but not where they end.
+The displacement under the traction is given: another module solves the elastic system.  Newton's method begins with the
+state on another mesh.  Its tangent is that of the condensed system of this mesh, which decides how fast the steps fall
+but not where they end.
 """
 
 from __future__ import annotations
@@ -14,12 +15,15 @@ from typing import Self
 import numpy as np
 from scipy import linalg
 
+from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeRadius
 from fem_reference._contact.cusp import displacement_rates
 from fem_reference._contact.events import CUSP, JUMP_IN, JUMP_OUT, beginning_of, kind_of
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.newton import State
 from fem_reference._contact.path import Point, point_at
+from fem_reference._contact.resolved import carried, projected, projected_rate
+from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
 
 __all__ = ["EventEquations"]
@@ -36,7 +40,10 @@ class EventEquations:
     name : str
         Of the event, as a property of `fem_reference._contact.events.PathEvents`.
     point : Point
-        The event on the condensed path.
+        The event on the condensed path: its controls and tangents are those of the equations.
+    other : Contact
+        The problem with elements of another degree or size: Newton's method begins with its state at the same value of
+        the parameter.
 
     Attributes
     ----------
@@ -49,10 +56,15 @@ class EventEquations:
         stationary in it.
     """
 
-    def __init__(self, name: str, point: Point) -> None:
-        self.name, self.point = name, point
-        self.y, self.rate, self.parameter = point.state.y.copy(), point.state.rate.copy(), point.parameter
+    def __init__(self, name: str, point: Point, other: Contact) -> None:
+        self.name, self.point, self.parameter = name, point, point.parameter
         self.contact = point.branch.contact
+        start = _state_on(other, point)
+        # The mesh of a solid that does not scale has one size.
+        c = (point if isinstance(self.contact.compliance, FixedCompliance) else start).state.size
+        self.y = projected(start, self.contact, c)
+        # The rate is an unknown at a fold only; elsewhere it is a part of the tangent.
+        self.rate = projected_rate(start, self.contact, c) if self.is_fold else point.state.rate.copy()
         rates = displacement_rates(point) if name == CUSP else None
         self._change = None if rates is None else rates.change
         # A point that is held keeps its parameter.
@@ -154,13 +166,25 @@ class EventEquations:
             moved = self._tangent()
             defect_rate = defect_rate - _padded(under) + (moved - K) @ self.rate
             self.rate = self.rate - _solved(moved, defect_rate)
-        move = (excess - self._excess(events)) / self._slope
-        if self._change is not None:
-            self.contact = replace(contact, compliance=contact.compliance.stiffened(math.exp(move)))
-            self.y = self.y + move * self._change
+        self._move((excess - self._excess(events)) / self._slope)
+
+    def _move(self, move: float) -> None:
+        """Move the parameter, and the state along the path.
+
+        The path is curved, and where the traction is steep much so: what its tangent leaves of the equilibrium is
+        corrected by the condensed system, to which it is as small as to the whole one.
+        """
+        if move == 0.0:
             return
-        self.parameter += move
-        self.y = self.y + move * self.rate
+        before = self.contact.residual(self.y)
+        if self._change is None:
+            self.parameter += move
+            self.y = self.y + move * self.rate
+        else:
+            self.contact = replace(self.contact, compliance=self.contact.compliance.stiffened(math.exp(move)))
+            self.y = self.y + move * self._change
+        controls = [control.value(self.contact, self.y) for control in self._controls()]
+        self.y = self.y - _solved(self._tangent(), np.append(self.contact.residual(self.y) - before, controls))
 
     def _tangent(self) -> Array:
         """Derivative of the condensed equations and the controls with respect to y, shape (m + 2, m + 2)."""
@@ -188,11 +212,19 @@ class EventEquations:
             return state.displacement_rate
         if self.name == "zero_load":
             return state.load_rate
-        step = SLOPE_STEP * self.point.branch.largest_step(self.parameter)
-        ahead = point_at(self.point, self.parameter + step).state
+        parameter = self.point.parameter
+        step = SLOPE_STEP * self.point.branch.largest_step(parameter)
+        ahead = point_at(self.point, parameter + step).state
         if self.name == "pull_off":
             return (ahead.load_rate - state.load_rate) / step
         return (ahead.displacement_rate - state.displacement_rate) / step
+
+
+def _state_on(contact: Contact, point: Point) -> Point:
+    """State of another discretisation, at the parameter and the modulus of a point."""
+    compliance = contact.compliance.stiffened(point.branch.contact.compliance.stiffness)
+    branch, parameter, y = carried(point, replace(contact, compliance=compliance))
+    return branch.solve(parameter, y)
 
 
 def _solved(matrix: Array, b: Array) -> Array:

@@ -11,6 +11,8 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+import numpy as np
+
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.events import CUSP, PathEvents
 from fem_reference._contact.followed import FollowedPath
@@ -57,6 +59,19 @@ class MeshChoice:
         # The whole system is solved on meshes of the accuracy itself, not on those that differ in one thing.
         whole = spec.order == self.level.order and not isinstance(spec, VariantSpec)
         return Contact(punch, law, compliance_for(solid.modulus, solid.poisson, spec, size, self.scaling, whole))
+
+    def lower_contact(self, spec: MeshSpec, size: float) -> Contact:
+        """Discretise the problem with the degree below.
+
+        If the solid does not scale, the edge is half an element further out, too.
+        """
+        below = replace(spec, order=spec.order - 1)
+        if self.scaling:
+            return self.contact(below, size)
+        # Another placement needs another mesh: the one for the other degree serves both.
+        r = spec.grid().r
+        other_size = size * (0.5 + 0.5 * float(r[np.argmin(abs(r - 1.0)) + 1]))
+        return self.contact(below.moved(other_size / size), other_size)
 
     def traced(self, spec: MeshSpec, size: float) -> ResolvedEvents:
         """The events of the path on that mesh; kept for all quantities.

@@ -22,7 +22,7 @@ from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 
-__all__ = ["ResolvedEvents", "projected"]
+__all__ = ["ResolvedEvents", "carried", "projected", "projected_rate"]
 
 #: Largest number of secant steps; two are usual, from an event that differs by 1e-6.
 SECANT_STEPS = 12
@@ -107,12 +107,12 @@ class ResolvedEvents:
         """Find the cusp from that of the path."""
         original = self._path.at(CUSP)
         compliance = self.contact.compliance.stiffened(original.branch.contact.compliance.stiffness)
-        branch, parameter, y = _moved(original, replace(self.contact, compliance=compliance), self._placement)
+        branch, parameter, y = carried(original, replace(self.contact, compliance=compliance), self._placement)
         return cusp_from(branch.solve(parameter, y))
 
     def _solved(self, original: Point, slope: float, excess: Callable[[Point], float]) -> Point:
         """Find the root of `excess` from the point of the path where it vanishes."""
-        branch, parameter, y = _moved(original, self.contact, self._placement)
+        branch, parameter, y = carried(original, self.contact, self._placement)
         if original.parameter != 0.0 and branch.touching:
             slope *= original.parameter / parameter
         unit = abs(parameter) if branch.touching else self.contact.law.z0
@@ -161,7 +161,7 @@ def _moves_over_elements(point: Point) -> bool:
     return point.branch.touching and isinstance(point.branch.contact.compliance, FixedCompliance)
 
 
-def _moved(point: Point, contact: Contact, placement: float) -> tuple[Branch, float, Array]:
+def carried(point: Point, contact: Contact, placement: float = 0.0) -> tuple[Branch, float, Array]:
     """Branch, parameter and starting vector on another mesh for a point of the path."""
     trace, y = point.branch.contact.compliance.trace, point.state.y
     branch = point.branch
@@ -199,7 +199,16 @@ def projected(point: Point, contact: Contact, c: float) -> Array:
     ndarray
         Displacement, approach and size on the other mesh.
     """
-    trace, target, y = point.branch.contact.compliance.trace, contact.compliance.trace, point.state.y
+    return np.append(_on_other_surface(point.state.y, point, contact, c), [point.state.displacement, c])
+
+
+def projected_rate(point: Point, contact: Contact, c: float) -> Array:
+    """Project the rate of a state, as `projected` the state."""
+    rate = point.state.rate
+    return np.append(_on_other_surface(rate, point, contact, c), rate[-2:])
+
+
+def _on_other_surface(values: Array, point: Point, contact: Contact, c: float) -> Array:
+    trace, target = point.branch.contact.compliance.trace, contact.compliance.trace
     s = np.minimum(target.s * c / point.state.size, trace.extent)
-    w = target.projection(trace.evaluate(s) @ y[:-2])
-    return np.concatenate([w, [point.state.displacement, c]])
+    return target.projection(trace.evaluate(s) @ values[:-2])

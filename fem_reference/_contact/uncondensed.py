@@ -1,23 +1,28 @@
 """Events of a path solved without condensation to the surface: the displacement of the whole mesh, by pyamg.
 
-The condensed path finds an event.  There the whole system takes its last Newton steps: scikit-fem assembles the
-traction on the surface facets, conjugate gradients preconditioned with pyamg give the displacement of the mesh under
-it, and what the surface then lacks of the displacement that made the traction is the residual of a Newton step.  Its
-tangent is that of the condensed system, its residual is not: at the end nothing is left of the condensed compliance but
-the number of steps.  The rates along the path are solved in the same way, because a fold is where one of them vanishes.
-All events of a problem are columns of one linear system.
+The condensed path finds an event.  Newton's method for the whole system begins with the state of elements of a lower
+degree there, and with no displacement below the surface: scikit-fem assembles the traction on the surface facets,
+conjugate gradients preconditioned with pyamg give the displacement of the mesh under it, and what the surface then
+lacks of the displacement that made the traction is the residual of a Newton step.  Its tangent is that of the condensed
+system, its residual is not: at the end nothing is left of the condensed compliance but the number of steps.  The rates
+along the path are solved in the same way, because a fold is where one of them vanishes.  All events of a problem are
+columns of one linear system.
+
+The condensation of the same mesh, by another elimination, is the second opinion: what both differ by is a part of the
+bound.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
+from fem_reference._contact.contact import Contact
 from fem_reference._contact.event_equations import EventEquations
 from fem_reference._contact.events import Jump, PathEvents, beginning_of
 from fem_reference._contact.full_system import FullSystem
@@ -28,7 +33,7 @@ from fem_reference._elastic.assembly import HalfSpace, half_space_of
 from fem_reference._elastic.compliance import is_power_law, scaled_modulus, scaled_poisson
 from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference._linear.linear_solver import solve_cg
+from fem_reference._linear.linear_solver import LinearResult, solve_cg
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
@@ -37,21 +42,24 @@ from fem_reference.solids import Solid
 
 __all__ = ["PointsAtEvents", "UncondensedEvents", "UncondensedValue", "uncondensed_events"]
 
-#: Residual of the displacements, about their relative error in energy. Weighted with the adjoint of the event, that is
-#: through the tangent and the slope of its condition, it leaves less of a value than the last step of the iteration
-#: does, which is a part of the bound (measured: 1e-11 to 1e-9, of bounds of 1e-7): no tighter one is needed.
-LINEAR_TOLERANCE = 1e-10
+#: Residual of the displacements in the first step, about their relative error in energy, and in the last one at least.
+LINEAR_TOLERANCE, LEAST_TOLERANCE = 1e-10, 1e-12
 
-#: Residual that rounding may leave of the displacements: what it leaves of a value is a part of the bound (measured:
-#: 3e-9 under a coating of 10 GPa and 30 nm on 1.5 MPa, 4e-10 of the force).
+#: Ratio of that residual from one step to the next.  Two steps are usual, and the displacement is then good to 1e-12;
+#: under a steep traction there are more (measured at a Tabor number of 300: 1e-10 would leave 1e-7 of the force).
+SHARPER = 1e-2
+
+#: Residual at which rounding may keep the displacements: what it leaves of a value is a part of the bound (measured:
+#: 1e-12 is reached at a Tabor number of 300, and under a coating 700 times as stiff as the solid).
 LINEAR_ROUNDING = 1e-6
 
 #: Largest last step and defect, relative to the displacement. The condensed compliance is then right to as much for
 #: this traction, and the next step would be smaller by that factor.
-NEWTON_TOLERANCE = 1e-9
+NEWTON_TOLERANCE = 1e-10
 
-#: Step, relative to the displacement, that says that there is no equilibrium near the condensed one.
-LARGEST_STEP = 0.1
+#: Step, relative to the displacement, that says that there is no equilibrium near that of the lower degree (measured:
+#: 3e-5 to 2e-3 for the first one, and 0.35 on elements far too coarse).
+LARGEST_STEP = 0.5
 
 #: Largest last step if rounding keeps the steps above the Newton tolerance (measured: 7e-10 under a cone, 1.4e-8 on
 #: elements of a millionth of the radius, k = 0.69, mu = 7, and 2e-7 under a coating 700 times as stiff as the solid).
@@ -61,14 +69,14 @@ ROUNDING_STEP = 1e-5
 #: Ratio of a step to the one before from which on rounding keeps the steps from falling: they fall by 1e3 or more.
 SLOWEST = 0.5
 
-#: Steps before giving up: the start is an equilibrium of the same mesh, and one step is usual.
-NEWTON_STEPS = 6
+#: Steps before giving up: two are usual.
+NEWTON_STEPS = 8
 
 #: Largest residual of the whole nonlinear system before the last step, relative to the traction, where the displacement
 #: is up to one length of the law; it grows with the displacement, and with the last step where rounding keeps that
 #: above the Newton tolerance. It is the Newton tolerance times the slope of the traction, some hundred tractions in a
 #: length of the law.
-RESIDUAL_TOLERANCE = 1e-6
+RESIDUAL_TOLERANCE = 1e-7
 
 #: Tractions in a length of the law up to which the slope of the traction is that of the tolerance of the residual. It
 #: is in proportion to a larger one (measured at a Tabor number of 1000: 2e4, and a residual of 0.05 of 0.067).
@@ -84,10 +92,9 @@ class UncondensedValue:
     value : float
         The quantity.
     algebra : float
-        Its distance from the value of the condensed path, plus what the last step of conjugate gradients and the last
-        residual change.
+        Its distance from the value of the condensed path, plus what the displacement leaves of its load changes.
     iterations : int
-        Conjugate-gradient iterations.
+        Conjugate-gradient iterations, the fewest of the events of the quantity; at least one.
     residual : float
         Residual of the whole nonlinear system relative to the traction, the largest of the events of the quantity.
     """
@@ -143,12 +150,19 @@ class UncondensedEvents:
     ----------
     path : PathEvents or ResolvedEvents
         The condensed path, or its events.
+    other : Contact
+        The same problem with elements of another degree or size, with whose states Newton's method begins.
     system : callable
         Returns the same problem on the same mesh.
     """
 
-    def __init__(self, path: PathEvents | ResolvedEvents, system: Callable[[], FullSystem]) -> None:
-        self._path, self._system = path, system
+    def __init__(
+        self,
+        path: PathEvents | ResolvedEvents,
+        other: Contact,
+        system: Callable[[], FullSystem],
+    ) -> None:
+        self._path, self._other, self._system = path, other, system
         self._points: dict[str, Point] = {}
         self._shifted: dict[str, Point] = {}
 
@@ -191,7 +205,7 @@ class UncondensedEvents:
         return UncondensedValue(
             value,
             abs(value - difference) + left,
-            max(state.iterations for state in states),
+            min(state.iterations for state in states),
             max(state.residual for state in states),
         )
 
@@ -207,57 +221,109 @@ class UncondensedEvents:
         return self._points[event]
 
     def _solve(self, condensed: Mapping[str, Point]) -> None:
-        """Take the last Newton steps at events, all at once."""
+        """Solve events by Newton's method, all at once."""
         system = self._system()
-        surface = system.half_space.surface
-        equations = {name: EventEquations(name, point) for name, point in condensed.items()}
-        folds = [name for name, equation in equations.items() if equation.is_fold]
-        columns = {
-            name: (i, len(equations) + folds.index(name) if name in folds else None) for i, name in enumerate(equations)
-        }
-        start: Array | None = None
-        iterations, step, half_space = 0, math.inf, system.half_space
+        equations = {name: EventEquations(name, point, self._other) for name, point in condensed.items()}
+        newton = _Newton(system, equations)
+        newton.solve()
+        shifted, residuals = newton.shifted(), newton.residuals()
+        for name, equation in equations.items():
+            self._points[name] = equation.point_of(system, newton.iterations[name], residuals[name])
+            self._shifted[name] = shifted[name].point_of(system, newton.iterations[name], residuals[name])
+
+
+class _Newton:
+    """Newton's method for the whole system at several events, whose loads are columns of one linear system.
+
+    Parameters
+    ----------
+    system : FullSystem
+    equations : mapping of str to EventEquations
+        By name, a jump before its end.
+    """
+
+    def __init__(self, system: FullSystem, equations: Mapping[str, EventEquations]) -> None:
+        self._system, self._equations = system, equations
+        self._folds = [name for name, equation in equations.items() if equation.is_fold]
+        self.iterations = dict.fromkeys(equations, 0)
+        self._step, self._load = math.inf, self._loads()
+        self._result = self._displaced(self._load, LINEAR_TOLERANCE)
+
+    def solve(self) -> None:
+        """Take Newton steps until they are small.
+
+        Raises
+        ------
+        NotConverged
+            If they are not after a number of them, or the displacement of an event took no iteration.
+        """
+        tolerance = LINEAR_TOLERANCE
         for _ in range(NEWTON_STEPS):
-            loads = [system.load_vector(equation.y) for equation in equations.values()]
-            loads += [system.load_vector_rate(equations[name].y, equations[name].rate) for name in folds]
-            load = np.stack(loads, axis=1)
-            if start is None and half_space.eliminations:
-                # Below the surface the condensed state.
-                compliance = next(iter(equations.values())).contact.compliance
-                start = half_space.recovered(compliance.matrix @ load[surface])
-            result = solve_cg(
-                half_space,
-                load,
-                system.preconditioner,
-                LINEAR_TOLERANCE,
-                start=start,
-                rounding=LINEAR_ROUNDING,
-            )
-            start, iterations = result.solution, iterations + result.iterations
-            under = _columns(result.solution[surface], columns)
-            controls = np.array([equation.controls for equation in equations.values()])
-            # In order, because a jump ends where it begins.
-            steps = [equation.step(*under[name], equations) for name, equation in equations.items()]
-            before, step = step, float(np.max(steps))
-            if step <= NEWTON_TOLERANCE or not step <= LARGEST_STEP or SLOWEST * before <= step <= ROUNDING_STEP:
+            before, self._step = self._step, self._newton_step()
+            small = self._step <= NEWTON_TOLERANCE or SLOWEST * before <= self._step <= ROUNDING_STEP
+            if small or not self._step <= LARGEST_STEP:
                 break
-        if not step <= ROUNDING_STEP:
+            # Where a small displacement makes a large traction, the next step needs a better one.
+            tolerance = max(SHARPER * tolerance, LEAST_TOLERANCE)
+            self._follow(tolerance)
+        if not self._step <= ROUNDING_STEP:
             raise NotConverged(
-                f"the whole system is {step:.1e} of its displacement from the condensed equilibrium after Newton steps "
-                "without convergence; take a finer accuracy"
+                f"the last Newton step of the whole system is {self._step:.1e} of its displacement, not "
+                f"{NEWTON_TOLERANCE:g}; take a finer accuracy"
             )
-        matrix = next(iter(equations.values())).contact.compliance.matrix
-        left = _columns(_left(half_space, load, result.solution, matrix), columns)
-        shifted = {name: equation.copy() for name, equation in equations.items()}
+        if not all(self.iterations.values()):
+            raise NotConverged("the displacement of an event took no iteration of conjugate gradients; report the case")
+
+    def _newton_step(self) -> float:
+        """Take a step of every event, from the displacement under its traction; return the largest."""
+        equations = self._equations
+        self._controls = np.array([equation.controls for equation in equations.values()]).T
+        under = self._by_event(self._result.solution[self._system.half_space.surface])
+        # In order, because a jump ends where it begins.
+        return float(np.max([equation.step(*under[name], equations) for name, equation in equations.items()]))
+
+    def _follow(self, tolerance: float) -> None:
+        """Let the displacement of the mesh follow the tractions of the last step."""
+        load, before = self._loads(), self._result
+        # What the displacement leaves of the new load: it has left that remainder of the old one.
+        change = self._displaced(load - self._load + before.remainder, tolerance, before.norm)
+        self._load, self._result = load, replace(change, solution=before.solution + change.solution)
+
+    def _displaced(self, load: Array, tolerance: float, norm: Array | None = None) -> LinearResult:
+        """Solve for the displacement of the mesh under loads, and count the iterations."""
+        system = self._system
+        result = solve_cg(
+            system.half_space, load, system.preconditioner, tolerance, norm=norm, rounding=LINEAR_ROUNDING
+        )
+        for name, (own, of_rate) in self._by_event(result.iterations[None, :].astype(float)).items():
+            self.iterations[name] += int(max(own[0], 0.0 if of_rate is None else of_rate[0]))
+        return result
+
+    def shifted(self) -> dict[str, EventEquations]:
+        """Return the events with the displacement changed by what it lacks under its traction."""
+        matrix = next(iter(self._equations.values())).contact.compliance.matrix
+        left = self._by_event(_left(self._system.half_space, self._load, self._result.solution, matrix))
+        shifted = {name: equation.copy() for name, equation in self._equations.items()}
         for name, equation in shifted.items():
-            equation.shift(*left[name], shifted, equations)
+            equation.shift(*left[name], shifted, self._equations)
+        return shifted
+
+    def residuals(self) -> dict[str, float]:
+        """Return what is left of the whole nonlinear systems, relative to their tractions.
+
+        Raises
+        ------
+        NotConverged
+            If that is more than the steepness of the traction explains.
+        """
+        system, result = self._system, self._result
         # The displacements that were solved last belong to the controls before the last step.
-        deltas, sizes, factors = controls.T
-        residuals = system.residuals(result, load, deltas, sizes, factors)
-        solved = factors * result.solution[:, : len(equations)]
-        for (name, equation), residual, u in zip(equations.items(), map(float, residuals), solved.T, strict=True):
+        deltas, sizes, factors = self._controls
+        residuals = system.residuals(result, self._load, deltas, sizes, factors)
+        solved = factors * result.solution[:, : len(self._equations)]
+        for equation, residual, u in zip(self._equations.values(), residuals, solved.T, strict=True):
             displacement = float(np.abs(equation.y[:-2]).max()) / equation.contact.law.z0
-            limit = RESIDUAL_TOLERANCE * max(1.0, displacement) * max(1.0, step / NEWTON_TOLERANCE)
+            limit = RESIDUAL_TOLERANCE * max(1.0, displacement) * max(1.0, self._step / NEWTON_TOLERANCE)
             if not residual <= limit:
                 # A soft solid bears a pressure that is small for the law, whose slope is then large for it.
                 steepness = equation.contact.law.z0 * system.steepness(u, *equation.y[-2:])
@@ -267,8 +333,19 @@ class UncondensedEvents:
                     f"the whole nonlinear system is left with a residual of {residual:.1e} of the traction, not "
                     f"{limit:.0e}; take a finer accuracy"
                 )
-            self._points[name] = equation.point_of(system, iterations, residual)
-            self._shifted[name] = shifted[name].point_of(system, iterations, residual)
+        return dict(zip(self._equations, map(float, residuals), strict=True))
+
+    def _loads(self) -> Array:
+        """Load vectors of all events, and then their rates at the folds."""
+        system, equations = self._system, self._equations
+        loads = [system.load_vector(equation.y) for equation in equations.values()]
+        loads += [system.load_vector_rate(equations[name].y, equations[name].rate) for name in self._folds]
+        return np.stack(loads, axis=1)
+
+    def _by_event(self, columns: Array) -> dict[str, tuple[Array, Array | None]]:
+        """Column of each event, and that of its rate if the event is a fold."""
+        rates = dict(zip(self._folds, columns.T[len(self._equations) :], strict=True))
+        return {name: (column, rates.get(name)) for name, column in zip(self._equations, columns.T, strict=False)}
 
 
 def _left(half_space: HalfSpace, load: Array, u: Array, compliance: Array) -> Array:
@@ -279,11 +356,6 @@ def _left(half_space: HalfSpace, load: Array, u: Array, compliance: Array) -> Ar
     if not half_space.eliminations:
         surface_stiffness(half_space)
     return np.asarray(compliance @ half_space.gathered(half_space.remainder(load, u)))
-
-
-def _columns(values: Array, columns: Mapping[str, tuple[int, int | None]]) -> dict[str, tuple[Array, Array | None]]:
-    """Surface displacement of each event, and its rate if the event is a fold."""
-    return {name: (values[:, i], None if j is None else values[:, j]) for name, (i, j) in columns.items()}
 
 
 # As many as there are paths: an entry holds surface displacements only.
@@ -312,7 +384,8 @@ def uncondensed_events(choice: MeshChoice, spec: MeshSpec, size: float) -> Uncon
         half_space, preconditioner = _preconditioned(*_unit(solid, size), spec)
         return FullSystem(half_space, punch, law, preconditioner)
 
-    return UncondensedEvents(choice.traced(spec, size), system)
+    path = choice.traced(spec, size)
+    return UncondensedEvents(path, choice.lower_contact(spec, size), system)
 
 
 # One: its factors take some 300 MB on a mesh of 5e4 unknowns.

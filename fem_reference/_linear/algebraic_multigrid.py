@@ -32,7 +32,13 @@ def _import_without_docstrings() -> None:
     modules[0].util = modules[1]  # type: ignore[attr-defined]  # as the import does
 
 
-if sys.flags.optimize >= 2 and "pyamg" not in sys.modules:
-    _import_without_docstrings()
+try:
+    if sys.flags.optimize >= 2 and "pyamg" not in sys.modules:
+        _import_without_docstrings()
 
-import pyamg  # noqa: E402  # after the import without docstrings
+    import pyamg
+except ImportError as error:
+    raise ModuleNotFoundError(
+        f"the finite elements are solved with the package pyamg, which cannot be loaded ({error}): pip install pyamg",
+        name="pyamg",
+    ) from error

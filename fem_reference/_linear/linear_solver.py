@@ -5,6 +5,7 @@ Each returns a solution whose residual was recomputed at the end, or raises.
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import dataclass
 
@@ -13,9 +14,10 @@ from scipy import sparse
 
 from fem_reference._elastic.assembly import HalfSpace
 from fem_reference._elastic.scaling import unit_scaling
+from fem_reference._linear.conjugate_gradients import conjugate_gradients, definite_products, products
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._linear.strips import factorise
-from fem_reference._typing import Array
+from fem_reference._typing import Array, Index
 from fem_reference.errors import NotConverged
 
 __all__ = ["LinearResult", "relative_residual", "solve_cg", "solve_direct"]
@@ -24,13 +26,14 @@ __all__ = ["LinearResult", "relative_residual", "solve_cg", "solve_direct"]
 #: Relative residual: the displacement is then good to 1e-9, below the discretisation of any fine mesh.
 TOLERANCE = 1e-10
 
-#: Residual that rounding of the displacement leaves, whatever the tolerance: measured 2e-10 for 5e5 unknowns; a
-#: factorisation leaves 2e-10 for 1e5. Steep cones on graded solids have elements so thin that a machine without
-#: extended precision leaves 1e-7, which is refused.
+#: Residual at which rounding may keep a solution (measured: 1e-13 is reached on elements of a millionth of the radius).
 ROUNDING = 1e-9
 
-#: Five times the most ever needed; more means that the preconditioner does not fit the matrix.
+#: Nearly three times the most ever needed, 22; more means that the preconditioner does not fit the matrix.
 ITERATIONS = 60
+
+#: Share of the residual that is left, from which on it is rounding that leaves it.
+STALLED = 0.5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,16 +44,13 @@ class LinearResult:
     ----------
     solution : ndarray, shape (2 N,) or (2 N, q)
         Displacement, zero on the fixed rows.
-    error : ndarray, like `solution`
-        Last step of conjugate gradients, several times the error that is left, plus the preconditioner applied to the
-        last residual, which has that of rounding; zero for the direct solve.
     remainder : ndarray, like `solution`
         Load minus stiffness times displacement, recomputed at the end.
     norm : ndarray, shape (q,)
         Squares of the norms of the loads, in which the residual of conjugate gradients is measured; those of the
         Euclidean one for the direct solve.
-    iterations : int
-        Krylov iterations (0 for the direct solve).
+    iterations : ndarray of int, shape (q,)
+        Krylov iterations of each load (0 for the direct solve).
     residual : float
         Relative residual, recomputed at the end; that of conjugate gradients in the norm of the preconditioner.
     seconds : float
@@ -60,10 +60,9 @@ class LinearResult:
     """
 
     solution: Array
-    error: Array
     remainder: Array
     norm: Array
-    iterations: int
+    iterations: Index
     residual: float
     seconds: float
     storage: int = 0
@@ -75,10 +74,13 @@ def solve_cg(
     preconditioner: ElasticPreconditioner | None = None,
     tolerance: float = TOLERANCE,
     iterations: int = ITERATIONS,
-    start: Array | None = None,
+    norm: Array | None = None,
     rounding: float = ROUNDING,
 ) -> LinearResult:
     """Solve A u = load by preconditioned conjugate gradients, for one or several loads.
+
+    The residual that the iteration believes in differs by rounding from the true one, which is computed anew; the
+    iteration begins again with what is left of the load, until that is below the tolerance (iterative refinement).
 
     Parameters
     ----------
@@ -91,15 +93,15 @@ def solve_cg(
         Of this half-space; built when absent.
     tolerance : float
         Residual to reach in every column, relative in the norm of the preconditioner: the root of r P r / (b P b).
-        The eigenvalues of P A lie between 0.5 and 1 (measured: 0.56 to 1), so it is the relative error in energy to
-        within a factor of 1.4; rounding on small elements is large in other norms and does not matter.
+        The eigenvalues of P A lie between 0.5 and 1 (measured, but for single ones on films 1e5 times as stiff as what
+        is below), so it is the relative error in energy to within a factor of 1.4; rounding on small elements is large
+        in other norms and does not matter.
     iterations : int
         Iterations allowed.
-    start : ndarray, like `load`, optional
-        Displacement to begin with; zero by default.
+    norm : ndarray, shape (q,), optional
+        Squares b P b of the norms to which the residual is relative; those of the loads by default.
     rounding : float
-        Residual that rounding may leave, larger than the tolerance: the iteration ends at the tolerance by its own
-        recursion, and the residual recomputed at the end is only refused above this one.
+        Residual, larger than the tolerance, at which it may stay because of rounding.
 
     Returns
     -------
@@ -108,73 +110,56 @@ def solve_cg(
     Raises
     ------
     NotConverged
-        If the residual does not fall to the tolerance.
+        If the residual does not fall to the tolerance, or the preconditioner is found not to be one
+        (`fem_reference._linear.conjugate_gradients`).
     """
     preconditioner = ElasticPreconditioner(half_space) if preconditioner is None else preconditioner
     free, scale = half_space.free, preconditioner.scale[:, None]
     begin = time.perf_counter()
-    b = scale * load.reshape(load.shape[0], -1)[free]
-    if start is None:
-        x, r = np.zeros_like(b), b.copy()
-    else:
-        x = start.reshape(start.shape[0], -1)[free] / scale
-        r = preconditioner.residual(b, x)
-    count = 0
-    with np.errstate(invalid="ignore", over="ignore"):
-        # Residuals and loads pass through the preconditioner together.
-        left, of_load = np.split(preconditioner(np.concatenate([r, b], axis=1)), 2, axis=1)
-        direction, product, step = left.copy(), _products(r, left), left
-        norm = _products(b, of_load)
-        # The recursive residual differs from the true one by rounding, so half the tolerance is required of it.
-        # One that is not finite ends the iteration; it is refused below.
-        while np.any(product > (0.5 * tolerance) ** 2 * norm) and count < iterations:
-            image = -preconditioner.residual(np.zeros_like(b), direction)
-            length = _ratio(product, _products(direction, image))
-            step = length * direction
-            x += step
-            r -= length * image
-            left = preconditioner(r)
-            before, product = product, _products(r, left)
-            direction = left + _ratio(product, before) * direction
-            count += 1
-        if count:
-            r = preconditioner.residual(b, x)
-            left = preconditioner(r)
-        # Of a residual far below the tolerance, rounding of the preconditioner may change the sign.
-        residual = float(np.sqrt(np.abs(_ratio(_products(r, left), norm))).max())
+    left_over = np.zeros((load.shape[0], load.size // load.shape[0]))
+    left_over[free] = load.reshape(left_over.shape)[free]
+    r = scale * left_over[free]
+    left = preconditioner(r)
+    norm = definite_products(r, left) if norm is None else norm
+    u, counts = np.zeros_like(left_over), np.zeros(r.shape[1], np.intp)
+    before = math.inf
+    while True:
+        relative = _relative(r, left, norm)
+        residual = float(relative.max())
+        if residual <= tolerance or not residual <= STALLED * before:
+            break
+        some = np.flatnonzero(relative > tolerance)
+        # The residual of the recursion differs from the true one by rounding, so half the tolerance is required of it.
+        goal = (0.5 * tolerance) ** 2 * norm[some]
+        allowed = iterations - int(counts.max())
+        iterate = conjugate_gradients(preconditioner.matrix, preconditioner, r[:, some], left[:, some], goal, allowed)
+        step = _expand(half_space, scale * iterate.solution)
+        u[:, some] += step
+        counts[some] += iterate.iterations
+        # Not load - A u: rounding of u would make forces on thin elements.
+        left_over[:, some], before = half_space.remainder(left_over[:, some], step), residual
+        r = scale * left_over[free]
+        left = preconditioner(r)
     seconds = time.perf_counter() - begin
-    # An iteration that ended early has left more than rounding.
-    largest = max(tolerance, rounding if count < iterations else min(rounding, ROUNDING))
-    if not residual <= largest:
+    if not residual <= max(tolerance, rounding):
         raise NotConverged(
-            f"conjugate gradients reached a residual of {residual:.1e} in {count} iterations, not "
-            f"{largest:.1e}; allow more iterations, or use the direct solver"
+            f"conjugate gradients reached a residual of {residual:.1e} in {counts.max()} iterations, not "
+            f"{max(tolerance, rounding):.1e}; use the direct solver, or check modulus and mesh"
         )
-    return LinearResult(
-        _expand(half_space, scale * x).reshape(load.shape),
-        _expand(half_space, scale * (step + left)).reshape(load.shape),
-        _expand(half_space, r / scale).reshape(load.shape),
-        norm,
-        count,
-        residual,
-        seconds,
-    )
+    return LinearResult(u.reshape(load.shape), left_over.reshape(load.shape), norm, counts, residual, seconds)
+
+
+def _relative(r: Array, left: Array, norm: Array) -> Array:
+    """Norms of residuals, relative to those of loads; of a zero load zero."""
+    # Of a residual far below the tolerance, rounding of the preconditioner may change the sign.
+    squares = np.abs(products(r, left))
+    return np.sqrt(np.divide(squares, norm, out=np.zeros_like(squares), where=norm != 0.0))
 
 
 def relative_residual(half_space: HalfSpace, left: Array, norm: Array, preconditioner: ElasticPreconditioner) -> Array:
     """Return what is left of loads, shape (2 N, q), relative to a norm of `LinearResult`: shape (q,)."""
     r = preconditioner.scale[:, None] * left[half_space.free]
-    return np.asarray(np.sqrt(np.abs(_products(r, preconditioner(r)) / norm)))
-
-
-def _products(a: Array, b: Array) -> Array:
-    """Inner products of columns."""
-    return np.einsum("ij,ij->j", a, b)
-
-
-def _ratio(numerator: Array, denominator: Array) -> Array:
-    """Quotients; zero where the denominator is."""
-    return np.divide(numerator, denominator, out=np.zeros_like(numerator), where=denominator != 0.0)
+    return _relative(r, preconditioner(r), norm)
 
 
 def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
@@ -217,10 +202,9 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
             "nearly singular; check modulus, mesh and nu"
         )
     storage = 12 * factors.nnz
-    displacement, remainder = _expand(half_space, scale * x), _expand(half_space, r / scale)
-    return LinearResult(
-        displacement, np.zeros_like(load), remainder, np.array([norm**2]), 0, residual, seconds, storage
-    )
+    displacement, left_over = _expand(half_space, scale * x), _expand(half_space, r / scale)
+    squares, iterations = np.array([norm**2]), np.zeros(1, np.intp)
+    return LinearResult(displacement, left_over, squares, iterations, residual, seconds, storage)
 
 
 def _expand(half_space: HalfSpace, x: Array) -> Array:

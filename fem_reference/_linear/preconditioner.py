@@ -1,17 +1,15 @@
 """Symmetric two-level preconditioner of the stiffness of the half-space, with pyamg on the coarse level.
 
-The smoother solves whole strips of the mesh exactly (`strips`): a sweep is columns, then rows; the reverse sweep closes
-the symmetric preconditioner.  In between, the vertex functions of the hierarchical element, which are exactly the
-bilinear space, carry the smooth error to pyamg's smoothed aggregation, whose finest level is smoothed by strips as well
-(`hierarchy`).
+The smoother solves whole strips of the mesh exactly (`strips`), columns or rows.  The vertex functions of the
+hierarchical element, which are exactly the bilinear space, carry the smooth error to pyamg's smoothed aggregation,
+whose finest level is smoothed by strips as well (`hierarchy`).  A sweep is columns, vertices, rows, vertices, columns,
+the same in both directions: it is its own adjoint.
 
-Measured for an edge a thousandth of its radius wide, from 1e4 to 5e5 unknowns and k = 0 ... 0.8, nu = 0 ... 0.45:
-conjugate gradients take 6 to 9 iterations to 1e-10, at most one more on the finest mesh than on the coarsest.
+Measured for an edge a thousandth of its radius wide, from 1e4 to 3e5 unknowns and k = 0 ... 0.8, nu = 0 ... 0.45:
+conjugate gradients take 5 to 7 iterations to 1e-10, at most one more on the finest mesh than on the coarsest.
 """
 
 from __future__ import annotations
-
-from functools import cached_property
 
 import numpy as np
 from scipy import sparse
@@ -22,13 +20,18 @@ from fem_reference._linear.algebraic_multigrid import pyamg
 from fem_reference._linear.hierarchy import hierarchy_bytes, vertex_hierarchy
 from fem_reference._linear.strips import sparse_bytes, strips_of
 from fem_reference._typing import Array, Index
+from fem_reference.errors import NotConverged
 
 __all__ = ["ElasticPreconditioner"]
 
 
-#: W-cycles of smoothed aggregation a correction, each a twentieth of the work: with fewer, or with V-cycles, the outer
-#: iterations grow with the mesh (measured for 2e5 unknowns: 7; 9 with three, 10 with four V-cycles).
-COARSE_CYCLES = 4
+#: Cycles of smoothed aggregation a correction: with one, the outer iterations grow by one or two, and with more they do
+#: not fall (measured for 8e3 to 3e5 unknowns; at a Tabor number of 300 they are 19, 14 and, with four, 11).
+COARSE_CYCLES = 2
+
+
+#: Least work of the residual on a correction by pyamg, in energies of the correction: 1 but for rounding.
+SMALLEST_WORK = 0.9
 
 
 def _grid_positions(half_space: HalfSpace) -> tuple[Index, Index]:
@@ -72,7 +75,7 @@ class ElasticPreconditioner:
         A.data *= self.scale[A.indices]
         self.matrix: sparse.csr_array = A
         columns, rows = _grid_positions(half_space)
-        self._strips = strips_of(self.matrix, [np.repeat(index, 2)[free] for index in (columns, rows)])
+        self._columns, self._rows = (strips_of(self.matrix, np.repeat(index, 2)[free]) for index in (columns, rows))
         self._vertices, self._coarse = self._build_coarse(half_space)
         self._vertex_columns = self.matrix[:, self._vertices[self._vertices >= 0]].tocsr()
 
@@ -102,40 +105,52 @@ class ElasticPreconditioner:
         return vertices, vertex_hierarchy(coarse, candidates, places)
 
     def __call__(self, b: Array) -> Array:
-        """Apply the preconditioner to right-hand sides of the scaled system, shape (free,) or (free, q)."""
+        """Apply the preconditioner to right-hand sides of the scaled system, shape (free,) or (free, q).
+
+        Raises
+        ------
+        NotConverged
+            If a correction by pyamg is none.
+        """
         b = np.asarray(b, float)
         residual = b.reshape(b.shape[0], -1).copy()
         x = np.zeros_like(residual)
-        for strips in self._strips:
+        columns, (row, other_row) = self._columns, self._rows
+        for strips in columns:
             strips.correct(x, residual)
-        present = self._vertices >= 0
-        vertices = self._vertices[present]
-        # A single level is solved directly.
-        cycles = COARSE_CYCLES if len(self._coarse.levels) > 1 else 1
-        for column, left in zip(x.T, residual.T, strict=True):
-            coarse = np.zeros(self._vertices.size)
-            coarse[present] = left[vertices]
-            correction = self._coarse.solve(coarse, tol=1e-300, maxiter=cycles, cycle="W")[present]
-            column[vertices] += correction
-            left -= self._vertex_columns @ correction
-        for strips in reversed(self._strips):
+        self._correct_vertices(x, residual)
+        for strips in (row, other_row, row):
+            strips.correct(x, residual)
+        self._correct_vertices(x, residual)
+        for strips in reversed(columns):
             strips.correct(x, residual)
         return x.reshape(b.shape)
 
-    @cached_property
-    def _extended(self) -> sparse.csr_array:
-        return self.matrix.astype(np.longdouble)
+    def _correct_vertices(self, x: Array, residual: Array) -> None:
+        """Reduce the error of the vertex functions by pyamg; update x and the residual in place.
 
-    def residual(self, b: Array, x: Array) -> Array:
-        """b - A x of the scaled system, with the extended precision of the machine where it has one.
-
-        Elements of a millionth of their length pull with forces that are a million times as large as those they leave.
-        What rounding leaves of them has a resultant, which would move the whole body.
+        A cycle leaves of every error a share of the same sign.  The work of the residual on the correction is therefore
+        no less than the energy of the correction, and an exact solve has as much of both.
         """
-        return np.asarray(b - self._extended @ x.astype(np.longdouble), float)
+        present = self._vertices >= 0
+        vertices = self._vertices[present]
+        for column, left in zip(x.T, residual.T, strict=True):
+            coarse = np.zeros(self._vertices.size)
+            coarse[present] = left[vertices]
+            correction = self._coarse.solve(coarse, tol=1e-300, maxiter=COARSE_CYCLES)[present]
+            image = self._vertex_columns @ correction
+            work, energy = float(left[vertices] @ correction), float(correction @ image[vertices])
+            if not work >= SMALLEST_WORK * energy or (energy == 0.0 and np.any(left[vertices])):
+                raise NotConverged(
+                    f"the correction by pyamg is none: the residual does the work {work:.1e} on it, and its energy is "
+                    f"{energy:.1e}; check modulus and mesh"
+                )
+            column[vertices] += correction
+            left -= image
 
     @property
     def storage(self) -> int:
         """Bytes of the scaled matrix, of the strips with their factors, and of pyamg's hierarchy."""
         matrices = sparse_bytes(self.matrix) + sparse_bytes(self._vertex_columns) + self._vertices.nbytes
-        return matrices + sum(strips.storage for strips in self._strips) + hierarchy_bytes(self._coarse)
+        strips = sum(half.storage for half in (*self._columns, *self._rows))
+        return matrices + strips + hierarchy_bytes(self._coarse)

@@ -8,7 +8,6 @@ only: it is kept and changed there, at a tenth of the cost of a product with the
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -79,14 +78,14 @@ class Strips:
         return int(self.inside.nbytes + self.lines.nbytes + 12 * self.factors.nnz + sparse_bytes(self.coupling))
 
 
-def strips_of(matrix: sparse.csr_array, positions: Iterable[Index]) -> list[Strips]:
-    """Return both halves of the strips, for each numbering of the grid lines.
+def strips_of(matrix: sparse.csr_array, positions: Index) -> list[Strips]:
+    """Return both halves of the strips.
 
     Parameters
     ----------
     matrix : csr_array, shape (N, N)
         Symmetric positive definite.
-    places : iterable of ndarray of int, shape (N,)
+    positions : ndarray of int, shape (N,)
         Position of each unknown across the lines, such as its column; unknowns on the same position are in one strip.
 
     Raises
@@ -97,20 +96,19 @@ def strips_of(matrix: sparse.csr_array, positions: Iterable[Index]) -> list[Stri
     Examples
     --------
     >>> chain = sparse.diags_array([-np.ones(7), 2 * np.ones(8), -np.ones(7)], offsets=[-1, 0, 1]).tocsr()
-    >>> [strips.lines.tolist() for strips in strips_of(chain, [np.arange(8)])]
+    >>> [strips.lines.tolist() for strips in strips_of(chain, np.arange(8))]
     [[2, 6], [0, 4]]
     """
     strips = []
-    for position in positions:
-        for dropped in (PERIOD // 2, 0):
-            between = position % PERIOD == dropped
-            inside, lines = np.flatnonzero(~between), np.flatnonzero(between)
-            columns = matrix[:, inside].tocsr()
-            try:
-                factors = factorise(columns[inside])
-            except RuntimeError as error:
-                raise NotConverged(f"a strip of the mesh is singular ({error}); check modulus and mesh") from error
-            strips.append(Strips(inside, lines, factors, columns[lines]))
+    for dropped in (PERIOD // 2, 0):
+        between = positions % PERIOD == dropped
+        inside, lines = np.flatnonzero(~between), np.flatnonzero(between)
+        columns = matrix[:, inside].tocsr()
+        try:
+            factors = factorise(columns[inside])
+        except RuntimeError as error:
+            raise NotConverged(f"a strip of the mesh is singular ({error}); check modulus and mesh") from error
+        strips.append(Strips(inside, lines, factors, columns[lines]))
     return strips
 
 

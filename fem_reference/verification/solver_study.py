@@ -116,7 +116,7 @@ def _row(case: SolverCase) -> SolverRow:
         case.k,
         case.nu,
         case.spec.edge_width,
-        iterative.iterations,
+        int(iterative.iterations.max()),
         iterative.residual,
         setup,
         iterative.seconds,

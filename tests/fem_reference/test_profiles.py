@@ -6,12 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fem_reference import MeasuredPunch, NotConverged, PowerLaw
+from fem_reference import MeasuredPunch, NotConverged, PowerLaw, PowerSum
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.mesh_lengths import kinks_within
 from fem_reference._elastic.mesh import MeshSpec, graded_grid
 from fem_reference._elastic.trace import trace_of
 from tests.fem_reference.solved_together import sphere_on
+from tests.refusals import refused
 
 SOFT = PowerLaw(1.0, 1.0, 0.0, 0.3)
 
@@ -49,3 +50,10 @@ def test_too_many_kinks_are_refused():
     r = np.linspace(0.0, 20.0, 101)
     with pytest.raises(NotConverged, match="the slope of the punch jumps at 100 radii"):
         chosen(replace(sphere_on(SOFT), punch=MeasuredPunch(r, r**2 / 2)), ("pull_off",), "quick")
+
+
+def test_a_sum_with_a_cusp_and_a_profile_that_ends_at_its_apex_are_refused():
+    """The pressure at a cusp has no bound, and a profile without height does not rise beyond its last point."""
+    refused("exponent 0.9 ", PowerSum, (1.0, 1.0), (2.0, 0.9))
+    assert PowerSum((1.0, 1.0), (2.0, 1.0)).height(np.array([1.0]))[0] == 2.0
+    refused("last height 0 ", MeasuredPunch, (0.0, 1.0), (0.0, 0.0))

@@ -15,9 +15,10 @@ from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tracing import traced
 from fem_reference._contact.uncondensed import UncondensedEvents, UncondensedValue
-from fem_reference._elastic.assembly import HalfSpace, assemble_half_space
+from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._linear.linear_solver import solve_cg
 from fem_reference.laws import LennardJones
 from fem_reference.modulus import PowerLawModulus
 from fem_reference.problem import Problem
@@ -46,9 +47,9 @@ SOFT = PowerLawModulus(0.3, 1.3, 0.4)
 SPOILED = 1e-5
 
 
-def _soft_contact(spoiled=0.0):
+def _soft_contact(spoiled=0.0, spec=SPEC):
     """A solid with jumps on the small mesh; its compliance is too large by a share."""
-    compliance = compliance_for(SOFT, NU, SPEC, 1.0)
+    compliance = compliance_for(SOFT, NU, spec, 1.0)
     compliance = replace(compliance, matrix=(1.0 + spoiled) * compliance.matrix)
     return Contact(PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9), compliance)
 
@@ -65,6 +66,12 @@ def soft_path():
 
 
 @pytest.fixture(scope="module")
+def lower():
+    """Elements of a lower degree, with whose states the whole system begins."""
+    return _soft_contact(spec=replace(SPEC, order=SPEC.order - 1))
+
+
+@pytest.fixture(scope="module")
 def spoiled_path():
     return PathEvents(traced(_soft_contact(SPOILED)))
 
@@ -76,9 +83,11 @@ def solved():
     return problem, solve(problem, "pull_off_force", "quick")
 
 
-def test_the_value_is_that_of_the_whole_system_and_not_of_the_condensed_path(soft_path, spoiled_path, soft_system):
+def test_the_value_is_that_of_the_whole_system_and_not_of_the_condensed_path(
+    soft_path, spoiled_path, lower, soft_system
+):
     """A wrong compliance moves every condensed value; the whole system brings each back and tells how far it was."""
-    events = UncondensedEvents(spoiled_path, lambda: soft_system)
+    events = UncondensedEvents(spoiled_path, lower, lambda: soft_system)
     for name, row in TABLE.items():
         right, wrong = row.functional(soft_path), row.functional(spoiled_path)
         solution = events.value(row.functional)
@@ -89,12 +98,11 @@ def test_the_value_is_that_of_the_whole_system_and_not_of_the_condensed_path(sof
 
 def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeypatch):
     """With a coarse tolerance the estimate alone, without the distance from the condensed value, is the error."""
-    monkeypatch.setattr(HalfSpace, "recovered", lambda self, w: np.zeros((self.elements.size, w.shape[1])))
     monkeypatch.setattr(uncondensed, "LINEAR_TOLERANCE", 1e-5)
     monkeypatch.setattr(uncondensed, "NEWTON_TOLERANCE", 1e-2)
     monkeypatch.setattr(uncondensed, "ROUNDING_STEP", 1e-2)
     monkeypatch.setattr(uncondensed, "RESIDUAL_TOLERANCE", 1e-2)
-    events = UncondensedEvents(soft_path, lambda: soft_system)
+    events = UncondensedEvents(soft_path, _soft_contact(), lambda: soft_system)
     for name, row in TABLE.items():
         solution, right = events.value(row.functional), row.functional(soft_path)
         estimate = solution.algebra - abs(solution.value - right)
@@ -102,24 +110,27 @@ def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeyp
 
 
 @pytest.mark.parametrize("tolerance", ["ROUNDING_STEP", "RESIDUAL_TOLERANCE"])
-def test_a_missed_tolerance_is_no_number(soft_path, soft_system, monkeypatch, tolerance):
+def test_a_missed_tolerance_is_no_number(soft_path, lower, soft_system, monkeypatch, tolerance):
     monkeypatch.setattr(uncondensed, tolerance, 1e-25)
-    events = UncondensedEvents(soft_path, lambda: soft_system)
-    with pytest.raises(NotConverged, match=r"conjugate gradients|Newton steps|nonlinear system"):
+    events = UncondensedEvents(soft_path, lower, lambda: soft_system)
+    with pytest.raises(NotConverged, match=r"Newton step|nonlinear system"):
         events.value(TABLE["pull_off_force"].functional)
 
 
-def test_an_equilibrium_that_is_left_after_one_step_is_refused_for_its_residual(soft_system, monkeypatch):
+def test_an_equilibrium_that_is_left_after_one_step_is_refused_for_its_residual(lower, soft_system, monkeypatch):
     """Measured: 2e-5 of the traction.  A tolerance that is a hundred times as large would take it."""
     path = PathEvents(traced(_soft_contact(0.01 * SPOILED)))
     monkeypatch.setattr(uncondensed, "NEWTON_TOLERANCE", 1e-4)
-    events = UncondensedEvents(path, lambda: soft_system)
+    events = UncondensedEvents(path, lower, lambda: soft_system)
     with pytest.raises(NotConverged, match="residual"):
         events.value(TABLE["pull_off_force"].functional)
 
 
 def test_the_end_of_a_jump_moves_with_its_beginning(soft_path):
-    beginning, end = EventEquations("jump_in", soft_path.jump_in), EventEquations("landing", soft_path.landing)
+    fold, landed = soft_path.jump_in, soft_path.landing
+    beginning, end = (
+        EventEquations(name, point, _soft_contact()) for name, point in (("jump_in", fold), ("landing", landed))
+    )
     equations = {"jump_in": beginning, "landing": end}
     shifted = {name: equation.copy() for name, equation in equations.items()}
     displacement = 1e-6 * np.exp(-np.arange(beginning.y.size - 2.0))
@@ -138,7 +149,7 @@ def test_the_end_of_a_further_jump_is_kept_on_any_mesh(soft_path):
     assert landing.held
     assert landing.parameter == end.parameter
     assert landing.state.displacement != end.state.displacement
-    equation = EventEquations("landing_2", end)
+    equation = EventEquations("landing_2", end, _soft_contact())
     shifted = {"landing_2": equation.copy()}
     shifted["landing_2"].shift(np.zeros(end.state.y.size - 2), None, shifted, {"landing_2": equation})
     assert not equation.is_fold
@@ -155,17 +166,82 @@ def test_an_event_is_taken_beside_where_it_is(soft_path):
     assert beside.state.displacement < there.state.displacement
 
 
-def test_a_solution_holds_the_value_of_the_whole_system(solved):
+def test_every_event_takes_iterations_and_none_is_refused(soft_path, lower, soft_system, monkeypatch):
+    """The start is another discretisation: an event whose displacement pyamg did not make is no number."""
+    events = UncondensedEvents(soft_path, lower, lambda: soft_system)
+    events.prepare(row.functional for row in TABLE.values())
+    assert {"pull_off", "jump_in", "jump_out", "landing"} <= set(events._points)
+    assert min(point.state.iterations for point in events._points.values()) > 5
+
+    def idle(half_space, load, *_, **options):
+        result = solve_cg(half_space, load, *_, **options)
+        return replace(result, iterations=np.zeros_like(result.iterations))
+
+    monkeypatch.setattr(uncondensed, "solve_cg", idle)
+    again = UncondensedEvents(soft_path, lower, lambda: soft_system)
+    with pytest.raises(NotConverged, match="no iteration"):
+        again.value(TABLE["pull_off_force"].functional)
+
+
+def test_the_whole_system_ends_where_its_condensation_does_from_any_start(soft_path, lower, soft_system):
+    """A lower degree, other elements and the event itself as starts: one equilibrium, to rounding."""
+    other = _soft_contact(spec=replace(SPEC, density=1.1))
+    for start in (_soft_contact(), lower, other):
+        events = UncondensedEvents(soft_path, start, lambda: soft_system)
+        events.prepare(row.functional for row in TABLE.values())
+        for name, row in TABLE.items():
+            value = events.value(row.functional)
+            assert value.value == pytest.approx(row.functional(soft_path), abs=ALGEBRA), name
+            assert value.iterations > 0, name
+
+
+def test_a_coarse_displacement_is_repaired_in_the_steps_that_follow(soft_path, lower, soft_system, monkeypatch):
+    """What the first step leaves of its load is a part of the load of the next one."""
+    monkeypatch.setattr(uncondensed, "LINEAR_TOLERANCE", 1e-4)
+    monkeypatch.setattr(uncondensed, "SHARPER", 1e-8)
+    functional = TABLE["pull_off_force"].functional
+    value = UncondensedEvents(soft_path, lower, lambda: soft_system).value(functional)
+    assert value.value == pytest.approx(functional(soft_path), abs=ALGEBRA)
+    assert value.algebra <= ALGEBRA
+
+
+def test_a_move_along_the_path_keeps_the_equilibrium(soft_path):
+    """Its tangent alone leaves the equilibrium where the traction is steep; rounding of a rate then moves the load."""
+    equation = EventEquations("pull_off", soft_path.pull_off, _soft_contact())
+    y, rate, contact, move = equation.y, equation.rate, equation.contact, 0.01 * equation.parameter
+    equation._move(move)
+    along_the_tangent = np.abs(contact.residual(y + move * rate)).max()
+    assert along_the_tangent > 1e-4
+    assert np.abs(contact.residual(equation.y)).max() <= 0.05 * along_the_tangent
+    assert equation.y[-1] == pytest.approx(equation.parameter, rel=1e-12)
+
+
+def test_a_solution_holds_the_value_of_the_whole_system(solved, monkeypatch):
+    """Another displacement of the mesh is another value, and its distance from the condensed one is in the bound."""
     problem, right = solved
     other = right.with_whole_system(UncondensedValue(right.value + 1.0, 0.5, 7, 1e-3))
     assert (other.value, other.iterations, other.residual) == (right.value + 1.0, 7, 1e-3)
     assert other.parts["algebra"] == right.parts["algebra"] + 0.5
     assert right.parts["algebra"] <= ALGEBRA
-    assert right.iterations <= 5
+    assert right.iterations > 5
     assert 0.0 < right.residual <= uncondensed.RESIDUAL_TOLERANCE
     assert right.u_num == pytest.approx(sum(right.parts.values()))
     _, point = event_state(problem, "pull_off", "quick")
     assert -point.state.load == pytest.approx(right.value, abs=right.parts["algebra"])
+    uncondensed.uncondensed_events.cache_clear()
+
+    def softer(*arguments, **options):
+        result = solve_cg(*arguments, **options)
+        return replace(result, solution=(1.0 + SPOILED) * result.solution)
+
+    monkeypatch.setattr(uncondensed, "solve_cg", softer)
+    monkeypatch.setattr(uncondensed, "RESIDUAL_TOLERANCE", 1.0)
+    wrong = solve(problem, "pull_off_force", "quick")
+    uncondensed.uncondensed_events.cache_clear()
+    moved = abs(wrong.value - right.value)
+    assert wrong.values == right.values
+    assert moved > 100 * ALGEBRA
+    assert wrong.parts["algebra"] >= 0.9 * moved
 
 
 def test_facet_forms_on_elements_thinner_than_rounding_resolves():

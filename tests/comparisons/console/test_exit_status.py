@@ -42,7 +42,8 @@ def raising(error):
     [
         (ValueError("a gate \x1b[31mred"), WRONG_INPUT, "a gate \\x1b[31mred"),
         (ModuleNotFoundError("No module", name="bokeh.core"), WRONG_INPUT, "the package bokeh.core is not installed"),
-        (ModuleNotFoundError("No module", name="numpy"), FAILED, "internal error: ModuleNotFoundError"),
+        (ModuleNotFoundError("No module", name="numpy"), FAILED, "the package numpy of the installation is missing"),
+        (ImportError("no name", name="comparisons.cli"), FAILED, "internal error: ImportError"),
         (RuntimeError("two\nlines"), FAILED, "internal error: RuntimeError: two lines; please report it"),
         (OSError(errno.ENOSPC, NO_ROOM, "/a/b"), FAILED, f"/a/b cannot be read or written ({NO_ROOM})"),
         (OSError(errno.ENOSPC, NO_ROOM), FAILED, "the standard output or a file cannot be written"),

@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.screen import output, print_lines
-from comparisons.console.exit_status import EXTRAS, WRONG_INPUT
+from comparisons.console.exit_status import EXTRAS, FAILED, WRONG_INPUT
 from comparisons.console.progress import log, note
 from comparisons.output.terminal import rich_table
 from tests.comparisons.grid_text import grid_text
@@ -59,6 +59,21 @@ def test_no_module_of_the_working_folder_is_imported_by_any_process_of_the_progr
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert not (tmp_path / "imported").exists()
+
+
+def test_without_pyamg_the_finite_elements_say_so_in_one_sentence():
+    """And a command that does not need it works."""
+    solve = ["solve", "--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1", "--model"]
+    for model, status, words in (("fem", FAILED, "the package pyamg"), ("jkr", 0, "")):
+        code = (
+            "import sys; sys.modules['pyamg'] = None; from comparisons.__main__ import main; "
+            f"sys.argv[1:] = {[*solve, model]!r}; sys.exit(main())"
+        )
+        done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
+        assert done.returncode == status, done.stderr
+        assert words in done.stderr
+        assert done.stderr.count("\n") == (1 if words else 0)
+        assert "internal error" not in done.stderr
 
 
 @pytest.mark.parametrize("extra", EXTRAS)
