@@ -137,7 +137,8 @@ def kappa(table: pd.DataFrame, over: str = "") -> Plot:
         over = "case" if rows["n"].isna().any() else max(_HEADINGS, key=lambda name: rows[name].nunique())
     parameters = [heading for name, heading in reversed(_HEADINGS.items()) if over not in (name, "case")]
     rows = _by_quantity(rows, "n", "k", "mu", "model", over)
-    choices = columns("quantity", "reference", *parameters)
+    several = ("reference",) if rows["reference"].nunique() > 1 else ()
+    choices = columns("quantity", *several, *parameters)
 
     def hover(row: Record) -> str:
         where = case_text({name: row.get(name) for name in CASE})
