@@ -52,7 +52,7 @@ def test_the_function_and_the_command_leave_the_same_tables_and_record(small_gri
 
 
 def test_the_figure_of_the_paper_is_drawn_where_there_are_its_cases(tmp_path, monkeypatch):
-    grid = grid_text(["md-improved"], tier="quick", n=[2], k=[0, 0.4], mu=[0.5, 1])
+    grid = grid_text(["md-improved"], "fscm", tier="quick", n=[2], k=[0, 0.4], mu=[0.5, 1])
     monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(grid))
     run(tmp_path)
     assert (tmp_path / "fig16b_kappa.png").exists()

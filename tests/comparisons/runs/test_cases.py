@@ -82,6 +82,7 @@ CLOSED_FORMS = MODELS.keys() - {
     "fem-large-strain",
     "atlas",
     "jkr-sphere",
+    "jkr-sphere-projected",
 }
 
 
