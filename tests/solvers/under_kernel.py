@@ -60,7 +60,8 @@ def values(names):
 def values_under(kernel, names):
     """The same from a process with a kernel of the BLAS, as a dictionary."""
     command = [sys.executable, "-m", "tests.solvers.under_kernel", *names]
-    run = subprocess.run(command, cwd=ROOT, env=environment(kernel), capture_output=True, text=True, check=True)
+    run = subprocess.run(command, cwd=ROOT, env=environment(kernel), capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
     return {tuple(key): tuple(pair) for key, pair in json.loads(run.stdout)}
 
 
