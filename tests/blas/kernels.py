@@ -59,8 +59,9 @@ def in_force(kernel: str | None = None) -> set[str]:
 
 
 def environment(kernel: str | None) -> dict[str, str]:
-    """Return the environment of a process with a kernel, or with the machine's own."""
-    others = {name: value for name, value in os.environ.items() if name != "OPENBLAS_CORETYPE"}
+    """Return the environment of a process of the tests with a kernel, or with the machine's own."""
+    # The program, which a test may have started in this process, sets a safe path: the tests are modules of a folder.
+    others = {name: value for name, value in os.environ.items() if name not in ("OPENBLAS_CORETYPE", "PYTHONSAFEPATH")}
     return others | ({"OPENBLAS_CORETYPE": kernel} if kernel else {})
 
 

@@ -105,8 +105,8 @@ def test_a_plot_zooms_a_choice_shows_its_rows_and_models_are_switched_on_and_off
     kappa = read_table(run_folder / "kappa.csv")
     unfold(opened, "kappa")
     for n, k in ((2, 0), (1, 0.4)):
-        choose(opened, 2, f"{n}")
-        choose(opened, 3, f"{k}")
+        choose(opened, 1, f"{n}")
+        choose(opened, 2, f"{k}")
         rows = kappa[(kappa["n"] == n) & (kappa["k"] == k)]
         assert [float(text) for text in cells(opened, "kappa", "κ (%)")] == rows["kappa"].tolist()
     before = ranges(opened, "plot-kappa")
@@ -117,7 +117,7 @@ def test_a_plot_zooms_a_choice_shows_its_rows_and_models_are_switched_on_and_off
     for box in opened.find_elements("css selector", "#plot-kappa .models input:checked"):
         click(opened, box)
     assert opened.find_elements("css selector", "#plot-kappa .models input:checked") == []
-    choose(opened, 2, "2")
+    choose(opened, 1, "2")
     assert len(opened.find_elements("css selector", "#plot-kappa .models input:checked")) == 2
 
 
