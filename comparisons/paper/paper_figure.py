@@ -1,13 +1,11 @@
-"""Figures and tables of the paper: the calls they need, the tables of the results, and the picture of the tables."""
+"""Figures and tables of the paper: the plan of their tables, and the picture of the tables."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Generator, Iterable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import product
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -18,105 +16,15 @@ from comparisons.output.latex import latex
 from comparisons.output.markup import markdown
 from comparisons.output.style import save, styled
 from comparisons.output.terminal import records
-from comparisons.paper.cache import CachedCall, Outcome
+from comparisons.paper.plan import Plan
 from comparisons.runs.atomic_files import write_file
 from comparisons.runs.csv_format import csv_text
-
-T = TypeVar("T")
-K = TypeVar("K")
 
 #: The data of a figure, by the name of each table; the main table has the empty name.
 Tables = dict[str, pd.DataFrame]
 
-#: What is made of calls: it yields once, the calls by keys of its own; is sent their results; and returns what it made.
-Plan = Generator[Mapping[Any, CachedCall], Mapping[Any, Any], T]
-
 #: Each picture for the screen, and as vectors for print.
 _FORMATS = (".png", ".pdf")
-
-
-def calls_of(plan: Plan[Any]) -> list[CachedCall]:
-    """Return the calls that a plan needs, each once.
-
-    Examples
-    --------
-    >>> calls_of(rows_of(pow, cases(base=[2], exp=[3, 4, 3])))
-    [CachedCall(function='builtins:pow', arguments=(2, 3)), CachedCall(function='builtins:pow', arguments=(2, 4))]
-    """
-    return list(dict.fromkeys(next(plan).values()))
-
-
-def given(plan: Plan[T], outcomes: Mapping[CachedCall, Outcome]) -> T:
-    """Return what a plan makes of the outcomes of its calls.
-
-    Raises
-    ------
-    ComputationFailed
-        If a call that it needs has failed.
-    """
-    return _made(plan, {key: outcomes[call].get() for key, call in next(plan).items()})
-
-
-def _made(plan: Plan[T], results: Mapping[Any, Any]) -> T:
-    try:
-        plan.send(results)
-    except StopIteration as end:
-        made: T = end.value
-        return made
-    raise RuntimeError("a plan yields its calls once")
-
-
-def together(plans: Mapping[K, Plan[T]]) -> Plan[dict[K, T]]:
-    """Plan what several plans make, by their keys."""
-    calls = {key: next(plan) for key, plan in plans.items()}
-    results = yield {(key, name): call for key, of_plan in calls.items() for name, call in of_plan.items()}
-    return {key: _made(plan, {name: results[key, name] for name in calls[key]}) for key, plan in plans.items()}
-
-
-def result_of(function: Callable[..., Any], *arguments: float | str, **named: float | str) -> Plan[Any]:
-    """Plan the result of one call."""
-    results = yield {"": CachedCall.of(function, *arguments, **named)}
-    return results[""]
-
-
-def cases(**values: Iterable[Any]) -> list[dict[str, Any]]:
-    """Return every combination of values, by their names.
-
-    Examples
-    --------
-    >>> cases(n=[2.0], k=[0.0, 0.4])
-    [{'n': 2.0, 'k': 0.0}, {'n': 2.0, 'k': 0.4}]
-    """
-    return [dict(zip(values, combination, strict=True)) for combination in product(*values.values())]
-
-
-def rows_of(
-    function: Callable[..., Any], keys: Iterable[Mapping[str, Any]], *names: str, **fixed: float | str
-) -> Plan[pd.DataFrame]:
-    """Plan the table of a function: its arguments in each row, and its result, of which these names, by default all.
-
-    A result that lacks a name has NaN there.  What is fixed are arguments that the table does not show.
-    """
-    rows = list(keys)
-    results = yield {index: CachedCall.of(function, **row, **fixed) for index, row in enumerate(rows)}
-    columns = [{name: results[index].get(name, math.nan) for name in names} or results[index] for index in results]
-    return table_of({**row, **of_row} for row, of_row in zip(rows, columns, strict=True))
-
-
-def table_of(rows: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
-    """Return a table of rows of the same names; lists of one length make as many rows, with the numbers repeated.
-
-    Examples
-    --------
-    >>> table_of([{"k": 0.4, "load": [0.0, -1.0]}, {"k": 0.6, "load": 2.0}]).values.tolist()
-    [[0.4, 0.0], [0.4, -1.0], [0.6, 2.0]]
-    """
-    columns: dict[str, list[Any]] = {}
-    for row in rows:
-        length = max(len(value) if isinstance(value, list) else 1 for value in row.values())
-        for name, value in row.items():
-            columns.setdefault(name, []).extend(value if isinstance(value, list) else [value] * length)
-    return pd.DataFrame(columns)
 
 
 #: The main table of a figure as texts: all columns, those for a terminal, and those for paper.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -19,9 +19,10 @@ from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.numerics.number_text import LEAST_SHOWN, case_text, value_text
 from comparisons.paper.figures.functions import LAST_K, insensitive_regions, largest_chi
-from comparisons.paper.paper_figure import Plan, Reading, Tables, cases, paper_figure, result_of, rows_of, together
+from comparisons.paper.paper_figure import Reading, Tables, paper_figure
+from comparisons.paper.plan import Plan, cases, result_of, rows_of, together
 from comparisons.paper.scheme_forces import HEIGHT, exact_force
-from comparisons.paper.statements.measures import case_of, measured
+from comparisons.paper.statements.measures import Number, case_of, measured
 from comparisons.paper.tasks import SHAPES
 
 _K = 0.4
@@ -58,11 +59,14 @@ def _measured(printed: PaperValue) -> Plan[Computed]:
     """Plan its term at a case without Tabor number; of all shapes, if the limit is the same, what is farthest off."""
     k = 0.0 if math.isnan(printed.k) else printed.k
     shapes = SHAPES if math.isnan(printed.n) else (printed.n,)
-    numbers = yield from together(
-        {n: measured(printed.term, "fscm", case_of({"n": n, "k": k, "mu": 1.0})) for n in shapes}
+
+    def farthest(numbers: dict[float, Number]) -> Computed:
+        number = max(numbers.values(), key=lambda number: abs(number.value - printed.value))
+        return Computed(number.value, number.u)
+
+    return together({n: measured(printed.term, "fscm", case_of({"n": n, "k": k, "mu": 1.0})) for n in shapes}).then(
+        farthest
     )
-    farthest = max(numbers.values(), key=lambda number: abs(number.value - printed.value))
-    return Computed(farthest.value, farthest.u)
 
 
 def tabor_numbers(degree: int) -> tuple[float, ...]:
@@ -155,20 +159,25 @@ def _largest_relative_error(paper_value: PaperValue) -> Plan[Computed]:
     n, (exact_stress, printed_stress) = paper_value.n, _stresses(paper_value)
     exact = rows_of(exact_force, cases(mu=tabor_numbers(_EXACT_DEGREE)), n=n, k=_K)
     cohesive = {stress: result_of(cohesive_forces, n, _K, stress) for stress in (exact_stress, printed_stress)}
-    results = yield from together({"exact": exact, **cohesive})
-    force, beyond, u_num = results["exact"][["force", "beyond", "u_num"]].to_numpy().T
-    u = float((u_num / force).max())
-    model, printed = (TaborCurve.through(np.array(results[stress])) for stress in cohesive)
-    kappa, u_kappa, at_mu = largest_error(model, TaborCurve.through(force, u))
-    by_scheme, u_scheme, _ = largest_error(printed, TaborCurve.through(force - beyond, u))
-    scheme = f"f(r_max) = {HEIGHT:g}, nothing beyond; sigma_0 = {printed_stress:g} as printed"
-    return Computed(100.0 * kappa, 100.0 * u_kappa, at_mu, scheme, 100.0 * by_scheme, 100.0 * u_scheme)
+
+    def largest(results: dict[Any, Any]) -> Computed:
+        force, beyond, u_num = results["exact"][["force", "beyond", "u_num"]].to_numpy().T
+        u = float((u_num / force).max())
+        model, printed = (TaborCurve.through(np.array(results[stress])) for stress in cohesive)
+        kappa, u_kappa, at_mu = largest_error(model, TaborCurve.through(force, u))
+        by_scheme, u_scheme, _ = largest_error(printed, TaborCurve.through(force - beyond, u))
+        scheme = f"f(r_max) = {HEIGHT:g}, nothing beyond; sigma_0 = {printed_stress:g} as printed"
+        return Computed(100.0 * kappa, 100.0 * u_kappa, at_mu, scheme, 100.0 * by_scheme, 100.0 * u_scheme)
+
+    return together({"exact": exact, **cohesive}).then(largest)
 
 
 def _largest_chi(paper_value: PaperValue) -> Plan[Computed]:
-    yield {}
-    converged, by_scheme = (100.0 * largest_chi(paper_value.n, last_k)["chi_max"] for last_k in (1.0, LAST_K))
-    return Computed(converged, _CHI_ROUNDING, math.nan, _GRID, by_scheme, _CHI_ROUNDING)
+    def largest(_: object) -> Computed:
+        converged, by_scheme = (100.0 * largest_chi(paper_value.n, last_k)["chi_max"] for last_k in (1.0, LAST_K))
+        return Computed(converged, _CHI_ROUNDING, math.nan, _GRID, by_scheme, _CHI_ROUNDING)
+
+    return Plan({}, largest)
 
 
 def first_or_last_step(end: float, *, first: bool) -> float:
@@ -184,11 +193,14 @@ def first_or_last_step(end: float, *, first: bool) -> float:
 
 
 def _insensitive_region(paper_value: PaperValue) -> Plan[Computed]:
-    ends = yield from together({last_k: result_of(insensitive_regions, last_k) for last_k in (1.0, LAST_K)})
     index = paper_value.index
-    # Ends of even index are where a region begins.
-    step = first_or_last_step(ends[LAST_K][index], first=index % 2 == 0)
-    return Computed(ends[1.0][index], _REGION_ROUNDING, math.nan, _GRID, step, 0.0)
+
+    def end(ends: dict[float, list[float]]) -> Computed:
+        # Ends of even index are where a region begins.
+        step = first_or_last_step(ends[LAST_K][index], first=index % 2 == 0)
+        return Computed(ends[1.0][index], _REGION_ROUNDING, math.nan, _GRID, step, 0.0)
+
+    return together({last_k: result_of(insensitive_regions, last_k) for last_k in (1.0, LAST_K)}).then(end)
 
 
 #: How numbers that are no measures are computed, by their names.
@@ -242,5 +254,5 @@ def readable(table: pd.DataFrame) -> Reading:
 def paper_values() -> Plan[Tables]:
     """Numbers printed in the paper, computed again."""
     printed = printed_values()
-    computed = yield from together(dict(enumerate(map(computed_again, printed))))
-    return {"": pd.DataFrame([judged(value, computed[index]) for index, value in enumerate(printed)])}
+    again = together(dict(enumerate(map(computed_again, printed))))
+    return together({"": again.then(lambda computed: pd.DataFrame(map(judged, printed, computed.values())))})

@@ -9,7 +9,7 @@ from pathlib import Path
 from comparisons.data.file_names import RECORD
 from comparisons.model import ComputationFailed
 from comparisons.paper.cache import CachedCall, Outcome, make_calls
-from comparisons.paper.paper_figure import PaperFigure, Tables, calls_of, given
+from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.registry import paper_figures
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import checked_jobs
@@ -64,7 +64,7 @@ def make_figures(names: Iterable[str] | None, folder: Path, *, jobs: int = 1) ->
     figures = paper_figures(wanted)
     with locked(prepare_folder(folder)):
         started = now()
-        calls = dict.fromkeys(call for figure in figures for call in calls_of(figure.plan()))
+        calls = dict.fromkeys(call for figure in figures for call in figure.plan().needed)
         computed = make_calls(calls, folder, jobs)
         finished = tuple(_finished(figure, computed.outcomes, folder) for figure in figures)
         failed = sum(computed.outcomes[call].failed for call in calls)
@@ -87,7 +87,7 @@ def make_figures(names: Iterable[str] | None, folder: Path, *, jobs: int = 1) ->
 
 def _finished(figure: PaperFigure, outcomes: dict[CachedCall, Outcome], folder: Path) -> FinishedFigure:
     try:
-        tables = given(figure.plan(), outcomes)
+        tables = figure.plan().given(outcomes)
         return FinishedFigure(figure, tables, tuple(figure.write(tables, folder)))
     except ComputationFailed as failure:
         return FinishedFigure(figure, {}, (), str(failure))

@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
 from comparisons.paper.drawing import LABELS, beside_fem, by_model, held, legend_below, level, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, result_of, rows_of, together
+from comparisons.paper.paper_figure import Tables, paper_figure
+from comparisons.paper.plan import Plan, cases, result_of, rows_of, together
 from comparisons.paper.statements.equilibria import turning_points
 from comparisons.paper.tasks import GRADIENTS, curve, named_points, quantity
 
@@ -86,9 +87,9 @@ def fig03_s_curve() -> Plan[Tables]:
         "points": result_of(named_points, **_CASE),
         "hysteresis": rows_of(quantity, [{"quantity": "hysteresis_energy"}], model="fscm", **_CASE),
     }
-    tables: Tables = yield from together(plans)
-    points = pd.DataFrame(tables["points"]).T.rename_axis("name").reset_index()
-    return tables | {"points": points}
+    return together(plans).then(
+        lambda tables: tables | {"points": pd.DataFrame(tables["points"]).T.rename_axis("name").reset_index()}
+    )
 
 
 def curves(keys: list[dict[str, Any]]) -> Plan[Tables]:
@@ -166,9 +167,12 @@ def _fold_pairs(figure: Figure, table: pd.DataFrame) -> None:
 def finding_fold_pairs() -> Plan[Tables]:
     """Additional turning points of the displacement at mu = 3."""
     keys = [key for k in _FOLDS for key in cases(model=["fscm", "fem"], n=[2.0], k=[k], mu=[3.0])]
-    table = yield from rows_of(curve, keys, "central_gap", "displacement", "u_displacement")
+    return together({"": rows_of(curve, keys, "central_gap", "displacement", "u_displacement").then(_turns_marked)})
+
+
+def _turns_marked(table: pd.DataFrame) -> pd.DataFrame:
     turns: list[int] = []
     for _, path in table.groupby(["k", "model"]):
         points = turning_points(path["displacement"].to_numpy(), path["u_displacement"].iloc[0])
         turns.extend(path.index[points])
-    return {"": table.assign(turning_point=table.index.isin(turns))}
+    return table.assign(turning_point=table.index.isin(turns))

@@ -14,7 +14,8 @@ from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.jkr import JKR
 from comparisons.output.style import COLOURS
 from comparisons.paper.drawing import LABELS, by_model, dashed, held, legend_below, level, lines_by, panels
-from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, result_of, rows_of, together
+from comparisons.paper.paper_figure import Tables, paper_figure
+from comparisons.paper.plan import Plan, cases, result_of, rows_of, together
 from comparisons.paper.tasks import SHAPES, TRACTION
 from comparisons.problem import Problem
 
@@ -165,10 +166,17 @@ def _gradient_effect(figure: Figure, table: pd.DataFrame, largest: pd.DataFrame,
 @paper_figure(_gradient_effect)
 def fig11_gradient_effect() -> Plan[Tables]:
     """Deviation chi of the JKR pull-off force from the homogeneous solid's, and its largest over k."""
-    plans = {"": rows_of(over_gradients, cases(n=SHAPES)), "largest": rows_of(largest_chi, cases(n=_OVER))}
-    tables = yield from together({**plans, "regions": result_of(insensitive_regions)})
-    ends = tables["regions"]
-    return tables | {"regions": pd.DataFrame({"limit": _LIMIT, "n_from": ends[::2], "n_to": ends[1::2]})}
+
+    def table_of_ends(ends: list[float]) -> pd.DataFrame:
+        return pd.DataFrame({"limit": _LIMIT, "n_from": ends[::2], "n_to": ends[1::2]})
+
+    return together(
+        {
+            "": rows_of(over_gradients, cases(n=SHAPES)),
+            "largest": rows_of(largest_chi, cases(n=_OVER)),
+            "regions": result_of(insensitive_regions).then(table_of_ends),
+        }
+    )
 
 
 def _chi_range(figure: Figure, table: pd.DataFrame, ends: pd.DataFrame) -> None:
@@ -186,10 +194,13 @@ def _chi_range(figure: Figure, table: pd.DataFrame, ends: pd.DataFrame) -> None:
 @paper_figure(_chi_range, size=(5.0, 3.4))
 def finding_chi_range() -> Plan[Tables]:
     """End of the second range of small chi, for three largest gradient exponents."""
-    plans = {last_k: result_of(insensitive_regions, last_k) for last_k in _LAST}
-    results = yield from together({"": rows_of(largest_chi, cases(last_k=_LAST, n=_END), "chi_max"), **plans})
-    ends = pd.DataFrame([{"last_k": last_k, "n_to": results[last_k][3]} for last_k in _LAST])
-    return {"": results[""], "ends": ends}
+
+    def table_of_ends(regions: dict[float, list[float]]) -> pd.DataFrame:
+        return pd.DataFrame([{"last_k": last_k, "n_to": ends[3]} for last_k, ends in regions.items()])
+
+    regions = together({last_k: result_of(insensitive_regions, last_k) for last_k in _LAST})
+    largest = rows_of(largest_chi, cases(last_k=_LAST, n=_END), "chi_max")
+    return together({"": largest, "ends": regions.then(table_of_ends)})
 
 
 def dugdale(stress: float) -> pd.DataFrame:
@@ -222,7 +233,10 @@ def _laws(figure: Figure, table: pd.DataFrame, laws: pd.DataFrame) -> None:
 @paper_figure(_laws)
 def fig12_surface_laws() -> Plan[Tables]:
     """The cohesive stress eta(n), and the surface laws of the FSCM and both Maugis-Dugdale models."""
-    yield {}
+    return Plan({}, lambda _: _stresses_and_laws())
+
+
+def _stresses_and_laws() -> Tables:
     shapes = [*np.unique(np.concatenate([np.geomspace(0.7, 100.0, 200), SHAPES])).tolist(), math.inf]
     laws = {
         "fscm": pd.DataFrame({"gap": _GAPS, "pressure": TRACTION(_GAPS)}),

@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from comparisons.models.semi_rigid import jump_in_coefficient
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
 from comparisons.paper.drawing import LABELS, beside_fem, dashed, held, legend_below, level, lines_by, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, result_of, rows_of, together
+from comparisons.paper.paper_figure import Tables, paper_figure
+from comparisons.paper.plan import Plan, cases, result_of, rows_of, together
 from comparisons.paper.statements.measures import table_of_terms
 from comparisons.paper.tasks import GRADIENTS, SHAPES, jumps, near_critical, quantity
 
@@ -56,7 +57,10 @@ def _branches(figure: Figure, table: pd.DataFrame, critical: pd.DataFrame) -> No
 def fig08_jumps() -> Plan[Tables]:
     """Displacement and central gap at the jumps for n = 2, over the Tabor number."""
     beyond = rows_of(jumps, cases(n=[_N], k=GRADIENTS, mu=TABOR_NUMBERS))
-    tables = yield from together({"critical": _onsets(), "near": _onsets("jumps"), "beyond": beyond})
+    return together({"critical": _onsets(), "near": _onsets("jumps"), "beyond": beyond}).then(_from_the_onset)
+
+
+def _from_the_onset(tables: Tables) -> Tables:
     near = tables["near"].drop(columns="jumps").join(pd.DataFrame(tables["near"]["jumps"].tolist()))
     table = pd.concat([near, tables["beyond"]]).sort_values(["k", "mu"], ignore_index=True)
     return {"": table, "critical": tables["critical"]}
@@ -118,7 +122,10 @@ def fig09_jump_asymptotes() -> Plan[Tables]:
         "asymptote": rows_of(asymptotes, cases(n=[_N], k=[_K])),
         "coefficients": rows_of(coefficients, cases(n=SHAPES)),
     }
-    tables = yield from together(plans)
+    return together(plans).then(_displacements_and_coefficients)
+
+
+def _displacements_and_coefficients(tables: dict[str, Any]) -> Tables:
     # Where the two jumps part, then evenly.
     fscm = pd.concat([pd.DataFrame(tables["onset"]["jumps"][:1]), tables["beyond"]])
     by_model = pd.concat({"fscm": fscm, "asymptote": tables["asymptote"]}, names=["model"]).reset_index("model")

@@ -28,7 +28,8 @@ from comparisons.paper.drawing import (
     of_model,
     panels,
 )
-from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, rows_of, together
+from comparisons.paper.paper_figure import Tables, paper_figure
+from comparisons.paper.plan import Plan, cases, rows_of, together
 from comparisons.paper.statements.measures import table_of_terms
 from comparisons.paper.tasks import COHESIVE, GRADIENTS, SHAPES, quantity
 
@@ -93,21 +94,24 @@ def fig10_transition() -> Plan[Tables]:
         *cases(model=["jkr"], n=_SHAPES, k=gradients, mu=(_JKR_FROM, _ENDS[1])),
         *cases(model=["bradley"], n=_SHAPES, k=[0.0], mu=_ENDS),
     ]
-    table = yield from rows_of(quantity, keys, quantity=_FORCE)
-    return {"": table.sort_values(["model", "n", "k", "mu"], ignore_index=True)}
+    forces = rows_of(quantity, keys, quantity=_FORCE)
+    return together({"": forces.then(lambda table: table.sort_values(["model", "n", "k", "mu"], ignore_index=True))})
 
 
 def _of_models(*limits: str) -> Plan[pd.DataFrame]:
     """Forces of the three models, then those of limiting ones."""
     keys = [cases(n=_SHAPES, k=[_K], model=models, mu=TABOR_NUMBERS) for models in (MODEL_LINES, limits)]
-    table = yield from rows_of(quantity, [*keys[0], *keys[1]], quantity=_FORCE)
     columns = ["n", "k", "mu", "model", "value", "u_num", "status", "reason"]
-    return table[columns].astype({"value": float, "u_num": float})
+    forces = rows_of(quantity, [*keys[0], *keys[1]], quantity=_FORCE)
+    return forces.then(lambda table: table[columns].astype({"value": float, "u_num": float}))
 
 
 def by_limit(limit: str) -> Plan[Tables]:
     """Plan the forces over that of a limiting model in the same case, with the uncertainty of the ratio, and kappa."""
-    table = yield from _of_models(limit)
+    return _of_models(limit).then(partial(_scaled, limit=limit))
+
+
+def _scaled(table: pd.DataFrame, limit: str) -> Tables:
     forces = table[table["model"] != limit]
     scale = table[table["model"] == limit].set_index(["n", "mu"])
     by = scale.loc[pd.MultiIndex.from_frame(forces[["n", "mu"]])]
@@ -151,8 +155,7 @@ def fig14_pull_off_models() -> Plan[Tables]:
 @paper_figure(_by_rigid, size=(7.2, 5.6))
 def fig15_pull_off_by_rigid_limit() -> Plan[Tables]:
     """Pull-off force scaled by the rigid (Bradley) limit, k = 0.4."""
-    tables = yield from by_limit("bradley")
-    return {"": tables[""]}
+    return by_limit("bradley").then(lambda tables: {"": tables[""]})
 
 
 def _by_soft(figure: Figure, table: pd.DataFrame, kappa: pd.DataFrame) -> None:

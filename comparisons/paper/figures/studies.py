@@ -29,7 +29,8 @@ from comparisons.fitting.record import Record
 from comparisons.numerics.bounds import relative_difference, relative_uncertainty
 from comparisons.output.style import COLOURS, LINES
 from comparisons.paper.drawing import banded, dashed, held, legend_below, level, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, rows_of, together
+from comparisons.paper.paper_figure import Tables, paper_figure
+from comparisons.paper.plan import Plan, cases, rows_of, together
 from comparisons.paper.tasks import quantity
 from comparisons.problem import Problem, Section
 from comparisons.runs.tasks import evaluate
@@ -124,9 +125,8 @@ def finite_strain() -> Plan[Tables]:
     balls = cases(elasto_adhesion_number=_SOFTNESS, mu=_TABOR_NUMBERS)
     case: dict[str, Any] = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0}
     models = rows_of(quantity, cases(model=MODELS, mu=_TABOR_NUMBERS), "value", "u_num", **case)
-    tables = yield from together({"forces": rows_of(force_of_a_ball, balls), "models": models})
-    errors = _errors(tables["forces"], tables["models"])
-    return {"": errors, "cancel": meeting_points(errors)}
+    errors = together({"forces": rows_of(force_of_a_ball, balls), "models": models}).then(lambda of: _errors(**of))
+    return errors.then(lambda table: {"": table, "cancel": meeting_points(table)})
 
 
 def neglected_by_jkr(elasto_adhesion_number: float) -> dict[str, float]:
@@ -183,7 +183,7 @@ def _neglected(figure: Figure, table: pd.DataFrame) -> None:
 def what_jkr_neglects() -> Plan[Tables]:
     """What JKR neglects on a soft incompressible solid, and how it cancels."""
     balls = cases(elasto_adhesion_number=_SOFTNESS)
-    return {"": (yield from rows_of(neglected_by_jkr, balls, *_CAUSES, "u_strain", "u_total"))}
+    return together({"": rows_of(neglected_by_jkr, balls, *_CAUSES, "u_strain", "u_total")})
 
 
 def sphere_of_tabor_number(k: float, mu: float) -> Problem:

@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
 from comparisons.output.style import COLOURS, MODEL_LINES
 from comparisons.paper.drawing import LABELS, by_model, held, legend_below, level, lines_by, of_model, panels
-from comparisons.paper.paper_figure import Plan, Tables, cases, paper_figure, result_of, rows_of, table_of, together
+from comparisons.paper.paper_figure import Tables, paper_figure
+from comparisons.paper.plan import Plan, cases, result_of, rows_of, table_of, together
 from comparisons.paper.tasks import COHESIVE, GRADIENTS, cohesive_surface, profile, quantity, surface
 
 #: Of the surfaces at pull-off.
@@ -26,8 +27,10 @@ _PUNCH: Any = {"lw": 0.6, "ls": (0, (6, 3)), "label": "_"}
 
 
 def _surfaces(keys: list[dict[str, Any]]) -> Plan[Tables]:
-    table = yield from rows_of(surface, keys)
-    return {"": table.assign(punch=table["radius"] ** _N / _N - table["displacement"])}
+    def with_punch(table: pd.DataFrame) -> pd.DataFrame:
+        return table.assign(punch=table["radius"] ** _N / _N - table["displacement"])
+
+    return together({"": rows_of(surface, keys).then(with_punch)})
 
 
 def _draw(figure: Figure, table: pd.DataFrame, name: str, words: str, farthest: float, top: float) -> None:
@@ -65,9 +68,12 @@ def _shapes(*references: str) -> Plan[dict[str, dict[str, Any]]]:
     plans: dict[Any, Plan[Any]] = {model: result_of(profile, model, **_CASE) for model in references}
     plans |= {model: result_of(cohesive_surface, model, **_CASE) for model in COHESIVE}
     plans |= {(model,): result_of(quantity, model, "pull_off_displacement", **_CASE) for model in references}
-    results = yield from together(plans)
-    at = {model: {"displacement": results[model,]["value"]} for model in references}
-    return {model: {"model": model} | results[model] | at.get(model, {}) for model in (*references, *COHESIVE)}
+
+    def make(results: dict[Any, Any]) -> dict[str, dict[str, Any]]:
+        at = {model: {"displacement": results[model,]["value"]} for model in references}
+        return {model: {"model": model} | results[model] | at.get(model, {}) for model in (*references, *COHESIVE)}
+
+    return together(plans).then(make)
 
 
 def _radii(shapes: dict[str, dict[str, Any]]) -> pd.DataFrame:
@@ -92,7 +98,10 @@ def _over_models(figure: Figure, table: pd.DataFrame, radii: pd.DataFrame) -> No
 @paper_figure(_over_models, size=(7.2, 3.7), follows_path=True)
 def fig17_surface_models() -> Plan[Tables]:
     """Surface and pressure at pull-off of both Maugis-Dugdale models and the FSCM; n = 2, k = 0.4, mu = 1."""
-    shapes = yield from _shapes("fscm")
+    return _shapes("fscm").then(_beside_the_punch)
+
+
+def _beside_the_punch(shapes: dict[str, dict[str, Any]]) -> Tables:
     names = ("model", "radius", "gap", "pressure", "displacement")
     # The closed form is good to rounding.
     table = table_of(
@@ -123,7 +132,10 @@ def _inside(figure: Figure, table: pd.DataFrame, radii: pd.DataFrame) -> None:
 @paper_figure(_inside, size=(5.4, 3.6), follows_path=True)
 def finding_surface_inside() -> Plan[Tables]:
     """Difference of the surfaces of both Maugis-Dugdale models from the FSCM; n = 2, k = 0.4, mu = 1."""
-    shapes = yield from _shapes("fscm", "fem")
+    return _shapes("fscm", "fem").then(_at_common_radii)
+
+
+def _at_common_radii(shapes: dict[str, dict[str, Any]]) -> Tables:
     rows = []
     for model, shape in shapes.items():
         # H + delta is the height of the surface below the punch's tip, w + f (Eq. 4).

@@ -12,7 +12,7 @@ from comparisons.model import Array
 from comparisons.models.closed_form import EPS
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.numerics.curve_distance import curve_distance as distance_of
-from comparisons.paper.paper_figure import Plan, result_of, together
+from comparisons.paper.plan import Plan, result_of, together
 from comparisons.paper.statements.measures import ROUNDING, Measured, Number, Place, call, measure, term
 from comparisons.paper.tasks import COHESIVE, band_width, cohesive_surface, curve, near_critical, profile, surface
 

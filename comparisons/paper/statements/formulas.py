@@ -14,7 +14,7 @@ from comparisons.models.fem_model import FiniteElements
 from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
 from comparisons.paper.figures.functions import largest_chi
-from comparisons.paper.paper_figure import Plan, together
+from comparisons.paper.plan import Plan, together
 from comparisons.paper.scheme_forces import SEGMENTS, exact_force, scheme_force
 from comparisons.paper.statements.measures import ROUNDING, Measured, Number, Place, call, measure, term
 from comparisons.paper.tasks import TRACTION

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Sequence
+from functools import partial
 from itertools import pairwise
 
 import pandas as pd
@@ -12,7 +13,8 @@ import pandas as pd
 from comparisons.data.paper_statements import PaperStatement
 from comparisons.data.paper_statements import paper_statements as stated
 from comparisons.numerics.number_text import value_text
-from comparisons.paper.paper_figure import Plan, Reading, Tables, paper_figure, together
+from comparisons.paper.paper_figure import Reading, Tables, paper_figure
+from comparisons.paper.plan import Plan, together
 from comparisons.paper.statements.kinds import FAILS, HOLDS, UNDECIDED, Evidence, comparisons_of, grouped
 
 #: Verdicts on a statement whose comparisons are decided.
@@ -246,11 +248,14 @@ def readable(table: pd.DataFrame) -> Reading:
 def paper_statements() -> Plan[Tables]:
     """Statements of the paper, judged."""
     statements = stated()
-    comparisons = yield from together({statement.id: comparisons_of(statement) for statement in statements})
-    evidence = {statement.id: decisive(statement, comparisons[statement.id]) for statement in statements}
-    rows = [judged(statement, evidence[statement.id]) for statement in statements]
-    # One row a comparison, with all its digits.
-    comparison_rows = [
-        {"statement": name, **row._asdict(), "outcome": row.outcome} for name, of in evidence.items() for row in of
-    ]
-    return {"": pd.DataFrame(rows), "evidence": pd.DataFrame(comparison_rows)}
+    decided = {statement.id: comparisons_of(statement).then(partial(decisive, statement)) for statement in statements}
+
+    def make(evidence: dict[str, list[Evidence]]) -> Tables:
+        rows = [judged(statement, evidence[statement.id]) for statement in statements]
+        # One row a comparison, with all its digits.
+        comparison_rows = [
+            {"statement": name, **row._asdict(), "outcome": row.outcome} for name, of in evidence.items() for row in of
+        ]
+        return {"": pd.DataFrame(rows), "evidence": pd.DataFrame(comparison_rows)}
+
+    return together(decided).then(make)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from itertools import combinations, pairwise
+from itertools import chain, combinations, pairwise
 from typing import Any, NamedTuple, TypeVar
 
 from comparisons.data.paper_statements import PaperStatement
-from comparisons.paper.paper_figure import Plan, cases, together
+from comparisons.paper.plan import Plan, cases, together
 from comparisons.paper.statements.measures import PARAMETERS, Case, Number, case_of, label, measured, model_of, refused
 
 T = TypeVar("T")
@@ -215,18 +215,21 @@ def judged_by(test: Test) -> Plan[list[Evidence]]:
         for family in families
         for case in family.cases
     }
-    numbers = yield from together(plans)
-    rows: list[Evidence] = []
-    for family in families:
-        values, *limits = ([numbers[text, family.model, case] for case in family.cases] for text in terms)
-        rows += _KINDS[test["kind"]](test, family, values, limits[0] if limits else [])
-    if test.get("largest"):
-        return [max(rows, key=lambda row: row.value)._replace(comparisons=len(rows))]
-    return rows
+
+    def evidence(numbers: dict[tuple[str, str, Case], Number]) -> list[Evidence]:
+        rows: list[Evidence] = []
+        for family in families:
+            values, *limits = ([numbers[text, family.model, case] for case in family.cases] for text in terms)
+            rows += _KINDS[test["kind"]](test, family, values, limits[0] if limits else [])
+        if test.get("largest"):
+            return [max(rows, key=lambda row: row.value)._replace(comparisons=len(rows))]
+        return rows
+
+    return together(plans).then(evidence)
 
 
 def comparisons_of(statement: PaperStatement) -> Plan[list[Evidence]]:
     """Plan the comparisons of a statement, in the order of its tests."""
     tests = [{**statement.arguments, **test} for test in statement.tests]
-    rows = yield from together({index: judged_by(test) for index, test in enumerate(tests)})
-    return [row for of_test in rows.values() for row in of_test]
+    judgements = together({index: judged_by(test) for index, test in enumerate(tests)})
+    return judgements.then(lambda of_tests: list(chain.from_iterable(of_tests.values())))

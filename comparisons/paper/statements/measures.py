@@ -10,7 +10,7 @@ import pandas as pd
 
 from comparisons.models.closed_form import EPS
 from comparisons.numerics.number_text import case_text
-from comparisons.paper.paper_figure import Plan, result_of, together
+from comparisons.paper.plan import Plan, result_of, together
 from comparisons.paper.tasks import JUMPS, jumps, quantity
 from comparisons.quantities import title_of
 
@@ -124,10 +124,13 @@ def call(function: Callable[..., Any], *texts: str, **fixed: float) -> Need:
     """Need the result of a function of texts and of the parameters of the case, but for fixed ones; lists as arrays."""
 
     def need(at: Place) -> Plan[dict[str, Any]]:
-        result = yield from result_of(function, *map(at.text, texts), **dict(at.case) | fixed)
-        return {name: np.array(value, float) if isinstance(value, list) else value for name, value in result.items()}
+        return result_of(function, *map(at.text, texts), **dict(at.case) | fixed).then(_with_arrays)
 
     return need
+
+
+def _with_arrays(result: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: np.array(value, float) if isinstance(value, list) else value for name, value in result.items()}
 
 
 def term(text: str, **changes: Callable[[float], float]) -> Need:
@@ -154,9 +157,12 @@ def measured(text: str, reference: str, case: Case) -> Plan[Number]:
     """Plan the number of a term, as ``relative_error pull_off_force jkr``, by a reference in a case."""
     (title, _, needs, function), arguments = _measure_of(text)
     at = Place(reference, case, arguments)
-    results = yield from together({index: need(at) for index, need in enumerate(needs)})
-    value, u, *titles = function(at, *results.values())
-    return Number(float(value), float(u), titles[0] if titles else f"{at.text(title)}, {at.label}")
+
+    def number(results: dict[int, Any]) -> Number:
+        value, u, *titles = function(at, *results.values())
+        return Number(float(value), float(u), titles[0] if titles else f"{at.text(title)}, {at.label}")
+
+    return together({index: need(at) for index, need in enumerate(needs)}).then(number)
 
 
 def table_of_terms(rows: Iterable[Mapping[str, Any]], **terms: str) -> Plan[pd.DataFrame]:
@@ -170,12 +176,15 @@ def table_of_terms(rows: Iterable[Mapping[str, Any]], **terms: str) -> Plan[pd.D
         for index, row in enumerate(keys)
         for name, text in terms.items()
     }
-    numbers = yield from together(plans)
-    table = pd.DataFrame(keys)
-    for name in terms:
-        of_rows = [numbers[index, name] for index in range(len(keys))]
-        table[name], table[f"u_{name}"] = [number.value for number in of_rows], [number.u for number in of_rows]
-    return table
+
+    def make(numbers: dict[tuple[int, str], Number]) -> pd.DataFrame:
+        table = pd.DataFrame(keys)
+        for name in terms:
+            of_rows = [numbers[index, name] for index in range(len(keys))]
+            table[name], table[f"u_{name}"] = [number.value for number in of_rows], [number.u for number in of_rows]
+        return table
+
+    return together(plans).then(make)
 
 
 def _quantity(at: Place) -> Plan[Any]:

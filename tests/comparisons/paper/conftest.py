@@ -7,7 +7,6 @@ import pytest
 
 from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.cache import make_calls
-from comparisons.paper.paper_figure import calls_of, given
 
 ROOT = Path(__file__).parents[3]
 
@@ -17,7 +16,7 @@ def made_of(tmp_path_factory):
     """Make the calls of a plan and return what it makes of their results."""
 
     def made(plan):
-        return given(plan(), make_calls(calls_of(plan()), tmp_path_factory.mktemp("paper")).outcomes)
+        return plan().given(make_calls(plan().needed, tmp_path_factory.mktemp("paper")).outcomes)
 
     return made
 

@@ -14,7 +14,7 @@ from comparisons.data.paper_statements import paper_statements
 from comparisons.numerics.number_text import value_text
 from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.cache import Outcome
-from comparisons.paper.paper_figure import FIGURES, calls_of, given
+from comparisons.paper.paper_figure import FIGURES
 from comparisons.paper.statements.judgement import FALSE, IN_PART, REFERENCES, decisive, judged
 from comparisons.paper.statements.kinds import FAILS, Evidence, comparisons_of
 from comparisons.paper.tasks import JUMPS
@@ -68,8 +68,8 @@ def outcome(call, formula):
 
 def made_up(id, formula=None):
     statement = STATEMENTS[id]
-    outcomes = {call: outcome(call, formula) for call in calls_of(comparisons_of(statement))}
-    return judged(statement, decisive(statement, given(comparisons_of(statement), outcomes)))
+    outcomes = {call: outcome(call, formula) for call in comparisons_of(statement).needed}
+    return judged(statement, decisive(statement, comparisons_of(statement).given(outcomes)))
 
 
 RISES = "pull-off-rises-with-mu"
