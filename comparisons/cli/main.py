@@ -39,7 +39,6 @@ _COMMANDS = {
     "run": ("runs", "compute the standing cases and judge them"),
     "judge": ("runs", "judge stored results again, by the same gates or others, without computing"),
     "report": ("pages", "write one HTML page of a run"),
-    "leaderboard": ("pages", "write any number of runs as one sortable HTML table"),
     "board": (
         "pages",
         "judge a folder of submitted models and write a web site: errors, verdicts, report cards, history",

@@ -1,11 +1,11 @@
-"""Commands that write of finished runs: a page, a leaderboard, a board of submissions, and how to cite them."""
+"""Commands that write of finished runs: a page, a board of submissions, and how to cite them."""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
 
-from comparisons.cli.options import JOBS, QUIET, command, file, option, output_format
+from comparisons.cli.options import JOBS, QUIET, command, file, output_format
 from comparisons.cli.screen import output
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.printable import printable
@@ -18,7 +18,7 @@ from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
 from comparisons.output.table import laid_out
 from comparisons.output.terminal import rich_table
-from comparisons.pipeline.board import INDEX, leaderboard, make_board
+from comparisons.pipeline.board import INDEX, make_board
 from comparisons.runs.atomic_files import writable_file, write_file
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.environment import version_text
@@ -47,26 +47,6 @@ def report_command(args: argparse.Namespace) -> int:
             raise ValueError(f"--out {path} is a file of the run, which the page would replace; choose another file")
     write_file(path, render(page))
     log(f"the report is {path}")
-    return OK
-
-
-@command(
-    file("folders", metavar="DIR", nargs="+", help="folders of finished runs or sweeps"),
-    file("--out", metavar="FILE.html", required=True, help="the page to write"),
-    option("--mixed", action="store_true", help="accept runs with different cases or gates; the page says so"),
-)
-def leaderboard_command(args: argparse.Namespace) -> int:
-    """Read, lay out and write; return the exit status.
-
-    For example::
-
-        fscm-bench leaderboard results/mine results/other --out leaderboard.html
-    """
-    path = writable_file(args.out)
-    if path.suffix.lower() not in (".html", ".htm"):
-        raise ValueError(f"--out {path} must end in .html: the leaderboard is a page for a browser")
-    write_file(path, leaderboard(args.folders, args.mixed))
-    log(f"the leaderboard is {path}")
     return OK
 
 

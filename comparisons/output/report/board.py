@@ -10,8 +10,8 @@ import pandas as pd
 
 from comparisons.judging.report_card import overall
 from comparisons.output.errors import worst_rows
-from comparisons.output.report.leaderboard import Entry, standing
 from comparisons.output.report.page import Block, Page, errors_and_plot
+from comparisons.output.report.standing import Entry, standing
 from comparisons.output.table import LAYOUT, Table, column, columns, laid_out
 from comparisons.quantities import ALL_QUANTITIES
 
@@ -74,7 +74,7 @@ def standings(entries: Sequence[BoardEntry]) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        As of `comparisons.output.report.leaderboard.standing`, one row a quantity, by model and date; `order` sorts the
+        As of `comparisons.output.report.standing.standing`, one row a quantity, by model and date; `order` sorts the
         quantities, of which the judged one is the first.
     """
     tables = []

@@ -45,7 +45,7 @@ class Page:
     Attributes
     ----------
     kind : str
-        "report", "leaderboard" or "board".
+        "report" or "board".
     headline : str
         The result in one sentence.
     blocks : dict of str to list

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.pipeline.board import leaderboard
+from comparisons.pipeline.board import entry_of
 from comparisons.runs.record import _own_sum
 from comparisons.runs.store import rows_in
 
@@ -148,7 +148,7 @@ def test_code_that_a_record_names_as_a_model_is_not_run(shard, tmp_path, capsys)
     forge(shard, lambda record: record["arguments"].update(model=[spec]))
     assert "unknown model" in refused(capsys, shard)
     with pytest.raises(ValueError, match="unknown model"):
-        leaderboard([shard])
+        entry_of(shard)
 
 
 def test_a_record_without_the_version_of_a_model(shard, capsys):

@@ -1,0 +1,43 @@
+"""The standing of the models of a run: which cases count, and the worst verdict."""
+
+import math
+from dataclasses import replace
+
+import pandas as pd
+import pytest
+
+from comparisons.output.report.standing import Entry, standing
+from comparisons.output.report.stored_run import Stored
+
+
+def entry(kappa, results, planned):
+    columns = ["quantity", "model", "n", "k", "mu", "nu", "reference", "kappa", "u_kappa"]
+    empty = pd.DataFrame(columns=["gate", "candidate", "quantity", "verdict"])
+    return Entry(Stored({}, results, empty, pd.DataFrame(kappa, columns=columns), *[empty] * 5), planned)
+
+
+CASE = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "nu": math.nan, "status": "ok", "model_version": "1"}
+
+
+def test_cases_of_the_verification_and_fresh_ones_do_not_count():
+    results = pd.DataFrame([CASE | {"model": model, "mu": mu} for model in ("a", "exact") for mu in (0.1, 0.2, 7.0)])
+    kappa = [
+        ("pull_off_force", "a", 2.0, 0.0, mu, math.nan, "exact", x, u)
+        for mu, x, u in ((0.1, -0.3, 1e-9), (0.2, 0.4, 0.0))
+    ]
+    planned = {(("a", "pull_off_force", 2.0, 0.0, mu, None, ""), "exact") for mu in (0.1, 0.2)}
+    (row,) = standing(entry(kappa, results, planned)).to_dict("records")
+    assert (row["asked"], row["answered"], row["cases"], row["mu"], row["largest"]) == (2, 2, 2, 0.2, 0.4)
+    assert (row["rms"], row["u"]) == (pytest.approx(math.sqrt(0.125)), 1e-9)
+
+
+def test_a_verdict_on_the_whole_model_counts_for_every_quantity():
+    results = pd.DataFrame([CASE | {"model": model, "mu": 1.0} for model in ("a", "exact")])
+    kappa = [("pull_off_force", "a", 2.0, 0.0, 1.0, math.nan, "exact", 0.0, 0.0)]
+    run_entry = entry(kappa, results, {(("a", "pull_off_force", 2.0, 0.0, 1.0, None, ""), "exact")})
+    rows = [("A", "a", "jump_in_gap", "ERROR"), ("A", "b", "pull_off_force", "FAIL")]
+    passed, on_whole = ("A", "a", "pull_off_force", "PASS"), ("CARD-DIFFERS", "a", "", "INCONCLUSIVE")
+    for more, expected in (([passed], "PASS"), ([passed, on_whole], "INCONCLUSIVE"), ([on_whole], "")):
+        verdicts = pd.DataFrame([*rows, *more], columns=["gate", "candidate", "quantity", "verdict"])
+        (row,) = standing(replace(run_entry, stored=replace(run_entry.stored, verdicts=verdicts))).to_dict("records")
+        assert row["verdict"] == expected
