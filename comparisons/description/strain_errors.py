@@ -1,34 +1,35 @@
-"""What small strains and vertical gaps change of the pull-off force of a ball: interpolation in a table.
+"""Errors of a paraboloid, of vertical gaps and of small strains in the pull-off force of a ball: a table, interpolated.
 
-`fscm` gives the force of the linear solid, whose surface force is that of the vertical gap;
-`fem_reference.solve_large_strain` that of a neo-Hookean one with vertical gaps, and that with the potential of the
-ball.  All are for the exact sphere without friction.  They depend on w/(E* R), mu and nu, and are interpolated in
+`fscm` gives the force of the linear solid, whose surface force is that of the vertical gap, for the paraboloid and for
+the exact sphere; `fem_reference.solve_large_strain` that of a neo-Hookean solid with vertical gaps, and that with the
+potential of the ball.  All are without friction.  They depend on w/(E* R), mu and nu, and are interpolated in
 
 * s / x with x = (w/(E* R))^(1/3), for the relative change s by finite strain, which grows as the contact radius;
-* g = (A - r) / ((1 + r) L), for the relative change A by the potential of the ball.  r is that of a rigid solid, by
-  z0/R, and L = jkr-sphere / jkr-sphere-projected - 1 that of mu -> infinity, where the true area of contact counts in
-  place of the projected one.  g rises from 0 at mu = 0 to 1.
+* g = (A - r) / ((1 + r) L), for the relative change A by the exact sphere, or by the potential of the ball.  r is that
+  of a rigid solid, by z0/R, and L that of mu -> infinity, by `jkr-sphere-projected` against JKR, or by `jkr-sphere`
+  against `jkr-sphere-projected`.  g rises from 0 at mu = 0 to 1.
 
-`python -m tests.comparisons.problem.strain_table` computes the table.  Beyond its largest Tabor number both are
-interpolated towards mu -> infinity, where g = 1, and s/x has the limit `STRAIN_LIMIT` for an incompressible solid.  The
-surface of a compressible solid becomes unstable at large Tabor numbers, where there is no force: s lies about where a
-straight line in 1/mu through the last two points is half way to 1/mu = 0, with a whole way as its uncertainty.  What is
-interpolated is an estimate.
+`python -m tests.comparisons.problem.strain_table` computes the table.  Beyond its largest Tabor number g is
+interpolated towards 1, and so is s/x of its smallest w/(E* R) towards its limit, `third_order.strain_limit`; for larger
+w/(E* R) the difference from that is interpolated towards a limit as uncertain as it is large.  The surface of a
+compressible solid becomes unstable at large Tabor numbers, where the table has no force.  What is interpolated is an
+estimate.
 """
 
 from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from functools import lru_cache
 from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 from scipy.optimize import minimize_scalar
 
+from comparisons.description.changes import Change, Nodes, at_tabor_number, between, relative, towards
+from comparisons.description.third_order import strain_limit
 from comparisons.model import Array
 from comparisons.models.jkr_sphere import JKRSphere, JKRSphereProjected
 from comparisons.problem import Problem, Section
@@ -42,44 +43,23 @@ FILE = "strain_errors.csv"
 SOFTNESS = (1e-5, 1e-4, 1e-3, 5e-3, 2e-2, 5e-2, 1e-1)
 POISSON_RATIOS = (0.0, 0.2, 0.35, 0.5)
 
-#: Share of the change that the uncertainty has in the middle between two rows (measured: a row from its neighbours,
-#: twice as far apart, misses by up to 1 % beside the difference from a straight line).
-BETWEEN = 0.01
-
 #: What g of another Poisson's ratio may differ by from that of an incompressible solid, over x (measured: up to 0.38,
 #: at nu = 0 and w/(E* R) = 0.05).
 OTHER_RATIOS = 0.4
 
-#: Share of the largest change at smaller Tabor numbers that the uncertainty has beyond the last one (measured: forces
-#: of the table from those at smaller Tabor numbers, three at least, miss by up to 0.6 of it).
-FURTHER = 0.5
+#: Contact radius of JKR at pull-off in R x.
+_CONTACT = (9.0 * math.pi / 8.0) ** (1.0 / 3.0)
 
-#: s/x of an incompressible solid for mu -> infinity and w/(E* R) -> 0: 0.0294 a/R with a/R = (9 pi/8)^(1/3) x at the
-#: pull-off of JKR, from the energy of third order of its field.  The table tends to it: 0.0385, 0.0407 at mu = 3 and 5.
-STRAIN_LIMIT = 0.0294 * (9.0 * math.pi / 8.0) ** (1.0 / 3.0)
-
-#: Fall of s/x over x in that limit (measured at mu = 3 and 5, w/(E* R) from 1e-4 to 5e-3: by 0.044 to 0.065).
-STRAIN_CURVATURE = 0.06
-
-#: Powers of 1/mu between which a change is taken to approach its limit (measured between Tabor numbers of 2 and 5: g
-#: with 0.50 to 0.63, rising with mu, s with 0.8 to 1.1).
-_SLOWEST, _FASTEST = 0.4, 1.2
+#: Fall of s/x over x in the limit of mu -> infinity, and its uncertainty for an incompressible solid and another one
+#: (measured: for an incompressible solid at w/(E* R) = 1e-3, 0.056, 0.083 and 0.097 at mu = 3, 5 and 10; for others
+#: 0.02 to 0.15 at Tabor numbers from 2 to 5, most where the surface is nearly unstable).
+STRAIN_CURVATURE, U_INCOMPRESSIBLE, U_COMPRESSIBLE = 0.1, 0.05, 0.1
 
 #: Heights of the apex, in z0, between which the load of a rigid ball has its minimum.
 _HEIGHTS = (-0.4, 2.0)
 
 #: Pieces of the load of a rigid ball, in the logarithm of the radius, and the nodes of each.
 _PIECES, _GAUSS = 48, np.polynomial.legendre.leggauss(16)
-
-
-class Change(NamedTuple):
-    """A relative change and its uncertainty."""
-
-    value: float
-    uncertainty: float
-
-
-_Nodes = Mapping[float, Change]
 
 
 def strain_change(softness: float, mu: float, nu: float) -> Change | None:
@@ -107,9 +87,52 @@ def strain_change(softness: float, mu: float, nu: float) -> Change | None:
     >>> strain_change(0.2, 1.0, 0.3) is None
     True
     """
-    change = _interpolated(softness, nu, lambda x, ratio: _at_tabor_number(_strains(x, ratio), mu, _limit(x, ratio)))
+    change = _interpolated(softness, nu, lambda x, ratio: _strain_at(x, mu, ratio))
     root = float(np.cbrt(softness))
     return change and Change(change.value * root, change.uncertainty * root)
+
+
+def _strain_at(softness: float, mu: float, nu: float) -> Change:
+    """s/x of a row of the table, at any Tabor number."""
+    nodes, last = _strains(softness, nu), max(_strains(softness, nu))
+    if mu <= last:
+        return at_tabor_number(nodes, mu, nodes[last])
+    least = float(np.cbrt(SOFTNESS[0]))
+    base = _strains(SOFTNESS[0], nu)
+    value = at_tabor_number(base, mu, _limit(least, nu, strain_limit(nu) * _CONTACT))
+    if softness == SOFTNESS[0]:
+        return value
+    distance = Change(nodes[last].value - base[last].value, nodes[last].uncertainty + base[last].uncertainty)
+    further = towards(_limit(float(np.cbrt(softness)) - least, nu), distance, last / mu)
+    return Change(value.value + further.value, value.uncertainty + further.uncertainty)
+
+
+def _limit(x: float, nu: float, first: float = 0.0) -> Change:
+    """A limit of s/x: that of first order, and its term of higher order."""
+    uncertainty = U_INCOMPRESSIBLE if nu == POISSON_RATIOS[-1] else U_COMPRESSIBLE
+    return Change(first - STRAIN_CURVATURE * x, uncertainty * x)
+
+
+def shape_change(softness: float, mu: float) -> Change | None:
+    """Return the relative change of the pull-off force by the exact sphere in place of a paraboloid.
+
+    Parameters
+    ----------
+    softness, mu
+        As for `strain_change`.
+
+    Returns
+    -------
+    Change or None
+        As of `strain_change`.
+
+    Examples
+    --------
+    >>> change = shape_change(5e-3, 365.5)
+    >>> round(change.value, 3), change.uncertainty < 1e-3  # by a solution -0.0263
+    (-0.026, True)
+    """
+    return _of_mechanism(shape_limit, 0, softness, mu)
 
 
 def body_change(softness: float, mu: float, nu: float) -> Change | None:
@@ -131,13 +154,34 @@ def body_change(softness: float, mu: float, nu: float) -> Change | None:
     >>> round(change.value, 2), change.uncertainty < 2e-3
     (0.03, True)
     """
-    change = _interpolated(softness, nu, lambda x, _: _at_tabor_number(_areas(x), mu, Change(1.0, 0.0)))
+    return _of_mechanism(area_limit, 1, softness, mu, OTHER_RATIOS if nu < POISSON_RATIOS[-1] else 0.0)
+
+
+def _of_mechanism(
+    of_limit: Callable[[float], float], mechanism: int, softness: float, mu: float, others: float = 0.0
+) -> Change | None:
+    """Interpolate g of a mechanism, with an uncertainty of `others` x besides."""
+    change = _interpolated(
+        softness, POISSON_RATIOS[-1], lambda x, _: at_tabor_number(_shares(x, mechanism), mu, Change(1.0, 0.0))
+    )
     if change is None:
         return None
     root = float(np.cbrt(softness))
-    bound = change.uncertainty + (OTHER_RATIOS * root if nu < POISSON_RATIOS[-1] else 0.0)
-    rigid, limit = rigid_change(root**2 / mu), area_limit(softness)
-    return Change(rigid + (1.0 + rigid) * limit * change.value, (1.0 + rigid) * limit * bound)
+    rigid = rigid_changes(root**2 / mu)[mechanism]
+    unit = (1.0 + rigid) * of_limit(softness)
+    return Change(rigid + unit * change.value, abs(unit) * (change.uncertainty + others * root))
+
+
+@lru_cache(maxsize=256)
+def shape_limit(softness: float) -> float:
+    """Relative change of the pull-off force of JKR by the exact sphere.
+
+    Examples
+    --------
+    >>> round(shape_limit(5e-3), 6)
+    -0.026301
+    """
+    return JKRSphereProjected().evaluate(ball_on(softness, 1.0, 0.5), "pull_off_force").value / 1.5 - 1.0
 
 
 @lru_cache(maxsize=256)
@@ -156,10 +200,11 @@ def area_limit(softness: float) -> float:
 
 
 @lru_cache(maxsize=256)
-def rigid_change(range_over_radius: float) -> float:
-    """Relative change of the pull-off force from a rigid solid by the potential of the ball.
+def rigid_changes(range_over_radius: float) -> tuple[float, float]:
+    """Relative changes of the pull-off force from a rigid solid by the exact sphere, and by the potential of the ball.
 
-    Where the ball is a sphere, both loads are the same integral; they differ by what the shape is beyond 0.95 R.
+    Where the ball is a sphere, the loads of vertical gaps and of the potential are the same integral; they differ by
+    what the shape is beyond 0.95 R.
 
     Parameters
     ----------
@@ -168,8 +213,9 @@ def rigid_change(range_over_radius: float) -> float:
 
     Examples
     --------
-    >>> -2e-6 < rigid_change(1e-3) < 0.0
-    True
+    >>> shape, body = rigid_changes(1e-3)
+    >>> -2e-3 < shape < 0.0, -2e-6 < body < 0.0
+    (True, True)
     """
     ball, law = Ball(1.0), LennardJones(1.0, range_over_radius)
     ends = np.linspace(math.log(1e-4 * math.sqrt(range_over_radius)), math.log(ball.reach), _PIECES)
@@ -186,7 +232,8 @@ def rigid_change(range_over_radius: float) -> float:
             return float(np.sum(measure * traction(rho, np.full_like(rho, height * range_over_radius))))
 
         forces.append(-minimize_scalar(load, bounds=_HEIGHTS, method="bounded", options={"xatol": 1e-9}).fun)
-    return float(forces[1] / forces[0] - 1.0)
+    # That of the paraboloid is 2 pi w R (Bradley).
+    return float(forces[0] - 1.0), float(forces[1] / forces[0] - 1.0)
 
 
 def _interpolated(softness: float, nu: float, node: Callable[[float, float], Change]) -> Change | None:
@@ -195,112 +242,60 @@ def _interpolated(softness: float, nu: float, node: Callable[[float, float], Cha
     if root > roots[-1] * (1.0 + 1e-12):
         return None
     inside = max(root, roots[0])
-    of_ratios = [_between(roots, [node(x, ratio) for x in SOFTNESS], inside) for ratio in POISSON_RATIOS]
-    change = _between(np.array(POISSON_RATIOS), of_ratios, nu)
+    of_ratios = [between(roots, [node(x, ratio) for x in SOFTNESS], inside) for ratio in POISSON_RATIOS]
+    change = between(np.array(POISSON_RATIOS), of_ratios, nu)
     below = abs(change.value) * (1.0 - root / float(roots[0])) if root < roots[0] else 0.0
     return Change(change.value, change.uncertainty + below)
 
 
-def _at_tabor_number(nodes: _Nodes, mu: float, limit: Change | None) -> Change:
-    """Interpolate in the Tabor number; the limit is that of mu -> infinity."""
-    numbers = np.array(sorted(nodes))
-    values = [nodes[number] for number in numbers]
-    if mu < numbers[0]:
-        # It vanishes with mu.
-        return Change(0.5 * values[0].value, 0.5 * abs(values[0].value) + values[0].uncertainty)
-    if mu <= numbers[-1]:
-        return _between(np.log(numbers), values, math.log(mu))
-    return beyond(numbers, values) if limit is None else _towards(limit, values[-1], numbers[-1] / mu)
-
-
-def _towards(limit: Change, last: Change, share: float) -> Change:
-    """Interpolate between the limit of mu -> infinity and the last value; `share` is the last Tabor number over mu."""
-    distance = last.value - limit.value
-    slow, fast = share**_SLOWEST, share**_FASTEST
-    middle, half = 0.5 * (slow + fast), 0.5 * (slow - fast)
-    return Change(
-        limit.value + middle * distance,
-        half * abs(distance) + (1.0 - fast) * limit.uncertainty + slow * last.uncertainty,
-    )
-
-
-def beyond(numbers: Array, nodes: Sequence[Change]) -> Change:
-    """Return what s/x is above the largest Tabor number where its limit is unknown.
-
-    Parameters
-    ----------
-    numbers : ndarray, shape (m,)
-        Tabor numbers, rising, two at least.
-    nodes : sequence of Change
-        The value at each.
-    """
-    last, previous = nodes[-1], nodes[-2]
-    further = (last.value - previous.value) * numbers[-2] / (numbers[-1] - numbers[-2])
-    largest = max(abs(node.value) for node in nodes)
-    return Change(last.value + 0.5 * further, abs(further) + FURTHER * largest + last.uncertainty)
-
-
-def _between(points: Array, nodes: Sequence[Change], point: float) -> Change:
-    """Interpolate; the uncertainty is that of the nodes, and what a curve of another form between them differs by."""
-    values, bounds = np.array([node.value for node in nodes]), np.array([node.uncertainty for node in nodes])
-    value = float(PchipInterpolator(points, values)(point))
-    right = int(np.clip(np.searchsorted(points, point), 1, points.size - 1))
-    share = (point - points[right - 1]) / (points[right] - points[right - 1])
-    form = BETWEEN * 4.0 * share * (1.0 - share) * float(np.abs(values[right - 1 : right + 1]).max())
-    straight = abs(value - float(np.interp(point, points, values)))
-    return Change(value, float(np.interp(point, points, bounds) + straight + form))
-
-
 class _Row(NamedTuple):
-    """Pull-off forces of a row of the table with their bounds, in pi R w: of the body, vertical gaps, small strains."""
+    """A row of the table: pull-off forces with their bounds, in pi R w, and what `rigid_changes` gives."""
 
     body: Change | None
-    vertical: Change
+    vertical: Change | None
     linear: Change
+    paraboloid: Change
+    rigid: tuple[float, float]
 
 
 @lru_cache(maxsize=1)
 def _table() -> dict[tuple[float, float], dict[float, _Row]]:
-    """Rows by w/(E* R) and nu, and by the Tabor number; those without a force are left out."""
+    """Rows by w/(E* R) and nu, and by the Tabor number."""
     table: dict[tuple[float, float], dict[float, _Row]] = {}
     lines = files("comparisons.data").joinpath(FILE).read_text(encoding="utf-8").splitlines()
     for row in csv.DictReader(lines):
-        if row["vertical_force"]:
-            softness, mu, nu, *forces = (float(value) if value else math.nan for value in row.values())
-            body, vertical, linear = (Change(*pair) for pair in zip(forces[::2], forces[1::2], strict=True))
-            table.setdefault((softness, nu), {})[mu] = _Row(body if row["body_force"] else None, vertical, linear)
+        numbers = {name: float(value) for name, value in row.items() if value}
+        forces = {
+            name: Change(numbers[f"{name}_force"], numbers[f"{name}_u_num"]) if f"{name}_force" in numbers else None
+            for name in ("body", "vertical", "linear", "paraboloid")
+        }
+        rows = table.setdefault((numbers["elasto_adhesion_number"], numbers["nu"]), {})
+        rows[numbers["mu"]] = _Row(**forces, rigid=(numbers["rigid_shape"], numbers["rigid_body"]))  # type: ignore[arg-type]  # the last two are never missing
     return table
 
 
-def _relative(a: Change, b: Change) -> Change:
-    return Change(a.value / b.value - 1.0, (a.uncertainty + b.uncertainty) / b.value)
-
-
-def _strains(softness: float, nu: float) -> _Nodes:
+@lru_cache(maxsize=64)
+def _strains(softness: float, nu: float) -> Nodes:
     """Tabor number -> s/x."""
     root = float(np.cbrt(softness))
-    changes = {mu: _relative(row.vertical, row.linear) for mu, row in _table()[softness, nu].items()}
-    return {mu: Change(change.value / root, change.uncertainty / root) for mu, change in changes.items()}
-
-
-def _areas(softness: float, nu: float = POISSON_RATIOS[-1]) -> _Nodes:
-    """Tabor number -> g, of an incompressible solid by default."""
-    limit, nodes = area_limit(softness), {}
+    nodes = {}
     for mu, row in _table()[softness, nu].items():
-        if row.body is None:
-            continue
-        change, rigid = _relative(row.body, row.vertical), rigid_change(float(np.cbrt(softness)) ** 2 / mu)
-        unit = (1.0 + rigid) * limit
-        nodes[mu] = Change((change.value - rigid) / unit, change.uncertainty / unit)
+        if row.vertical is not None:
+            change = relative(row.vertical, row.linear)
+            nodes[mu] = Change(change.value / root, change.uncertainty / root)
     return nodes
 
 
-def _limit(softness: float, nu: float) -> Change | None:
-    """Limit of s/x for mu -> infinity, if it is known; its term of higher order is as uncertain as it is large."""
-    if nu != POISSON_RATIOS[-1]:
-        return None
-    higher = STRAIN_CURVATURE * float(np.cbrt(softness))
-    return Change(STRAIN_LIMIT - higher, higher)
+@lru_cache(maxsize=64)
+def _shares(softness: float, mechanism: int, nu: float = POISSON_RATIOS[-1]) -> Nodes:
+    """Tabor number -> g by the exact sphere (0) or by its potential (1), the latter of an incompressible solid."""
+    limit, nodes = (shape_limit, area_limit)[mechanism](softness), {}
+    for mu, row in _table()[softness, nu].items():
+        changed, force = (row.linear, row.paraboloid) if mechanism == 0 else (row.body, row.vertical)
+        if changed is not None and force is not None:
+            change, unit = relative(changed, force), (1.0 + row.rigid[mechanism]) * limit
+            nodes[mu] = Change((change.value - row.rigid[mechanism]) / unit, change.uncertainty / abs(unit))
+    return nodes
 
 
 def ball_on(softness: float, mu: float, nu: float) -> Problem:

@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import scipy
@@ -66,6 +67,31 @@ class EnergySpectrum:
         # Each share is spread evenly over the interval around its wave number.
         below = np.cumsum(self.shares) - self.shares / 2.0
         return float(np.exp(-np.interp(share, below, np.log(self.wave_numbers))))
+
+
+def modulus_at(problem: Problem, wave_numbers: Array) -> Array:
+    """Return E* = 2/(xi C) in Pa of the solid of a problem at wave numbers xi in 1/m.
+
+    Parameters
+    ----------
+    problem : Problem
+        Its solid is not homogeneous.
+    wave_numbers : ndarray
+
+    Examples
+    --------
+    >>> layers = Section("layers", {"E": (1e3, 1e6), "nu": (0.5, 0.0), "thickness": (1e-6,)})
+    >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
+    >>> problem = Problem(layers, Section("sphere", {"R": 1e-7}), law)
+    >>> [float(f"{modulus:.3g}") for modulus in modulus_at(problem, np.array([1e3, 1e8]))]
+    [1000000.0, 1330.0]
+    """
+    if problem.posed.graded is not None:
+        return np.asarray(2.0 / compliance(problem.posed.graded, wave_numbers * problem.units["radius"]))
+    solid: Any = problem.build(fscm).solid
+    gamma = math.gamma((1.0 + solid.k) / 2.0) / math.gamma((1.0 - solid.k) / 2.0)
+    at_surface = solid.E0 / (solid.response_factor * (1.0 - solid.nu**2)) * gamma
+    return np.asarray(at_surface * (2.0 / (wave_numbers * solid.c0)) ** solid.k)
 
 
 @lru_cache(maxsize=64)
