@@ -31,7 +31,8 @@ def output() -> SafeConsole:
 
 def print_lines(lines: Iterable[str]) -> None:
     """Print whole lines, so that a command in them can be copied."""
-    print(printable("\n".join(lines)))
+    for line in lines:
+        print(printable(line))
 
 
 def print_end(failures: Sequence[Row], folder: Path, files: str = "results are") -> int:

@@ -15,7 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.description.assumptions import assumptions
+from comparisons.description.budget import budget
+from comparisons.description.shared_errors import Json
 from comparisons.fitting.curves import Curves
 from comparisons.fitting.equilibria import distance_of_jkr, is_limit
 from comparisons.fitting.machine import Observations
@@ -24,7 +25,6 @@ from comparisons.fitting.record import Record, checked, read_records
 from comparisons.fitting.search import DESCRIBED, Search, dotted, numbers_of, plain
 from comparisons.model import Array
 from comparisons.problem import Problem
-from comparisons.runs.tasks import evaluate
 
 #: A value is called undetermined where its standard deviation is a larger share of it.
 _UNDETERMINED = 0.5
@@ -85,6 +85,9 @@ class Fit:
         What the curve does not determine.
     position, load : ndarray
         The fitted load at the points of the record, whose positions have the fitted zeros.
+    assumptions : dict, optional
+        Errors of the pull-off force by the assumptions, as of `comparisons.description.budget.budget`; None where the
+        curve does not determine the contact.
 
     Examples
     --------
@@ -102,6 +105,7 @@ class Fit:
     remarks: list[str]
     position: Array
     load: Array
+    assumptions: Json | None = None
 
     def as_json(self) -> dict[str, Any]:
         """Return the fit ready for JSON."""
@@ -123,6 +127,7 @@ class Fit:
             "noise": self.noise,
             "points": len(self.record.load),
             "remarks": self.remarks,
+            "assumptions": self.assumptions,
         }
 
 
@@ -210,7 +215,9 @@ def _described(search: Search, result: Any, curves: Curves, count: int) -> Fit:
     free = [(key, key.value(values[key.name])) for key in search.keys[:count]]
     by_noise = {key.name: key.uncertainty(value, deviations[key.name]) for key, value in free}
     is_determined = all(by_noise[key.name] <= _UNDETERMINED * abs(value) for key, value in free)
-    shifts = _shifts(search, result, curves, problem, is_determined)
+    # The contact that a curve does not determine has no error.
+    assumed = budget(problem, curves.model) if is_determined else None
+    shifts = _shifts(search, result, curves, problem, assumed)
     parameters = {}
     for key, value in free:
         of_key = {
@@ -234,22 +241,20 @@ def _described(search: Search, result: Any, curves: Curves, count: int) -> Fit:
         remarks=[*_remarks(parameters, result), *_stiff(curves.model, problem), *_deep(problem, position)],
         position=position,
         load=load,
+        assumptions=assumed,
     )
 
 
 def _shifts(
-    search: Search, result: Any, curves: Curves, problem: Problem, is_determined: bool
+    search: Search, result: Any, curves: Curves, problem: Problem, assumed: Json | None
 ) -> dict[str, dict[str, float] | None]:
     """What the errors of the model and of the assumptions in the load change, as fitted numbers."""
     errors: dict[str, float | None] = {"model": 0.0, "assumptions": None}
     if curves.model == "jkr":
         distance = distance_of_jkr(problem)
         errors["model"] = distance if math.isfinite(distance) else None
-    # The error of small strains is unknown for a graded solid, whose force takes long at large Tabor numbers, and for a
-    # contact that the curve does not determine.
-    if is_determined and (curves.model == "fscm" or problem.posed.k == 0.0):
-        assumed = assumptions(problem, evaluate("fscm", "pull_off_force", problem))
-        errors["assumptions"] = assumed["total"]["error"] if assumed else None
+    if assumed is not None:
+        errors["assumptions"] = assumed["total"]["error"]
     shifts: dict[str, dict[str, float] | None] = dict.fromkeys(errors)
     for cause, error in errors.items():
         if error is not None:

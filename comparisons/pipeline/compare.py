@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from comparisons.data.file_names import COMPARISON, RECORD
+from comparisons.description.budget import line_of_results
 from comparisons.model import Model
 from comparisons.output.errors import comparison_table, error_summary, relative_error
 from comparisons.output.figures.of_run import draw_comparison
@@ -51,12 +52,15 @@ class Comparison:
         The run folder, with `table` and `figure` as ``comparison.csv``, ``.png`` and ``.pdf``.
     failures : tuple of Row
         The rows of computations that failed.
+    assumptions : str or None
+        A line on the error of the pull-off force by the assumptions of all models (`comparisons.description.budget`).
     """
 
     table: pd.DataFrame
     summary: pd.DataFrame
     folder: Path
     failures: tuple[Row, ...]
+    assumptions: str | None = None
 
     def figure(self) -> Figure:
         """Return the errors as a Matplotlib figure."""
@@ -142,7 +146,9 @@ def compare(
         table = comparison_table(finished.tables.results, finished.inputs.cases.grids, finished.inputs.models)
         if ALL in named:
             table = _of_applicable(table, named)
-        comparison = Comparison(table, error_summary(table), finished.folder, finished.failures)
+        problems = (case for grid in finished.inputs.cases.grids for case in grid.cases)
+        line = line_of_results(problems, finished.tables.results)
+        comparison = Comparison(table, error_summary(table), finished.folder, finished.failures, line)
         write_table(table, finished.folder / COMPARISON)
         save(comparison.figure(), *(finished.folder / f"{COMPARISON}{suffix}" for suffix in (".png", ".pdf")))
         # With the checksums of these files.

@@ -63,6 +63,8 @@ def curve_command(args: argparse.Namespace) -> int:
         print(csv_text(table), end="")
     for path in filter(None, (file_of_points, args.plot)):
         note(f"the curve is in {path}")
+    if problem.name and args.quantity == "force_curve":
+        _note_assumptions(problem, points_of_models)
     return status
 
 
@@ -80,6 +82,17 @@ def _evaluated(models: dict[str, Model], quantity: str, problem: Problem) -> tup
             log(f"{name}: failed: {failure}")
             status = FAILED
     return points_of_models, status
+
+
+def _note_assumptions(problem: Problem, points_of_models: dict[str, Points]) -> None:
+    """Note the error by the assumptions on stderr: stdout and the file have points alone."""
+    # Imported here: problems without a file do not need the table of balls.
+    from comparisons.description.budget import budget, largest_line
+
+    # The bound of a curve is a share of its ranges.
+    line = largest_line((budget(problem, name), points.u_distance, "") for name, points in points_of_models.items())
+    if line:
+        note(line)
 
 
 def _table(points_of_models: dict[str, Points], quantity: str) -> pd.DataFrame:

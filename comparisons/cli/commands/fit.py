@@ -10,6 +10,7 @@ from comparisons.cli.options import JOBS, command, file, option, output_format, 
 from comparisons.cli.screen import output, print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note, waiting
+from comparisons.description.budget import budget_line
 from comparisons.fitting.folder import fit_files, fit_table
 from comparisons.output.terminal import rich_table
 from comparisons.problem import Problem
@@ -83,4 +84,8 @@ def _lines(fitted: dict[str, Any], several_curves: bool) -> list[str]:
     lines = [f"{name}residuals are {share:.2g} times the noise of {fitted['noise'] * 1e9:.3g} nN"]
     if share > 2.0:
         lines.append(f"{name}the model does not describe the curve: u is too small")
+    values = [row for row in fitted["parameters"].values() if row["determined"] and row["value"]]
+    bound = min((row["u"] / abs(row["value"]) for row in values), default=0.0)
+    if line := budget_line(fitted.get("assumptions"), bound):
+        lines.append(f"{name}{line}")
     return lines + [f"{name}{remark}" for remark in fitted["remarks"]]

@@ -53,7 +53,19 @@ def _json(problem: Problem, row: Row) -> str:
         content["dimensionless"] = {name: getattr(row, f"dimensionless_{name}") for name in ("value", "u_num", "unit")}
     if row.reason:
         content["reason"] = row.reason
+    if assumed := _assumed(problem, row):
+        content["assumptions"] = assumed
     return json.dumps(content, allow_nan=False) + "\n"
+
+
+def _assumed(problem: Problem, row: Row) -> dict[str, Any] | None:
+    """The error of the assumptions in a force of a problem file."""
+    if row.value is None or row.quantity != "pull_off_force" or not problem.name:
+        return None
+    # Imported here: the other quantities and problems do not need the table of balls.
+    from comparisons.description.budget import budget
+
+    return budget(problem, row.model)
 
 
 def _csv(row: Row) -> str:
@@ -79,6 +91,11 @@ def _lines(problem: Problem, row: Row) -> list[str]:
         lines.append(f"  dimensionless: {scaled} {row.dimensionless_unit}")
     if row.value is not None and row.reason:
         lines.append(f"  {row.reason}")
+    if (assumed := _assumed(problem, row)) and row.value and row.u_num is not None:
+        from comparisons.description.budget import budget_line
+
+        line = budget_line(assumed, row.u_num / abs(row.value))
+        lines += [f"  {line}"] if line else []
     if (problem["n"], problem["k"]) == (2.0, 0.0):
         # Imported here: the other formats and problems do not need it.
         from comparisons.models.transition_formulas import maugis_parameter

@@ -19,6 +19,7 @@ from comparisons.cli.options import (
 from comparisons.cli.screen import output, print_end, print_lines
 from comparisons.console.exit_status import FAILED
 from comparisons.console.progress import log
+from comparisons.description.budget import line_of_results
 from comparisons.output.summaries import computations_sentence, sweep_tables, terminal_tables
 from comparisons.pipeline.compare import ALL, compare
 from comparisons.pipeline.finished_run import FinishedRun
@@ -88,7 +89,9 @@ def _show(finished: FinishedRun, quiet: bool) -> int:
         console = output()
         for table in sweep_tables(finished.tables.results, finished.tables.kappa):
             console.print(table)
-        print_lines([computations_sentence(finished.counts)])
+        problems = (problem for grid in finished.inputs.cases.grids for problem in grid.cases)
+        line = line_of_results(problems, finished.tables.results)
+        print_lines([computations_sentence(finished.counts), *filter(None, [line])])
     return print_end(finished.failures, finished.folder)
 
 
@@ -135,6 +138,7 @@ def compare_command(args: argparse.Namespace) -> int:
         console = output()
         for table in terminal_tables(finished.table, finished.summary, args.every, console.width):
             console.print(table)
+        print_lines(filter(None, [finished.assumptions]))
     status = print_end(finished.failures, finished.folder, "comparison.csv, comparison.png and the results are")
     if finished.table["kappa"].isna().all():
         log("nothing was evaluated: in no case do both the reference and another model have a value")
