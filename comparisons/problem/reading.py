@@ -78,8 +78,8 @@ def problem_of(document: Mapping[str, Any], source: Source) -> Problem:
     problem = Problem(**sections, name=source.path.name, path=source.path)
     if problem.punch_solid is not None and "solid.friction" in problem.surface:
         raise source.refusal(
-            'solid.friction = "bonded" needs a rigid punch, at which points keep their radius; leave out [punch_solid], '
-            'or write "none"',
+            'solid.friction = "bonded" needs a rigid punch, at which points keep their radius; leave out '
+            '[punch_solid], or write "none"',
             "solid",
             "friction",
         )
