@@ -60,6 +60,8 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
     is_too_large = is_sphere and contact_radius > LARGEST_CONTACT * problem.punch["R"]
     if is_too_large:
         errors = dict.fromkeys(ASSUMPTIONS, error_of(None, reason="the contact is larger than the sphere"))
+    elif "R_solid" in problem.punch.values:
+        errors = dict.fromkeys(ASSUMPTIONS, error_of(None, reason="it is known for one sphere on a plane"))
     else:
         errors = estimates(problem, contact_radius) | _solved(problem, force, by_solution)
     return {

@@ -59,6 +59,8 @@ def equivalent_ball(problem: Problem, contact_radius: float | None = None) -> Eq
     >>> round(ball.softness, 12), round(ball.mu, 1), ball.is_exact
     (0.005, 365.5, True)
     """
+    if "R_solid" in problem.punch.values or problem.punch_solid is not None:
+        raise NotApplicable("it is known for one rigid sphere on a plane solid")
     if problem.punch.kind not in (PARABOLOID, BALL):
         raise NotApplicable(f"it is known for spheres, not for the punch of the kind {problem.punch.kind}")
     if not problem.is_of_the_paper("law"):

@@ -305,11 +305,11 @@ class Problem:
         Examples
         --------
         >>> Problem.dimensionless(2, 0.4, 1).parts
-        'a power-law (k = 0.4) solid, a power-law punch and a lennard-jones-9-3 law'
+        'a power-law solid (k = 0.4), a power-law punch and a lennard-jones-9-3 law'
         """
-        kinds = [f"a {_described(self.solid)} solid", f"a {self.punch.kind} punch", f"a {self.law.kind} law"]
+        kinds = [f"a {_described(self.solid)}", f"a {self.punch.kind} punch", f"a {self.law.kind} law"]
         if self.punch_solid is not None:
-            kinds[1] += f" of a {_described(self.punch_solid)} solid"
+            kinds[1] += f" of a {_described(self.punch_solid)}"
         return f"{kinds[0]}, {kinds[1]} and {kinds[2]}"
 
     @property
@@ -383,7 +383,7 @@ def _described(body: Section) -> str:
     """The kind of a solid, with its exponent and what its surface has, in words."""
     exponent = f" (k = {body['k']:g})" if body.kind == "power-law" and "k" in body.values else ""
     stated = [key for key in ("surface_tension", "friction") if body.get(key) not in (None, 0.0, "none")]
-    return f"{body.kind}{exponent}" + "".join(f" with {key.replace('_', ' ')}" for key in stated)
+    return f"{body.kind} solid{exponent}" + "".join(f" with {key.replace('_', ' ')}" for key in stated)
 
 
 def split_name(name: str) -> list[str]:

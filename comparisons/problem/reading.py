@@ -14,7 +14,7 @@ from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, shown
 from comparisons.problem.columns import read_columns
 from comparisons.problem.form import Source, kind_of, values_in_si
-from comparisons.problem.kinds import KINDS, SECTIONS
+from comparisons.problem.kinds import KINDS, PUNCH_SOLID, SECTIONS
 from comparisons.problem.problem import Problem, Section
 from fscm.punch import unit_of_radii
 
@@ -75,7 +75,9 @@ def problem_of(document: Mapping[str, Any], source: Source) -> Problem:
     if missing := [name for name in SECTIONS if name not in document]:
         raise ValueError(f"{source.path}: {', '.join(missing)} missing; a problem file has {', '.join(SECTIONS)}")
     sections = {name: _section(name, table, source) for name, table in document.items()}
-    problem = Problem(**sections, name=source.path.name, path=source.path)
+    solid, punch, law = (sections[name] for name in SECTIONS)
+    body = sections.get(PUNCH_SOLID)
+    problem = Problem(solid, punch, law, name=source.path.name, path=source.path, punch_solid=body)
     if problem.punch_solid is not None and "solid.friction" in problem.surface:
         raise source.refusal(
             'solid.friction = "bonded" needs a rigid punch, at which points keep their radius; leave out '
