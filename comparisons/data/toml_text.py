@@ -30,7 +30,7 @@ def shipped(name: str) -> dict[str, Any]:
 
     Examples
     --------
-    >>> shipped("kinds.toml")["punch"]["sphere"]["keys"]
+    >>> shipped("kinds.toml")["punch"]["ball"]["keys"]
     {'R': 'length'}
     """
     return tomllib.loads(files("comparisons.data").joinpath(name).read_text(encoding="utf-8"))
