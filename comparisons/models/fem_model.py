@@ -65,7 +65,8 @@ class FiniteElements(SolverModel):
         if quantity == "critical_tabor_number":
             return self._critical_tabor_number(problem)
         units, body = self.physical(problem)
-        return result_of(fem_reference.solve(body, quantity), unit=units[QUANTITIES[quantity].scale])
+        solution = fem_reference.solve(body, quantity, **_friction(problem))
+        return result_of(solution, unit=units[QUANTITIES[quantity].scale])
 
     def _critical_tabor_number(self, problem: Problem) -> Result:
         """Return the Tabor number of the modulus at which jumps begin; that of the problem is not used."""
@@ -78,7 +79,7 @@ class FiniteElements(SolverModel):
 
     def _curve(self, problem: Problem) -> Curve:
         units, body = self.physical(problem)
-        coarse, path = (fem_reference.trace(body, level) for level in _LEVELS)
+        coarse, path = (fem_reference.trace(body, level, **_friction(problem)) for level in _LEVELS)
         u_distance = mesh_difference(coarse.displacement, coarse.load, path.displacement, path.load)
         return curve_of(path, units, u_distance)
 
@@ -140,8 +141,15 @@ def _surface_at_pull_off(poisson_ratio: float, problem: Problem) -> RadialField:
     """Keep the last surface: its pressure and its gap are requested one after the other."""
     units, body = FiniteElements(poisson_ratio).physical(problem)
     with translated(fem_reference):
-        coarse, fine = (fem_reference.profile(body, accuracy=level) for level in _LEVELS)
+        friction = _friction(problem)
+        coarse, fine = (fem_reference.profile(body, accuracy=level, **friction) for level in _LEVELS)
     return surface_of(coarse, fine, units)
+
+
+def _friction(problem: Problem) -> dict[str, Any]:
+    """The friction that a problem states, as an argument of the solver."""
+    stated = problem.solid.get("friction")
+    return {} if stated is None else {"friction": stated}
 
 
 def built(problem: Problem) -> fem_reference.Problem:
