@@ -184,10 +184,13 @@ class LargeStrainPath(EquilibriumPath):
     ----------
     u_displacement, u_load : ndarray
         Bounds of the numerical errors of each state at its central gap, or in contact at its edge radius.
+    end : str
+        Why the path ends earlier than that of small strain; empty if it does not.
     """
 
     u_displacement: Array
     u_load: Array
+    end: str
 
 
 def trace_large_strain(
@@ -198,6 +201,9 @@ def trace_large_strain(
     interaction: InteractionName = "auto",
 ) -> LargeStrainPath:
     """Trace the equilibrium path of finite strain, a point for each one of small strain.
+
+    A ball is pressed into a linear solid as deep as one likes.  Where the load is compressive and no state of finite
+    strain is found, the path ends, and `LargeStrainPath.end` is the reason.
 
     Parameters
     ----------
@@ -226,15 +232,15 @@ def trace_large_strain(
         return _discretisation(problem, event, friction, form, interaction)
 
     with one_thread:
-        points = path_states(problem, accuracy, friction, discretised)
-        u_displacement, u_load = np.array([point.bounds() for point in points]).T
+        points, end = path_states(problem, accuracy, friction, discretised)
         return LargeStrainPath(
             np.array([point.state.displacement for point in points]),
             np.array([point.state.load for point in points]),
             np.array([point.state.gap_at(0) for point in points]),
             np.array([point.edge_radius for point in points]),
-            u_displacement,
-            u_load,
+            np.array([point.u_displacement for point in points]),
+            np.array([point.u_load for point in points]),
+            end,
         )
 
 

@@ -16,6 +16,7 @@ from fem_reference._large_strain.discretisation import Discretisation, LinearEve
 from fem_reference._large_strain.equilibrium import State
 from fem_reference._large_strain.error_parts import state_bounds
 from fem_reference._large_strain.events import Family
+from fem_reference.errors import NotConverged
 from fem_reference.problem import Problem
 
 __all__ = ["PathState", "path_states"]
@@ -27,11 +28,15 @@ _LARGEST_STEP = 0.1
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PathState:
-    """A state of the path, and the elements and the state of small strain from which it was found."""
+    """A state of the path, the state of small strain from which it was found, and the bounds of both its coordinates.
+
+    The bounds are those of the errors of displacement and load at this gap or this edge.
+    """
 
     state: State
-    discretisation: Discretisation
     linear: LinearEvent
+    u_displacement: float
+    u_load: float
 
     @property
     def edge_radius(self) -> float:
@@ -39,21 +44,14 @@ class PathState:
         point = self.linear.point
         return point.edge_radius if point.branch.touching else math.nan
 
-    def bounds(self) -> tuple[float, float]:
-        """Bounds of the errors of displacement and load at this gap or this edge.
-
-        Raises
-        ------
-        NotConverged
-            If the state is not found on one of the meshes.
-        """
-        return state_bounds(self.state, self.discretisation, self.linear)
-
 
 def path_states(
     problem: Problem, accuracy: float | str, friction: Friction, discretised: Callable[[LinearEvent], Discretisation]
-) -> list[PathState]:
-    """Return the states along the path.
+) -> tuple[list[PathState], str]:
+    """Return the states along the path, and why it ends earlier than that of small strain, or nothing.
+
+    A linear solid can be compressed without an end.  Where a state of finite strain is not found after the load has
+    become compressive, the path ends.
 
     Parameters
     ----------
@@ -66,7 +64,7 @@ def path_states(
     Raises
     ------
     NotConverged
-        If a state is not found.
+        If a state before that is not found, or not on one of the meshes of its bounds.
     """
 
     def followed(choice: MeshChoice, spec: MeshSpec, size: float) -> list[Point]:
@@ -78,14 +76,23 @@ def path_states(
     in_contact = False
     for point in _refined(followed(choice, spec, size)):
         linear = LinearEvent(point, spec, size)
-        discretisation = discretised(linear)
-        state = Family(discretisation, linear).state(0.0)
+        try:
+            path_state = _state_at(linear, discretised(linear))
+        except NotConverged as error:
+            if in_contact and states[-1].state.load > 0.0:
+                return states, f"no equilibrium was found at the edge radius {linear.radius:.4g}: {error}"
+            raise
         # The first contact edges of small strain may lie before the last gap of finite strain.
-        in_contact = in_contact or not states or state.gap_at(0) < states[-1].state.gap_at(0)
+        in_contact = in_contact or not states or path_state.state.gap_at(0) < states[-1].state.gap_at(0)
         if in_contact or not point.branch.touching:
             in_contact = point.branch.touching
-            states.append(PathState(state, discretisation, linear))
-    return states
+            states.append(path_state)
+    return states, ""
+
+
+def _state_at(linear: LinearEvent, discretisation: Discretisation) -> PathState:
+    state = Family(discretisation, linear).state(0.0)
+    return PathState(state, linear, *state_bounds(state, discretisation, linear))
 
 
 def _refined(points: list[Point]) -> list[Point]:

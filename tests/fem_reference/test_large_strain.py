@@ -26,13 +26,14 @@ from fem_reference import (
 )
 from fem_reference._elastic.mesh import graded_grid, uniform_grid
 from fem_reference._elastic.trace import trace_of
+from fem_reference._large_strain import whole_path
 from fem_reference._large_strain.core import core_of
 from fem_reference._large_strain.discretisation import linear_event
 from fem_reference._large_strain.equilibrium import Control, solve_state
 from fem_reference._large_strain.error_parts import state_bounds, variants_of
 from fem_reference._large_strain.events import Family, found_event
 from fem_reference._large_strain.surface import Surface, local_slopes
-from fem_reference._large_strain.whole_path import path_states
+from fem_reference._large_strain.whole_path import PathState, path_states
 from fem_reference.interaction import interaction_of
 from fem_reference.large_strain import _discretisation
 from tests.fem_reference.triangles_of_finite_strain import Square
@@ -386,9 +387,10 @@ def test_other_quantities_are_bounded(quantity, bound):
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize(("number", "mu", "nu"), [(5e-3, 2.0, 0.5), (1e-3, 0.5, 0.3)])
+@pytest.mark.parametrize(("number", "mu", "nu"), [(5e-3, 2.0, 0.5), (1e-3, 0.5, 0.3), (5e-3, 0.5, 0.5)])
 def test_the_path_has_one_minimum_of_the_load(number, mu, nu):
     path = trace_large_strain(sphere(number, mu, nu))
+    assert path.load[-1] > 0.0
     assert np.all(np.diff(path.central_gap) < 0.0)
     turns = np.sign(np.diff(path.load))
     assert np.count_nonzero(np.diff(turns)) == 1
@@ -415,12 +417,35 @@ def test_the_bounds_of_a_state_contain_that_of_a_higher_degree(form):
         assert error < bound < 1e-3 * abs(getattr(state, name)), name
 
 
+@pytest.mark.parametrize(("last_load", "ends"), [(1.0, True), (-1.0, False)])
+def test_a_path_ends_where_no_state_is_found_under_compression_only(monkeypatch, last_load, ends):
+    """The first state in contact is found, with a load of this sign, and no other."""
+    problem, states = sphere(1e-3, 1.0, 0.5), []
+
+    def state_at(linear, discretisation):
+        if states and states[-1].linear.point.branch.touching:
+            raise NotConverged("too large")
+        gap = -float(len(states))
+        state = SimpleNamespace(load=last_load, displacement=0.0, gap_at=lambda vertex: gap)
+        states.append(PathState(state, linear, 0.0, 0.0))
+        return states[-1]
+
+    monkeypatch.setattr(whole_path, "_state_at", state_at)
+    if ends:
+        path = trace_large_strain(problem)
+        assert len(path.load) == len(states)
+        assert "too large" in path.end
+    else:
+        with pytest.raises(NotConverged, match="too large"):
+            trace_large_strain(problem)
+
+
 @pytest.mark.heavy
 @pytest.mark.parametrize("nu", [0.3, 0.5])
 def test_the_branches_of_the_path_meet(nu):
     """The first state whose mesh follows the contact edge is one of the branch that the central gap picks."""
     problem = sphere(5e-3, 2.0, nu)
-    path = path_states(
+    path, _ = path_states(
         problem, "quick", "frictionless", lambda event: _discretisation(problem, event, "frictionless", "auto")
     )
     last = max(i for i, point in enumerate(path) if math.isnan(point.edge_radius))
