@@ -132,19 +132,14 @@ class Discretisation:
         """Response of the images at a scale, and the whole response, of bodies that are not one power law."""
         if self._at is None or self._at[0] != c:
             self._at = None  # frees its memory first
-            response, k = self.problem.response, self.problem.k
+            response = self.problem.response
             remainder = response.remainder(self.mesh, c, self._before)
             self._before = None
-            matrix: Array | None = None
-            for k_i, factor in self._factors(c).items():
-                term = self._power_law(k_i)[0]
-                term = term if factor == 1.0 else factor * term
-                matrix = term if matrix is None else matrix + term
+            terms = [(factor, self._power_law(k)[0]) for k, factor in self._factors(c).items()]
             if remainder is not None:
-                factor = response.weight * c**k
-                images = remainder.matrix if factor == 1.0 else factor * remainder.matrix
-                matrix = -images if matrix is None else matrix - images
-            self._at = c, remainder, matrix
+                terms.append((-response.weight * c**self.problem.k, remainder.matrix))
+            matrices = [matrix if factor == 1.0 else factor * matrix for factor, matrix in terms]
+            self._at = c, remainder, sum(matrices[1:], matrices[0])
         return self._at[1:]
 
     def _factors(self, c: float) -> dict[float, float]:

@@ -39,6 +39,10 @@ _VARIATION = np.sort(np.concatenate([0.5 ** np.arange(1, 14), 1.0 - 0.5 ** np.ar
 _RINGS = 4.0 ** np.arange(8)
 
 
+#: Displacements below are zero.
+_TINY = 1e-300
+
+
 @dataclass(frozen=True)
 class Tail:
     """Load and displacement from radii beyond the mesh, and their exact derivatives.
@@ -217,7 +221,7 @@ def tail_variation(problem: Problem, T: float, displacement: float, radii: Array
     bound = np.maximum.accumulate(problem.compliance * (1.0 - k) * strength * (shares @ largest))
     # Near the center it falls like r^2.
     inner = bound[0] * (radii / at[0]) ** 2
-    return np.where(radii < at[0], inner, np.exp(np.interp(radii, at, np.log(bound))))
+    return np.where(radii < at[0], inner, np.exp(np.interp(radii, at, np.log(np.maximum(bound, _TINY)))))
 
 
 def deformation_beyond(problem: Problem, T: float, load: float) -> float:

@@ -12,13 +12,24 @@ from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
+import scipy
 
 from fscm._response_factor import response_factor, response_factor_per_rest
 from fscm._typing import Array
 from fscm._validation import real_number
 from fscm.solids import GradedHalfSpace, PowerLaw, Solid
 
-__all__ = ["Bodies", "ScaledSolid", "power_law_of", "ring_rise", "scaled", "surface_of", "tension_of"]
+__all__ = [
+    "Bodies",
+    "ScaledSolid",
+    "power_law_of",
+    "ring_rise",
+    "scaled",
+    "surface_of",
+    "tension_length",
+    "tension_of",
+    "wave_factor",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +118,30 @@ def surface_of(solid: Solid) -> PowerLaw:
 def ring_rise(surface: PowerLaw) -> float:
     """2 b c0^k / E* of Eq. 6: a ring of unit pressure lifts the surface by so many G_k."""
     return 2.0 * response_factor(surface.k, surface.nu) * surface.c0**surface.k / surface.contact_modulus
+
+
+def wave_factor(k: float) -> float:
+    """h in G_k(r, t) = h t int_0^oo xi^k J0(xi r) J0(xi t) d(xi).
+
+    Examples
+    --------
+    >>> wave_factor(0.0)
+    1.0
+    """
+    return float(scipy.special.gamma(0.5 - 0.5 * k) / (2.0**k * scipy.special.gamma(0.5 + 0.5 * k)))
+
+
+def tension_length(solid: Solid) -> float:
+    """Length l at which surface tension is as stiff as the solid at its surface: Y xi^2 C = (l xi)^(1+k).
+
+    Examples
+    --------
+    >>> from fscm import Homogeneous
+    >>> tension_length(Homogeneous(E=4.0, nu=0.0, surface_tension=6.0))    # 2 Y / E*
+    3.0
+    """
+    surface = surface_of(solid)
+    return float((ring_rise(surface) * wave_factor(surface.k) * tension_of(solid)) ** (1.0 / (1.0 + surface.k)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from typing import Any, overload
 from fscm._response_factor import response_factor_per_rest
 from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, units_of
 from fscm._validation import real_number
-from fscm.bodies import Bodies, ScaledSolid, power_law_of, scaled
+from fscm.bodies import Bodies, ScaledSolid, power_law_of, scaled, tension_length, tension_of
 from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law
 from fscm.punch import PowerPunch, PunchShape, scaled_punch, unit_of_radii
 from fscm.solids import GradedHalfSpace, PowerLaw, Solid
@@ -30,6 +30,10 @@ _LARGEST_N = 300.0
 #: Range of M = 2 mu^((2n+k-1)/n).  Below, the solid is rigid to every digit of a double; above, the cohesive edge, of a
 #: relative width of at most 1 / M, is as narrow as the rounding of a radius.
 _LEAST_M, _LARGEST_M = 1e-30, 1e15
+
+#: Shortest length at which surface tension acts, in (Q z0)^(1/n), and the inverse of the longest: shorter waves than
+#: 1e-20 carry none of the pressure, and at 1e20 the surface is a rigid plane to all digits.
+_SHORTEST = 1e-20
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -133,7 +137,7 @@ class Problem:
         # The four positions of a physical problem are solid, punch, law and the solid of the punch.
         if hasattr(n, "modulus"):
             solid, n = n, None
-            if hasattr(punch, "modulus"):
+            if isinstance(k, PunchShape) and punch_solid is None:
                 punch, punch_solid = None, punch
             punch, k = (k, None) if punch is None else (punch, k)
             law, mu = (mu, None) if law is None else (law, mu)
@@ -143,8 +147,8 @@ class Problem:
             self._pose_physical(solid, punch, law, punch_solid)
         else:
             raise ValueError(
-                "a problem has a solid, a punch and a law, or else n, k and mu: a physical problem is changed by "
-                "making another one of its parts"
+                "a problem has a solid, a punch, a law and perhaps a punch_solid, or else n, k and mu: a physical "
+                "problem is changed by making another one of its parts"
             )
 
     def _pose(self, n: Any, k: Any, mu: Any, punch: Any, law: Any, graded: Any) -> None:
@@ -204,11 +208,11 @@ class Problem:
                     f"solid = {body!r} is no solid: one of your own needs modulus(z), poisson(z), length, interfaces"
                 )
         # Everything is measured as on the power law that all bodies are at short waves.
-        power_law, graded = bodies.surface, None
+        power_law = bodies.surface
+        graded: ScaledSolid | Bodies | None = None
         if not bodies.are_one_power_law:
-            in_unit = tuple(scaled(body, units["radius"]) for body in bodies.solids)
-            alone = len(in_unit) == 1 and isinstance(in_unit[0], ScaledSolid)
-            graded = in_unit[0] if alone else Bodies(in_unit)
+            first, *others = (scaled(body, units["radius"]) for body in bodies.solids)
+            graded = first if isinstance(first, ScaledSolid) and not others else Bodies((first, *others))
         k = power_law.k
         _check_exponents(n, k, punch, law)
         mu = number_from_log("Tabor number", log_tabor_number(power_law, n, Q, w, z0))
@@ -223,8 +227,8 @@ class Problem:
             object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
-        names = ("n", "k", "mu", "punch", "law") if self.solid is None else ("solid", "punch", "law")
-        names += tuple(name for name in ("punch_solid", "graded") if getattr(self, name) is not None)
+        names = ["n", "k", "mu", "punch", "law"] if self.solid is None else ["solid", "punch", "law"]
+        names += [name for name in ("punch_solid", "graded") if getattr(self, name) is not None]
         return f"Problem({', '.join(f'{name}={getattr(self, name)!r}' for name in names)})"
 
     def __str__(self) -> str:
@@ -351,6 +355,14 @@ def _check_bodies(graded: Any, k: float) -> None:
             "gradient exponent k = 1 is outside [0, 1): the response of the Gibson solid is local, and known for this "
             "solid alone without surface tension"
         )
+    for body in bodies.solids:
+        length = tension_length(body)
+        if tension_of(body) and not _SHORTEST <= length <= 1.0 / _SHORTEST:
+            raise ValueError(
+                f"the surface tension of {body!r} is as stiff as the solid at the length {length:.3g} (Q z0)^(1/n), "
+                f"outside [{_SHORTEST:g}, {1.0 / _SHORTEST:g}]: a smaller one changes no digit, a larger one leaves a "
+                "rigid plane"
+            )
 
 
 def _check_exponents(n: float, k: float, punch: PunchShape, law: SurfaceLaw) -> None:

@@ -3,9 +3,9 @@ r"""Surface compliance of one body, with its surface tension.
 A power law has xi C = A xi^k (Eqs. 6 and 7 with int_0^oo xi^k J0(xi t) d(xi)), any other solid that of
 `fscm.graded.compliance`.  Its surface tension Y makes it
 
-    xi C / (1 + Y xi (xi C)),      of a power law      A l^-k  x^k / (1 + x^(1+k)),   x = l xi,   l^(1+k) = A Y,
+    xi C / (1 + Y xi (xi C)),
 
-1/(Y xi) at waves much shorter than l, whatever the solid is.
+1/(Y xi) at waves much shorter than l with l^(1+k) = A Y, whatever the solid is.
 """
 
 from __future__ import annotations
@@ -13,26 +13,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-import scipy
-
 from fscm._typing import Array
-from fscm.bodies import Bodies, power_law_of, ring_rise, surface_of, tension_of
+from fscm.bodies import Bodies, power_law_of, ring_rise, surface_of, tension_length, tension_of, wave_factor
 from fscm.graded.compliance import compliance
 from fscm.solids import GradedHalfSpace, PowerLaw, Solid
 
-__all__ = ["Body", "bodies_of", "wave_factor"]
-
-
-def wave_factor(k: float) -> float:
-    """h in G_k(r, t) = h t int_0^oo xi^k J0(xi r) J0(xi t) d(xi).
-
-    Examples
-    --------
-    >>> wave_factor(0.0)
-    1.0
-    """
-    return float(scipy.special.gamma(0.5 - 0.5 * k) / (2.0**k * scipy.special.gamma(0.5 + 0.5 * k)))
+__all__ = ["Body", "bodies_of", "compliance_of"]
 
 
 @dataclass(frozen=True)
@@ -69,8 +55,7 @@ class Body:
     @cached_property
     def tension_length(self) -> float:
         """Length l below which the surface tension is stiffer than the solid; 0 without it."""
-        k = self.surface.k
-        return float((ring_rise(self.surface) * wave_factor(k) * self.tension) ** (1.0 / (1.0 + k)))
+        return tension_length(self.solid)
 
     @property
     def stiffness(self) -> float:
@@ -84,9 +69,9 @@ class Body:
         """xi C(xi), shape of `xi`; steps of the integration are divided by `refinement`."""
         if isinstance(self.solid, GradedHalfSpace) and self.is_graded:
             elastic = compliance(self.solid, xi, refinement)
-            return elastic / (1.0 + self.tension * xi * elastic) if self.tension else elastic
-        k, x = self.surface.k, self.tension_length * xi
-        return np.asarray(x**k / (1.0 + x ** (1.0 + k)) / self.stiffness)
+        else:
+            elastic = ring_rise(self.surface) * wave_factor(self.surface.k) * xi**self.surface.k
+        return elastic / (1.0 + self.tension * xi * elastic) if self.tension else elastic
 
     def elastic_depths(self) -> list[float]:
         """Depths near which the constants change; none of a power law."""
@@ -100,6 +85,25 @@ class Body:
     def lengths(self) -> list[float]:
         """Length over which the constants change, and that of the surface tension."""
         return self.elastic_depths()[:1] + ([self.tension_length] if self.tension else [])
+
+
+def compliance_of(solids: Bodies | Solid, xi: Array) -> Array:
+    """xi C(xi) of a solid or of several, surface tension included.
+
+    Parameters
+    ----------
+    solids : Bodies or Solid
+    xi : ndarray, shape (n,)
+        Wave numbers, > 0, of the inverse unit of the depths.
+
+    Examples
+    --------
+    >>> from fscm import Homogeneous
+    >>> compliance_of(Homogeneous(E=2.0, nu=0.0, surface_tension=1.0), np.array([1e-9, 1.0])).round(6)
+    array([1. , 0.5])
+    """
+    first, *others = (body.compliance(xi) for body in bodies_of(solids))
+    return sum(others, first)
 
 
 def bodies_of(solids: Bodies | Solid) -> tuple[Body, ...]:

@@ -70,7 +70,7 @@ def _spaced(low: float, high: float, density: float) -> Array:
     return np.geomspace(low, high, count, endpoint=False)
 
 
-def _changes(bodies: list[Body]) -> tuple[float, float]:
+def _changes(bodies: tuple[Body, ...]) -> tuple[float, float]:
     """Shallowest and deepest change of the constants; the deepest is at least the length over which a layer bends.
 
     That length grows with the third root of the largest compliance: at the longest waves on a soft solid, or at shorter
@@ -150,7 +150,7 @@ def common_stiffness(bodies: tuple[Body, ...]) -> float:
     return bodies[0].stiffness if len(bodies) == 1 else 1.0 / sum(1.0 / body.stiffness for body in bodies)
 
 
-def _rings_of_tension(bodies: tuple[Body, ...], scale: float) -> tuple[Array, Array]:
+def _rings_of_tension(bodies: tuple[Body, ...], scale: float) -> tuple[ComplexArray, ComplexArray]:
     """Depths and strengths of the images of the surface tensions."""
     rings = [
         (body.tension_length * _RINGS, -scale / body.stiffness * _RING_STEP * _RINGS * np.exp(-_RINGS))
@@ -158,15 +158,51 @@ def _rings_of_tension(bodies: tuple[Body, ...], scale: float) -> tuple[Array, Ar
         if body.tension
     ]
     depths, strengths = zip(*rings, strict=True) if rings else ([np.zeros(0)], [np.zeros(0)])
-    return np.concatenate(depths), np.concatenate(strengths)
+    return np.concatenate(depths).astype(complex), np.concatenate(strengths).astype(complex)
 
 
-def _fitted_depths(changes: tuple[float, float], low: float, high: float) -> tuple[Array, ComplexArray]:
-    """Real and complex depths for the wave numbers from low to high."""
-    shallow, deep = changes
-    ends = _SHALLOW / high, _FROM * shallow, _TO * deep, _DEEP / low
-    real = np.concatenate([_spaced(*ends[:2], _SPARSE), _spaced(*ends[1:3], _DENSE), _spaced(*ends[2:], _SPARSE)])
-    return real, _RAY * _spaced(_FROM_COMPLEX * shallow, ends[2], _COMPLEX)
+def _waves(changes: tuple[float, float], low: float, high: float) -> Array:
+    """Wave numbers of the fit, and between each two of them one at which its error is measured."""
+    bends = _AFTER / changes[1], _BEFORE / changes[0]
+    parts = _spaced(low, bends[0], _WAVES), _spaced(*bends, _MANY), _spaced(bends[1], high, _WAVES)
+    nodes = np.append(np.concatenate(parts), high)
+    return np.sort(np.append(nodes, np.sqrt(nodes[1:] * nodes[:-1])))
+
+
+def _fit(
+    changes: tuple[float, float], ends: tuple[float, float], waves: Array, target: Array, values: Array
+) -> tuple[ComplexArray, ComplexArray, Array, Array]:
+    """Images of a function of the wave number.
+
+    Parameters
+    ----------
+    changes : tuple of float
+        Shallowest and deepest change of the constants.
+    ends : tuple of float
+        Least and largest wave number.
+    waves, target : ndarray, shape (n,)
+        Wave numbers, every other one of which is fitted, and the function there.
+    values : ndarray, shape (n,)
+        D, to which the error is relative.
+
+    Returns
+    -------
+    depths, strengths : ndarray, complex
+    approximation : ndarray, shape (n,)
+    rounding : ndarray, shape (n,)
+    """
+    (shallow, deep), (low, high) = changes, ends
+    edges = _SHALLOW / high, _FROM * shallow, _TO * deep, _DEEP / low
+    real = np.concatenate([_spaced(*edges[:2], _SPARSE), _spaced(*edges[1:3], _DENSE), _spaced(*edges[2:], _SPARSE)])
+    depths = np.concatenate([real, _RAY * _spaced(_FROM_COMPLEX * shallow, edges[2], _COMPLEX)])
+    exponentials = np.exp(-waves[:, None] * depths)
+    columns = np.concatenate([exponentials.real, -exponentials.imag[:, len(real) :]], axis=1)
+    weights = 1.0 / np.maximum(values, _RELATIVE)
+    matrix, right = weights[:, None] * columns, weights * target
+    solved = np.linalg.lstsq(matrix[::2], right[::2], rcond=_SINGULAR)[0]
+    strengths = solved[: len(depths)].astype(complex)
+    strengths.imag[len(real) :] = solved[len(depths) :]
+    return depths, strengths, columns @ solved, _ROUNDOFF * (np.abs(columns) @ np.abs(solved))
 
 
 @lru_cache(maxsize=32)
@@ -191,43 +227,29 @@ def images_of(solids: Bodies | Solid, longest: float | None = None) -> Images:
     shallow, deep = changes = _changes(bodies)
     low = min(_LOW / deep, _REACH / (_LONGEST * deep if longest is None else longest))
     high = _HIGH / shallow
-    bends = _AFTER / deep, _BEFORE / shallow
-    parts = _spaced(low, bends[0], _WAVES), _spaced(*bends, _MANY), _spaced(bends[1], high, _WAVES)
-    nodes = np.append(np.concatenate(parts), high)
-    waves = np.sort(np.append(nodes, np.sqrt(nodes[1:] * nodes[:-1])))
-    scale = common_stiffness(bodies)
+    waves, scale = _waves(changes, low, high), common_stiffness(bodies)
 
     def values_at(xi: Array, refinement: int = 1) -> Array:
-        return np.asarray(scale * sum(body.compliance(xi, refinement) for body in bodies))
+        first, *others = (body.compliance(xi, refinement) for body in bodies)
+        return scale * sum(others, first)
 
     values = values_at(waves)
-    shortest = scale * sum((1.0 / body.stiffness for body in bodies if not body.tension), 0.0)
-    if len(bodies) == 1:
-        shortest = float(not bodies[0].tension)
-    rings, of_rings = _rings_of_tension(bodies, scale)
-    ring_columns = np.exp(-waves[:, None] * rings)
-    by_rings = ring_columns @ of_rings
-    errors = _ROUNDOFF * (ring_columns @ np.abs(of_rings))
-    depths, strengths = rings.astype(complex), of_rings.astype(complex)
+    shortest = sum((scale / body.stiffness for body in bodies if not body.tension), 0.0)
+    depths, strengths = _rings_of_tension(bodies, scale)
+    rings = np.exp(-waves[:, None] * depths.real)
+    by_rings, errors = rings @ strengths.real, _ROUNDOFF * (rings @ np.abs(strengths))
     if all(body.surface.k == 0.0 and not body.is_graded for body in bodies):
         errors += np.abs(shortest - values - by_rings)
     else:
-        real, rotated = _fitted_depths(changes, low, high)
-        exponentials = np.exp(-waves[:, None] * np.concatenate([real, rotated]))
-        columns = np.concatenate([exponentials.real, -exponentials.imag[:, len(real) :]], axis=1)
-        weights = 1.0 / np.maximum(values, _RELATIVE)
-        matrix, right = weights[:, None] * columns, weights * (shortest - values - by_rings)
-        solved = np.linalg.lstsq(matrix[::2], right[::2], rcond=_SINGULAR)[0]
-        fitted = solved[: len(real) + len(rotated)].astype(complex)
-        fitted.imag[len(real) :] = solved[len(fitted) :]
+        target = shortest - values - by_rings
+        fitted, of_fitted, approximation, rounding = _fit(changes, (low, high), waves, target, values)
+        depths, strengths = np.concatenate([depths, fitted]), np.concatenate([strengths, of_fitted])
         sampled = slice(None, None, _EVERY)
         steps = np.abs(values_at(waves[sampled], 2) - values[sampled])
         # The error of the steps varies slowly: that of the neighbours bounds it.
         around = np.maximum.reduce([steps, np.append(steps[1:], 0.0), np.append(0.0, steps[:-1])])
-        errors += np.abs(shortest - columns @ solved - values - by_rings) + np.repeat(around, _EVERY)[: len(waves)]
-        errors += _ROUNDOFF * (np.abs(columns) @ np.abs(solved))
-        depths = np.concatenate([depths, real, rotated])
-        strengths = np.concatenate([strengths, fitted])
+        errors += np.abs(shortest - approximation - values - by_rings) + np.repeat(around, _EVERY)[: len(waves)]
+        errors += rounding
     served = waves >= _MARGIN * low
     order = np.argsort(np.abs(depths))
     return Images(depths[order], strengths[order], waves[served], values[served], errors[served], shortest)

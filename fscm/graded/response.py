@@ -18,8 +18,8 @@ import numpy as np
 from fscm._kernel import ring_response
 from fscm._panels import PanelMesh
 from fscm._typing import Array
-from fscm.bodies import Bodies, ring_rise
-from fscm.graded.body import bodies_of, wave_factor
+from fscm.bodies import Bodies, ring_rise, wave_factor
+from fscm.graded.body import bodies_of
 from fscm.graded.distant_ring import DistantRing
 from fscm.graded.images import common_stiffness
 from fscm.graded.kernel import GradedKernel
