@@ -98,6 +98,7 @@ def compliance_of(solids: Bodies | Solid, xi: Array) -> Array:
 
     Examples
     --------
+    >>> import numpy as np
     >>> from fscm import Homogeneous
     >>> compliance_of(Homogeneous(E=2.0, nu=0.0, surface_tension=1.0), np.array([1e-9, 1.0])).round(6)
     array([1. , 0.5])
