@@ -72,6 +72,8 @@ class Discretisation:
         self.problem, self.mesh = problem, mesh
         self._previous = previous
         self._at: tuple[float, Any, Array] | None = None
+        # Matrices, and rows for the axis, of the other exponents of several bodies.
+        self._others: dict[float, tuple[Array, Array]] = {}
         # On the previous mesh, at the same scale: reused for common panels.
         self._before: tuple[PanelMesh, float, Any] | None = None
         if previous is not None and previous._at is not None and previous.problem.response is problem.response:
@@ -100,6 +102,14 @@ class Discretisation:
         """The row of W for the axis."""
         return axis_row(kernel_of(self.problem.k), self.mesh)
 
+    def _power_law(self, k: float) -> tuple[Array, Array]:
+        """The matrix W of an exponent, and its row for the axis."""
+        if k == self.problem.k:
+            return self.matrix, self.axis
+        if k not in self._others:
+            self._others[k] = response_matrix(kernel_of(k), self.mesh), axis_row(kernel_of(k), self.mesh)
+        return self._others[k]
+
     @property
     def steep(self) -> bool:
         """Whether the unknowns are the deformations instead of the gaps."""
@@ -118,29 +128,57 @@ class Discretisation:
             return np.where(below_bound, radius * self.problem.punch.slope(np.where(below_bound, radius, 0.0)), 0.0)
         return radius * self.problem.punch.slope(radius)
 
-    def _remainder(self, c: float) -> tuple[Any, Array]:
-        """Response of the images of a graded solid at a scale, and the response without it."""
+    def _at_scale(self, c: float) -> tuple[Any, Array]:
+        """Response of the images at a scale, and the whole response, of bodies that are not one power law."""
         if self._at is None or self._at[0] != c:
             self._at = None  # frees its memory first
-            remainder = self.problem.response.remainder(self.mesh, c, self._before)
+            response = self.problem.response
+            remainder = response.remainder(self.mesh, c, self._before)
             self._before = None
-            self._at = c, remainder, self.matrix - remainder.matrix
+            terms = [(factor, self._power_law(k)[0]) for k, factor in self._factors(c).items()]
+            if remainder is not None:
+                terms.append((-response.weight * c**self.problem.k, remainder.matrix))
+            matrices = [matrix if factor == 1.0 else factor * matrix for factor, matrix in terms]
+            self._at = c, remainder, sum(matrices[1:], matrices[0])
         return self._at[1:]
+
+    def _factors(self, c: float) -> dict[float, float]:
+        """Factors of the matrices of all exponents at a scale."""
+        k = self.problem.k
+        return {k_i: weight * c ** (k - k_i) for k_i, weight in self.problem.response.singular_parts.items()}
 
     def response(self, c: float) -> Array:
         """The matrix W at a scale; it does not depend on it for a power law."""
-        return self.matrix if self.problem.response is None else self._remainder(c)[1]
+        return self.matrix if self.problem.response is None else self._at_scale(c)[1]
 
     def axis_response(self, c: float) -> Array:
         """The row of W for the axis at a scale."""
-        return self.axis if self.problem.response is None else self.axis - self._remainder(c)[0].axis
+        response = self.problem.response
+        if response is None:
+            return self.axis
+        rows = [factor * self._power_law(k)[1] for k, factor in self._factors(c).items()]
+        remainder = self._at_scale(c)[0]
+        if remainder is not None:
+            rows.append(-response.weight * c**self.problem.k * remainder.axis)
+        return np.asarray(np.sum(rows, axis=0))
 
     def growth(self, c: float, pressure: Array) -> tuple[Array | float, float]:
         """Derivative of W p by log c at the nodes and on the axis, without that of the factor of W."""
-        if self.problem.response is None:
+        response, k = self.problem.response, self.problem.k
+        if response is None:
             return 0.0, 0.0
-        remainder = self._remainder(c)[0]
-        return -(remainder.rate @ pressure), -float(remainder.axis_rate @ pressure)
+        nodes, axis = np.zeros(self.mesh.size), 0.0
+        for k_i, factor in self._factors(c).items():
+            if k_i != k:
+                matrix, row = self._power_law(k_i)
+                nodes = nodes + (k - k_i) * factor * (matrix @ pressure)
+                axis += (k - k_i) * factor * float(row @ pressure)
+        remainder = self._at_scale(c)[0]
+        if remainder is not None:
+            factor = response.weight * c**k
+            nodes = nodes - factor * (remainder.rate @ pressure + k * (remainder.matrix @ pressure))
+            axis -= factor * float(remainder.axis_rate @ pressure + k * (remainder.axis @ pressure))
+        return nodes, axis
 
     def stiffness_scale(self, c: float) -> float:
         """M (1-k) c^{1-k}, the factor of W."""

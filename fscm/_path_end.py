@@ -33,7 +33,6 @@ import scipy
 from fscm._equilibrium import State
 from fscm._typing import Array
 from fscm.errors import NotConverged
-from fscm.graded.images import Images
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
@@ -87,9 +86,9 @@ class PathEnd:
 def beyond_layers(state: State) -> bool:
     """Whether no layer of the solid makes the load tensile again once it is compressive."""
     response, punch = state.disc.problem.response, state.disc.problem.punch
-    if response is None:
+    if response is None or response.kernel is None:
         return True
-    stiffness = _Stiffness(response.kernel.images)
+    stiffness = _Stiffness(*response.spectrum)
     touching = state.radius[state.gap < state.disc.problem.law.peak_gap]
     a = max(float(touching[-1]) if touching.size else 0.0, float(state.radius[0]))
     later = np.geomspace(a, max(a, stiffness.deepest) * _LAYERS, _LATER)
@@ -101,13 +100,13 @@ def beyond_layers(state: State) -> bool:
 
 
 class _Stiffness:
-    """Smallest and largest modulus of a solid around a wavelength, in units of that of the surface."""
+    """Smallest and largest modulus around a wavelength, in an arbitrary unit, from the softness at wave numbers."""
 
-    def __init__(self, images: Images) -> None:
-        self._log_waves, self._log_D = np.log(images.waves), np.log(images.values)
+    def __init__(self, waves: Array, softness: Array) -> None:
+        self._log_waves, self._log_D = np.log(waves), np.log(softness)
         changing = np.flatnonzero(np.abs(self._log_D - self._log_D[0]) > _UNCHANGED)
         #: Radius beyond which the solid is homogeneous.
-        self.deepest = float(1.0 / images.waves[changing[0]]) if changing.size else 0.0
+        self.deepest = float(1.0 / waves[changing[0]]) if changing.size else 0.0
 
     def _around(self, a: Array) -> Array:
         shifts = np.linspace(-math.log(_WINDOW), math.log(_WINDOW), _IN_WINDOW)

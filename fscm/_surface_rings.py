@@ -1,8 +1,8 @@
 r"""Rings on a soft film: a surface that comes into contact ring by ring, whose path is not traced.
 
-A wave of the surface with the wave number q meets the stiffness K(q) = q / (M D(q)) (D: `fscm.graded.images`).  On a
-half-space K rises with q: the longest wave is the softest, and contact begins at one radius.  A film whose material
-moves sideways (nu > 1/4) on a stiffer substrate is softest to waves of two to three times its thickness.  If the
+A wave of the surface with the wave number q meets the stiffness K(q) = q / (M (1-k) S(q)) (`SurfaceResponse.spectrum`).
+On a half-space K rises with q: the longest wave is the softest, and contact begins at one radius.  A film that moves
+sideways (nu > 1/4) on a stiffer substrate is softest to waves of two to three times its thickness.  If the
 tension falls with the gap more steeply than that K, a flat surface is unstable to them (V. Shenoy and A. Sharma,
 Phys. Rev. Lett. 86, 119 (2001)): it comes into contact in rings at about that distance.
 
@@ -85,10 +85,11 @@ def ring_limit(problem: Problem) -> RingLimit | None:
     problem : Problem
         With 0 <= k < 1.
     """
-    if problem.response is None:
+    # The stiffness of a sum of power laws rises with the wave number.
+    if problem.response is None or problem.response.kernel is None:
         return None
-    images, law = problem.response.kernel.images, problem.law
-    stiffness = images.waves / (problem.compliance * images.values)
+    law, (waves, softness) = problem.law, problem.response.spectrum
+    stiffness = waves / (problem.compliance * (1.0 - problem.k) * softness)
     longer = np.maximum.accumulate(stiffness)
     softest = _SOFTER * longer > stiffness
     if not softest.any():
@@ -99,11 +100,11 @@ def ring_limit(problem: Problem) -> RingLimit | None:
     unstable = gaps[slopes > stiffness[i]]
     if not unstable.size:
         return None
-    length, steepest, farthest = 2.0 * np.pi / float(images.waves[i]), float(np.max(slopes)), float(unstable[-1])
+    length, steepest, farthest = 2.0 * np.pi / float(waves[i]), float(np.max(slopes)), float(unstable[-1])
     # Room for rings: see _ROOM.
     if float(problem.punch.height(np.array([length / _ROOM]))[0]) > farthest - law.singular_gap:
         return None
-    mu = problem.mu * (float(stiffness[i]) / steepest) ** (problem.n / (2.0 * problem.n - 1.0))
+    mu = problem.mu * (float(stiffness[i]) / steepest) ** (problem.n / (2.0 * problem.n + problem.k - 1.0))
     return RingLimit(length, float(stiffness[i]), steepest, farthest, mu)
 
 

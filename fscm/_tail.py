@@ -2,8 +2,8 @@
 
 Beyond the last node, at the radius T, the height f is so large that p = -C f^-m (1 - m e/f), with
 e = w - delta - singular gap.  There f grows as F (t/T)^g, and every integral on a power-law solid is one of a power.
-On any other solid a ring at t moves the contact by G(0, t) (`fscm.graded.distant_ring`), which varies with t as far as
-the modulus varies with depth: there the displacement is by quadrature over t, until G is a power of t again.
+On other bodies a ring at t moves the contact by G(0, t) (`fscm.graded.response`), which varies with t as far as the
+modulus varies with depth: there the displacement is by quadrature over t, until G is a power of t again.
 """
 
 from __future__ import annotations
@@ -37,6 +37,10 @@ _BEYOND_REACH = 100.0
 #: Radii, in T, at which the variation of the displacement over the mesh is computed, and factors from T of the rings.
 _VARIATION = np.sort(np.concatenate([0.5 ** np.arange(1, 14), 1.0 - 0.5 ** np.arange(2, 21)]))
 _RINGS = 4.0 ** np.arange(8)
+
+
+#: Displacements below are zero.
+_TINY = 1e-300
 
 
 @dataclass(frozen=True)
@@ -85,28 +89,35 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
         return factor * (leading - m * e * following), rate, factor * m * following / F
 
     load = tail(-2.0 * strength * T**2, 1.0 / (m * g - 2.0), 1.0 / ((m + 1.0) * g - 2.0), 1.0)
-    w_factor = -problem.compliance * (1.0 - k) * strength * T ** (1.0 - k)
     if problem.response is None:
+        w_factor = -problem.compliance * (1.0 - k) * strength * T ** (1.0 - k)
         w = tail(w_factor, 1.0 / (m * g - 1.0 + k), 1.0 / ((m + 1.0) * g - 1.0 + k), 1.0)
     else:
-        w = tail(w_factor, *_ring_integrals(problem, T))
+        w = tail(-problem.compliance * (1.0 - k) * strength * T, *_ring_integrals(problem, T))
     return Tail(load[0], w[0], load[1], w[1], load[2], w[2])
 
 
 def _ring_integrals(problem: Problem, T: float) -> tuple[float, float, float]:
     """Integrals of (t/T)^-(m g) G(0, t) and (t/T)^-((m+1) g) G(0, t) over t/T from 1 on, and G(0, T)."""
-    rings, g = problem.response.distant, problem.punch.growth
-    m = problem.law.decay[1]
-    stop = min(max(T, rings.reach), T * math.exp(_LEFT / (m * g - 1.0)))
-    t, weights = _pieces(T, stop, min(math.log(_FARTHER), _FALL / (m * g)))
-    at_start, *response, at_stop = rings.by_images(np.concatenate([[T], t, [stop]]))
+    response, g = problem.response, problem.punch.growth
+    powers = [exponent * g for exponent in (problem.law.decay[1], problem.law.decay[1] + 1.0)]
+    totals, at_T = [0.0, 0.0], 0.0
+    for k, weight in response.power_laws.items():
+        totals = [total + weight * T**-k / (power - 1.0 + k) for total, power in zip(totals, powers, strict=True)]
+        at_T += weight * T**-k
+    if response.distant is None:
+        return totals[0], totals[1], at_T
+    rings = response.distant
+    stop = min(max(T, rings.reach), T * math.exp(_LEFT / (powers[0] - 1.0)))
+    t, weights = _pieces(T, stop, min(math.log(_FARTHER), _FALL / powers[0]))
+    at_start, *risen, at_stop = rings.by_images(np.concatenate([[T], t, [stop]]))
     # From there on both are powers; far inside the reach nothing is left.
     exponent = rings.at_reach[1] if stop >= rings.reach else 0.0
-    integrals = []
-    for power in (m * g, (m + 1.0) * g):
+    for i, power in enumerate(powers):
         beyond = at_stop * (stop / T) ** (1.0 - power) / (power - 1.0 - exponent)
-        integrals.append(float((weights * (t / T) ** -power) @ response) / T + float(beyond))
-    return integrals[0], integrals[1], float(at_start)
+        integral = float((weights * (t / T) ** -power) @ risen) / T + float(beyond)
+        totals[i] += response.weight * integral
+    return totals[0], totals[1], at_T + response.weight * float(at_start)
 
 
 def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array, Array]:
@@ -166,16 +177,18 @@ def _lifted_by_waves(problem: Problem, T: float, displacement: float) -> tuple[f
 
     The tension of the law on the shape is integrated with the response that follows from the wave numbers.
     """
-    rings, g = problem.response.distant, problem.punch.growth
+    response, g = problem.response, problem.punch.growth
     power = problem.law.decay[1] * g
-    far = min(max(T, _BEYOND_REACH * rings.reach), T * math.exp(_LEFT / (power - 1.0)))
+    reach = T if response.distant is None else response.distant.reach
+    far = min(max(T, _BEYOND_REACH * reach), T * math.exp(_LEFT / (power - 1.0)))
     far = max(far, T * math.exp(_PIECES * _log_ratio(g)))
     t, weights = _pieces(T, far, min(_log_ratio(g), _FALL / power))
     pressure = problem.law.traction(problem.punch.height(t) - displacement)
-    lifted = problem.compliance * float((weights * rings.by_waves(t)) @ pressure)
+    scale = problem.compliance * (1.0 - problem.k)
+    lifted = scale * float((weights * response.at_center(t, by_waves=True)) @ pressure)
     beyond = tail_of(problem, far, displacement).displacement
     farther = np.array(_FARTHER * far)
-    relative = abs(float(rings.by_images(farther) / rings.by_waves(farther)) - 1.0)
+    relative = abs(float(response.at_center(farther) / response.at_center(farther, by_waves=True)) - 1.0)
     return lifted + beyond, abs(beyond) * (relative + _deviations(problem, far, displacement)[0])
 
 
@@ -197,24 +210,25 @@ def tail_variation(problem: Problem, T: float, displacement: float, radii: Array
         return np.asarray((factor - 1.0) * tail.displacement)
     rings = np.append(T * _RINGS, np.inf)
     t, at = rings[:-1, None], T * _VARIATION
-    kernel = problem.response.kernel
-    change = np.abs(kernel.response(at, np.broadcast_to(t, (t.size, at.size)), t - at) - kernel.response(0.0 * at, t))
+    ring = problem.response.ring
+    t, at_all = np.broadcast_to(t, (t.size, at.size)), np.broadcast_to(at, (t.size, at.size))
+    change = np.abs(ring(at_all, t, t - at) - ring(0.0 * at_all, t, t))
     # The change falls or rises with t between two rings; beyond the last one it falls.
     largest = np.maximum(change, np.append(change[1:], change[-1:], axis=0))
     power = problem.law.decay[1] * problem.punch.growth
     strength = abs(float(problem.law.traction(np.array(_height(problem, T) - displacement)))) * T / (power - 1.0)
     shares = -np.diff(np.append(_RINGS ** (1.0 - power), 0.0))
-    bound = np.maximum.accumulate(problem.compliance * strength * (shares @ largest))
+    bound = np.maximum.accumulate(problem.compliance * (1.0 - k) * strength * (shares @ largest))
     # Near the center it falls like r^2.
     inner = bound[0] * (radii / at[0]) ** 2
-    return np.where(radii < at[0], inner, np.exp(np.interp(radii, at, np.log(bound))))
+    return np.where(radii < at[0], inner, np.exp(np.interp(radii, at, np.log(np.maximum(bound, _TINY)))))
 
 
 def deformation_beyond(problem: Problem, T: float, load: float) -> float:
     """Bound of the deformation beyond T by a load near the center, on a solid that is no power law."""
     t = T * _RINGS
-    response = problem.response.distant.by_images(t)
-    return float(np.max(np.abs(response) / t)) * problem.compliance * 0.5 * load
+    response = problem.response.at_center(t)
+    return float(np.max(np.abs(response) / t)) * problem.compliance * (1.0 - problem.k) * 0.5 * load
 
 
 def _deviations(problem: Problem, far: float, displacement: float) -> tuple[float, float]:

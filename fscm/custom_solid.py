@@ -10,7 +10,7 @@ import numpy as np
 
 from fscm._typing import Array
 from fscm._validation import real_number
-from fscm.solids import ELASTIC, POSITIVE, elastic_ratio
+from fscm.solids import ELASTIC, POSITIVE, checked_tension, elastic_ratio
 
 __all__ = ["CustomSolid"]
 
@@ -33,6 +33,8 @@ class CustomSolid:
     interfaces : sequence of float, optional
         Depths > 0 at which E or nu or a derivative of them jumps.  Layers thinner than a twentieth of their depth may
         be missed unless their interfaces are given here.
+    surface_tension : float
+        Surface tension, a force per length, >= 0.
 
     Examples
     --------
@@ -45,8 +47,10 @@ class CustomSolid:
     nu: float | Callable[[Array], Array]
     length: float
     interfaces: Sequence[float] = ()
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "surface_tension", checked_tension(self.surface_tension))
         length = real_number("length", self.length, low=0.0, high=math.inf, reason=POSITIVE)
         object.__setattr__(self, "length", length)
         ends = [real_number("interface", z, low=0.0, high=math.inf, reason=POSITIVE) for z in self.interfaces]

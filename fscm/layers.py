@@ -11,7 +11,7 @@ import numpy as np
 
 from fscm._typing import Array
 from fscm._validation import real_number
-from fscm.solids import POSITIVE, elastic_ratio
+from fscm.solids import POSITIVE, checked_tension, elastic_ratio
 
 __all__ = ["Layers"]
 
@@ -28,6 +28,8 @@ class Layers:
         Poisson's ratios in the same order, 0 <= nu <= 1/2.
     thickness : sequence of float, shape (N,)
         Thicknesses of the layers from the surface downwards, > 0.
+    surface_tension : float
+        Surface tension, a force per length, >= 0.
 
     Raises
     ------
@@ -44,8 +46,10 @@ class Layers:
     E: Sequence[float]
     nu: Sequence[float]
     thickness: Sequence[float]
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "surface_tension", checked_tension(self.surface_tension))
         E = _column("E", self.E, lambda name, x: real_number(name, x, low=0.0, high=math.inf, reason=POSITIVE))
         nu = _column("nu", self.nu, elastic_ratio)
         thickness = _column(

@@ -11,14 +11,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, overload
 
-import numpy as np
-
 from fscm._response_factor import response_factor_per_rest
 from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, units_of
 from fscm._validation import real_number
+from fscm.bodies import Bodies, ScaledSolid, power_law_of, scaled, tension_length, tension_of
 from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law
 from fscm.punch import PowerPunch, PunchShape, scaled_punch, unit_of_radii
-from fscm.solids import GradedHalfSpace, PowerLaw, ScaledSolid, Solid
+from fscm.solids import GradedHalfSpace, PowerLaw, Solid
 
 __all__ = ["Problem"]
 
@@ -32,12 +31,17 @@ _LARGEST_N = 300.0
 #: relative width of at most 1 / M, is as narrow as the rounding of a radius.
 _LEAST_M, _LARGEST_M = 1e-30, 1e15
 
+#: Shortest length at which surface tension acts, in (Q z0)^(1/n), and the inverse of the longest: shorter waves than
+#: 1e-20 carry none of the pressure, and at 1e20 the surface is a rigid plane to all digits.
+_SHORTEST = 1e-20
+
 
 @dataclass(frozen=True, slots=True, init=False)
 class Problem:
-    """Adhesive contact of a rigid punch with a half-space, in physical units or dimensionless.
+    """Adhesive contact of a punch, rigid or elastic, with a half-space, in physical units or dimensionless.
 
-    ``Problem(solid, punch, law)`` and its results are in any consistent units, for example SI.
+    ``Problem(solid, punch, law)`` and its results are in any consistent units, for example SI.  In
+    ``Problem(solid, punch, law, punch_solid)`` the punch is elastic: the compliances of both bodies add.
     ``Problem(n, k, mu)`` is dimensionless: a power-law graded half-space.  A physical problem also has n, k and mu, and
     `dimensionless`, the same problem without units.  Immutable, hashable, and picklable when its parts are.
 
@@ -50,6 +54,8 @@ class Problem:
         Shape of the punch; of a dimensionless problem the power law r^n / n by default.
     law : SurfaceLaw
         Surface law; of a dimensionless problem Lennard-Jones 9-3 by default.
+    punch_solid : Solid, optional
+        Solid of the punch, of any kind, with depths from its surface on; without one the punch is rigid.
     n : float
         Shape index of the punch, 0 < n <= 300; it also enters the definition of `mu` (Eq. 29), which needs
         2n + k > 1.
@@ -57,13 +63,14 @@ class Problem:
         Gradient exponent of E = E0 (z/c0)^k, 0 <= k <= 1 (k = 1, the Gibson solid, is `fscm.gibson`).
     mu : float
         Generalised Tabor number (Eq. 29), > 0 and such that 1e-30 <= M <= 1e15 (see `compliance`).
-    graded : GradedHalfSpace, optional
-        A solid that is not a power law, with depths in (Q z0)^(1/n).  Then k = 0, and mu is that of the surface, with
-        the modulus E(0) / (1 - nu(0)^2).
+    graded : GradedHalfSpace or Bodies, optional
+        A solid that is not a power law, or several (`fscm.bodies`), with lengths in (Q z0)^(1/n).  Their k and mu are
+        those of all compliances at short wave lengths without surface tension: k = 0 and the modulus
+        E(0) / (1 - nu(0)^2) of one graded solid.
 
     Attributes
     ----------
-    n, k, mu, punch, law, solid, graded
+    n, k, mu, punch, law, solid, punch_solid, graded
         As above.  In a physical problem punch and law are physical, n and Q define the unit of the radii (those of the
         punch if it is a power law), and `graded` is None; in a dimensionless one `solid` is None.
 
@@ -84,6 +91,11 @@ class Problem:
     >>> sphere = Problem(Homogeneous(E=70e9, nu=0.2), PowerPunch(n=2, Q=1e-6), law)
     >>> round(sphere.mu, 6), round(2.0 * sphere.units["load"] / 0.05e-6, 9)
     (0.259204, 6.283185307)
+
+    The same sphere of the same material on it: half of E / (1 - nu^2).
+
+    >>> round(Problem(sphere.solid, sphere.punch, law, punch_solid=sphere.solid).mu / sphere.mu, 9)
+    1.587401052
     """
 
     n: float
@@ -91,13 +103,14 @@ class Problem:
     mu: float
     punch: PunchShape
     law: SurfaceLaw
-    graded: GradedHalfSpace | None
+    graded: GradedHalfSpace | Bodies | None
     solid: Solid | None
+    punch_solid: Solid | None
     _dimensionless: Problem | None = field(init=False, repr=False, compare=False)
     _units: Mapping[str, float] = field(init=False, repr=False, compare=False)
 
     @overload
-    def __init__(self, solid: Solid, punch: PunchShape, law: SurfaceLaw) -> None: ...
+    def __init__(self, solid: Solid, punch: PunchShape, law: SurfaceLaw, punch_solid: Solid | None = None) -> None: ...
     @overload
     def __init__(
         self,
@@ -106,8 +119,9 @@ class Problem:
         mu: float,
         punch: PunchShape | None = None,
         law: SurfaceLaw | None = None,
-        graded: GradedHalfSpace | None = None,
+        graded: GradedHalfSpace | Bodies | None = None,
         solid: None = None,
+        punch_solid: None = None,
     ) -> None: ...
     def __init__(  # type: ignore[misc]  # the positions of the two have other names
         self,
@@ -118,20 +132,23 @@ class Problem:
         law: Any = None,
         graded: Any = None,
         solid: Any = None,
+        punch_solid: Any = None,
     ) -> None:
-        # The three positions of a physical problem are solid, punch and law.
+        # The four positions of a physical problem are solid, punch, law and the solid of the punch.
         if hasattr(n, "modulus"):
             solid, n = n, None
+            if isinstance(k, PunchShape) and punch_solid is None:
+                punch, punch_solid = None, punch
             punch, k = (k, None) if punch is None else (punch, k)
             law, mu = (mu, None) if law is None else (law, mu)
-        if solid is None:
+        if solid is None and punch_solid is None:
             self._pose(n, k, mu, punch, law, graded)
-        elif n is k is mu is graded is None:
-            self._pose_physical(solid, punch, law)
+        elif solid is not None and n is k is mu is graded is None:
+            self._pose_physical(solid, punch, law, punch_solid)
         else:
             raise ValueError(
-                "a problem has a solid, a punch and a law, or else n, k and mu: a physical problem is changed by "
-                "making another one of its parts"
+                "a problem has a solid, a punch, a law and perhaps a punch_solid, or else n, k and mu: a physical "
+                "problem is changed by making another one of its parts"
             )
 
     def _pose(self, n: Any, k: Any, mu: Any, punch: Any, law: Any, graded: Any) -> None:
@@ -164,12 +181,7 @@ class Problem:
                 f"[{_LEAST_M:g}, {_LARGEST_M:g}]: the solid is rigid, or its cohesive edge a point, to all digits"
             )
         if graded is not None:
-            if not isinstance(graded, GradedHalfSpace):
-                raise ValueError(
-                    f"graded = {graded!r} is no graded solid: it needs modulus(z), poisson(z), length, interfaces"
-                )
-            if k != 0.0:
-                raise ValueError(f"gradient exponent k = {k} is outside [0, 0]: the modulus at the surface is finite")
+            _check_bodies(graded, k)
         if isinstance(punch, PowerPunch) and punch != PowerPunch(n):
             raise ValueError(
                 f"punch = {punch!r} does not fit n = {n:g}: a dimensionless power-law punch is r^n / n, with "
@@ -181,42 +193,42 @@ class Problem:
                 "a physical one is Problem(solid, punch, law)"
             )
         law = dimensionless_law(law)
-        self._set(n, k, mu, punch, law, graded, None, None, DIMENSIONLESS)
+        self._set(n, k, mu, punch, law, graded, None, None, None, DIMENSIONLESS)
 
-    def _pose_physical(self, solid: Any, punch: Any, law: Any) -> None:
+    def _pose_physical(self, solid: Any, punch: Any, law: Any, punch_solid: Any) -> None:
         """Set a physical problem, and its dimensionless one, which is checked."""
         _check_parts(punch, law)
         w, z0 = law.work_of_adhesion, law.z0
         n, Q = unit_of_radii(punch, z0)
         units = units_of(n, Q, w, z0)
-        graded = None
-        power_law: PowerLaw | None = getattr(solid, "power_law", None)
-        if power_law is None:
-            if not isinstance(solid, GradedHalfSpace):
+        bodies = Bodies((solid,) if punch_solid is None else (solid, punch_solid))
+        for body in bodies.solids:
+            if power_law_of(body) is None and not isinstance(body, GradedHalfSpace):
                 raise ValueError(
-                    f"solid = {solid!r} is no solid: one of your own needs modulus(z), poisson(z), length, interfaces"
+                    f"solid = {body!r} is no solid: one of your own needs modulus(z), poisson(z), length, interfaces"
                 )
-            # Everything is measured as on the homogeneous solid with the constants of the surface.
-            surface = np.zeros(1)
-            power_law = PowerLaw(float(solid.modulus(surface)[0]), 1.0, 0.0, float(solid.poisson(surface)[0]))
-            graded = ScaledSolid(solid, units["radius"])
+        # Everything is measured as on the power law that all bodies are at short waves.
+        power_law = bodies.surface
+        graded: ScaledSolid | Bodies | None = None
+        if not bodies.are_one_power_law:
+            first, *others = (scaled(body, units["radius"]) for body in bodies.solids)
+            graded = first if isinstance(first, ScaledSolid) and not others else Bodies((first, *others))
         k = power_law.k
         _check_exponents(n, k, punch, law)
         mu = number_from_log("Tabor number", log_tabor_number(power_law, n, Q, w, z0))
         shape = PowerPunch(n) if type(punch) is PowerPunch else scaled_punch(punch, units["radius"], z0)
         core = Problem(n, k, mu, shape, dimensionless_law(law), graded)
-        self._set(n, k, core.mu, punch, law, None, solid, core, units)
+        self._set(n, k, core.mu, punch, law, None, solid, punch_solid, core, units)
 
     def _set(self, *values: Any) -> None:
         # The generated __setattr__ of a frozen class refuses; writing through object is its own idiom.
-        names = ("n", "k", "mu", "punch", "law", "graded", "solid", "_dimensionless", "_units")
+        names = ("n", "k", "mu", "punch", "law", "graded", "solid", "punch_solid", "_dimensionless", "_units")
         for name, value in zip(names, values, strict=True):
             object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
-        names = ("n", "k", "mu", "punch", "law") if self.solid is None else ("solid", "punch", "law")
-        if self.graded is not None:
-            names = (*names, "graded")
+        names = ["n", "k", "mu", "punch", "law"] if self.solid is None else ["solid", "punch", "law"]
+        names += [name for name in ("punch_solid", "graded") if getattr(self, name) is not None]
         return f"Problem({', '.join(f'{name}={getattr(self, name)!r}' for name in names)})"
 
     def __str__(self) -> str:
@@ -225,7 +237,7 @@ class Problem:
     def __reduce__(self) -> tuple[Any, ...]:
         """Rebuilt from its parts: units cannot be pickled."""
         if self.solid is not None:
-            return Problem, (self.solid, self.punch, self.law)
+            return Problem, (self.solid, self.punch, self.law, self.punch_solid)
         return Problem, (self.n, self.k, self.mu, self.punch, self.law, self.graded)
 
     @property
@@ -279,14 +291,16 @@ class Problem:
     def tabor_number_jin(self) -> float:
         """mu_Jin of Eq. 30: the Tabor number of Jin et al. (2021), without the factor b / (1 - k).
 
-        It needs Poisson's ratio: AttributeError for a problem that is not of a power law in physical units.
+        It needs Poisson's ratio: AttributeError for a problem that is not of one power law in physical units.
         """
+        if self.punch_solid is not None:
+            raise AttributeError("two bodies have two of Poisson's ratios")
         nu = self.solid.power_law.nu  # type: ignore[union-attr]  # None: AttributeError
         return self.mu * response_factor_per_rest(self.k, nu) ** (-self.n / (2.0 * self.n + self.k - 1.0))
 
     @property
     def response(self) -> Any:
-        """`fscm.graded.GradedResponse` of a graded solid; None for a power law."""
+        """`fscm.graded.SurfaceResponse` of bodies that are not one power law; None for a power law."""
         if self.graded is None:
             return None
         # Imported here: a power law does not need it.
@@ -296,9 +310,9 @@ class Problem:
 
     @property
     def largest_mu(self) -> float:
-        """The Tabor number of the softest part of the solid: that of a power law is the only one."""
+        """The Tabor number of the softest part of the bodies: that of a power law is the only one."""
         response = self.response
-        return self.mu if response is None else self.mu * response.softest ** (self.n / (2.0 * self.n - 1.0))
+        return self.mu if response is None else float(response.largest_mu(self.mu, self.n))
 
     @property
     def compliance(self) -> float:
@@ -322,6 +336,33 @@ def _check_parts(punch: Any, law: Any) -> None:
             f"law = {law!r} is not a surface law: it needs traction, slope, curvature and energy "
             "of the gap and work_of_adhesion, z0, singular_gap, peak_gap and decay"
         )
+
+
+def _check_bodies(graded: Any, k: float) -> None:
+    """Refuse bodies whose k is not that of the problem, and the Gibson solid among several."""
+    if not isinstance(graded, GradedHalfSpace | Bodies):
+        raise ValueError(f"graded = {graded!r} is no graded solid: it needs modulus(z), poisson(z), length, interfaces")
+    bodies = graded if isinstance(graded, Bodies) else Bodies((graded,))
+    k_surface = bodies.surface.k
+    if k != k_surface:
+        raise ValueError(
+            f"gradient exponent k = {k} is outside [{k_surface:g}, {k_surface:g}]: the modulus at the surface is finite"
+            if k_surface == 0.0
+            else f"gradient exponent k = {k} is outside [{k_surface:g}, {k_surface:g}]: it is that of the bodies"
+        )
+    if k == 1.0:
+        raise ValueError(
+            "gradient exponent k = 1 is outside [0, 1): the response of the Gibson solid is local, and known for this "
+            "solid alone without surface tension"
+        )
+    for body in bodies.solids:
+        length = tension_length(body)
+        if tension_of(body) and not _SHORTEST <= length <= 1.0 / _SHORTEST:
+            raise ValueError(
+                f"the surface tension of {body!r} is as stiff as the solid at the length {length:.3g} (Q z0)^(1/n), "
+                f"outside [{_SHORTEST:g}, {1.0 / _SHORTEST:g}]: a smaller one changes no digit, a larger one leaves a "
+                "rigid plane"
+            )
 
 
 def _check_exponents(n: float, k: float, punch: PunchShape, law: SurfaceLaw) -> None:

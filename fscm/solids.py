@@ -87,6 +87,22 @@ def _not_negative(solid: object, name: str, reason: str, high: float = math.inf)
     object.__setattr__(solid, name, value)
 
 
+def checked_tension(value: object) -> float:
+    """A surface tension as a float.
+
+    Raises
+    ------
+    ValueError
+        When it is negative or no number.
+    """
+    reason = "a surface with less energy the larger it is would not stay smooth"
+    return real_number("surface_tension", value, low=0.0, high=math.inf, closed_low=True, reason=reason)
+
+
+def _tension(solid: PowerLaw | Homogeneous | OffsetPowerLaw | Exponential | Coating) -> None:
+    object.__setattr__(solid, "surface_tension", checked_tension(solid.surface_tension))
+
+
 @dataclass(frozen=True, slots=True)
 class PowerLaw:
     """E(z) = E0 (z/c0)^k (Eq. 3).
@@ -99,6 +115,8 @@ class PowerLaw:
         Gradient exponent, 0 <= k <= 1.
     nu : float
         Poisson's ratio, 0 <= nu <= 1/2; for k = 1 (the Gibson solid) exactly 1/2, or the response is infinite.
+    surface_tension : float
+        Surface tension, a force per length, >= 0.
 
     Raises
     ------
@@ -117,6 +135,7 @@ class PowerLaw:
     c0: float
     k: float
     nu: float
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
         _positive(self, "E0", "c0")
@@ -124,6 +143,7 @@ class PowerLaw:
         k = real_number("k", self.k, low=0.0, high=1.0, closed_low=True, closed_high=True, reason=reason)
         object.__setattr__(self, "k", k)
         _elastic(self, "nu")
+        _tension(self)
         if k == 1.0 and self.nu != 0.5:
             raise ValueError(
                 f"nu = {self.nu:g} is outside [0.5, 0.5] for k = 1: only the incompressible Gibson solid has "
@@ -164,24 +184,28 @@ class Homogeneous:
         Modulus, > 0.
     nu : float
         Poisson's ratio, 0 <= nu <= 1/2.
+    surface_tension : float
+        Surface tension, a force per length, >= 0.
 
     Examples
     --------
     >>> Homogeneous(E=70e9, nu=0.2).power_law
-    PowerLaw(E0=70000000000.0, c0=1.0, k=0.0, nu=0.2)
+    PowerLaw(E0=70000000000.0, c0=1.0, k=0.0, nu=0.2, surface_tension=0.0)
     """
 
     E: float
     nu: float
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
         _positive(self, "E")
         _elastic(self, "nu")
+        _tension(self)
 
     @property
     def power_law(self) -> PowerLaw:
         """The solid as a power law; c0 has no effect for k = 0."""
-        return PowerLaw(self.E, 1.0, 0.0, self.nu)
+        return PowerLaw(self.E, 1.0, 0.0, self.nu, self.surface_tension)
 
     def modulus(self, z: Array) -> Array:
         """E everywhere."""
@@ -206,6 +230,8 @@ class OffsetPowerLaw:
         Offset of the depth, > 0.
     nu : float
         Poisson's ratio, 0 <= nu <= 1/2.
+    surface_tension : float
+        Surface tension, a force per length, >= 0.
 
     Examples
     --------
@@ -218,11 +244,13 @@ class OffsetPowerLaw:
     k: float
     z_s: float
     nu: float
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
         _positive(self, "E0", "c0", "z_s")
         _not_negative(self, "k", "E = E0 ((z+z_s)/c0)^k has no finite surface response far away", high=1.0)
         _elastic(self, "nu")
+        _tension(self)
 
     @property
     def length(self) -> float:
@@ -255,6 +283,8 @@ class Exponential:
         Length of the decay, > 0.
     nu : float
         Poisson's ratio, 0 <= nu <= 1/2.
+    surface_tension : float
+        Surface tension, a force per length, >= 0.
 
     Examples
     --------
@@ -266,10 +296,12 @@ class Exponential:
     E_depth: float
     length: float
     nu: float
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
         _positive(self, "E_surface", "E_depth", "length")
         _elastic(self, "nu")
+        _tension(self)
 
     @property
     def interfaces(self) -> tuple[float, ...]:
@@ -301,6 +333,8 @@ class Coating:
         Poisson's ratio of the coating, 0 <= nu <= 1/2.
     nu_substrate : float, optional
         That of the substrate, joined in the same way; that of the coating by default.
+    surface_tension : float
+        Surface tension, a force per length, >= 0.
 
     Examples
     --------
@@ -316,6 +350,7 @@ class Coating:
     transition: float
     nu_coating: float
     nu_substrate: float | None = None
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
         _positive(self, "E_coating", "E_substrate", "thickness")
@@ -323,6 +358,7 @@ class Coating:
         if self.nu_substrate is None:
             object.__setattr__(self, "nu_substrate", self.nu_coating)
         _elastic(self, "nu_coating", "nu_substrate")
+        _tension(self)
 
     @property
     def length(self) -> float:
@@ -365,45 +401,3 @@ def contact_modulus(solid: GradedHalfSpace, z: float = 0.0) -> float:
     """
     at = np.array([z])
     return float(solid.modulus(at)[0] / (1.0 - solid.poisson(at)[0] ** 2))
-
-
-@dataclass(frozen=True, slots=True)
-class ScaledSolid:
-    """A solid whose depths are measured in another unit.
-
-    Parameters
-    ----------
-    solid : GradedHalfSpace
-    unit : float
-        The new unit in the old one, > 0.
-
-    Examples
-    --------
-    >>> ScaledSolid(Exponential(E_surface=1.0, E_depth=2.0, length=3.0, nu=0.3), unit=6.0).length
-    0.5
-    """
-
-    solid: GradedHalfSpace
-    unit: float
-
-    def __post_init__(self) -> None:
-        unit = real_number("unit", self.unit, low=0.0, high=float("inf"), reason="it is a length")
-        object.__setattr__(self, "unit", unit)
-
-    @property
-    def length(self) -> float:
-        """A depth over which the constants change."""
-        return self.solid.length / self.unit
-
-    @property
-    def interfaces(self) -> tuple[float, ...]:
-        """Depths at which the constants or their derivatives jump."""
-        return tuple(z / self.unit for z in self.solid.interfaces)
-
-    def modulus(self, z: Array) -> Array:
-        """E(z)."""
-        return self.solid.modulus(self.unit * np.asarray(z, float))
-
-    def poisson(self, z: Array) -> Array:
-        """nu(z)."""
-        return self.solid.poisson(self.unit * np.asarray(z, float))

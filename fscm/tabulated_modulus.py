@@ -11,7 +11,7 @@ import scipy
 
 from fscm._typing import Array
 from fscm._validation import real_number
-from fscm.solids import elastic_ratio
+from fscm.solids import checked_tension, elastic_ratio
 
 __all__ = ["TabulatedModulus"]
 
@@ -35,6 +35,8 @@ class TabulatedModulus:
         Moduli there, > 0.
     nu : float or sequence of float
         Poisson's ratio, one number or one for each depth.
+    surface_tension : float
+        Surface tension, a force per length, >= 0.
 
     Examples
     --------
@@ -46,10 +48,12 @@ class TabulatedModulus:
     depths: Sequence[float]
     moduli: Sequence[float]
     nu: float | Sequence[float]
+    surface_tension: float = 0.0
     _young: scipy.interpolate.PchipInterpolator = field(init=False, repr=False, compare=False)
     _nu: scipy.interpolate.PchipInterpolator = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "surface_tension", checked_tension(self.surface_tension))
         depths = _numbers("depths", self.depths, 0.0, "the solid is below z = 0", True)
         moduli = _numbers("moduli", self.moduli, 0.0, "a modulus is positive", False)
         if len(depths) != len(moduli) or len(depths) < 2:

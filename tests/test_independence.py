@@ -54,7 +54,7 @@ LAYERS = {
         ("errors", "_typing", "_threads", "_validation", "_presentation", "_response_factor", "_law_curve"),
         ("laws", "tabulated_law", "punch", "custom_punch", "measured_punch"),
         ("solids", "layers", "tabulated_modulus", "custom_solid"),
-        ("_units",),
+        ("bodies", "_units"),
         ("_meshes", "_kernel", "_azimuthal_kernel", "_panels", "_samples", "_response_store", "_deformation"),
         ("graded",),
         ("problem",),

@@ -27,7 +27,7 @@ import scipy
 import fscm
 from comparisons.model import Array, NotApplicable, translated
 from comparisons.problem.problem import Problem, Section
-from fscm.graded.compliance import compliance
+from fscm.graded.body import compliance_of
 from fscm.solids import PowerLaw
 
 #: Wave numbers beside the inverse of the mean radius of the load, and points for each decade.  The shares fall as xi
@@ -129,7 +129,7 @@ def energy_spectrum(problem: Problem) -> EnergySpectrum:
         size = np.abs(field.pressure)
         moments = [float(np.trapezoid(size * field.radius**power, field.radius)) for power in (1, 2)]
         xi = np.geomspace(_LOWEST, _HIGHEST, count) / (moments[1] / moments[0])
-        values = compliance(posed.graded, xi)
+        values = compliance_of(posed.graded, xi)
     density = values * xi * _transform(field.radius, field.pressure, xi) ** 2
     return EnergySpectrum(xi / problem.units["radius"], values, density / np.sum(density))
 

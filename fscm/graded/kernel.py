@@ -1,10 +1,10 @@
-r"""The response of a graded solid to a ring of pressure, by its images.
+r"""The response of graded solids to a ring of pressure, by their images.
 
-    G(r, t) = t int_0^oo D(xi) J0(xi r) J0(xi t) d(xi) = t [f(0) - Re sum_j a_j f(d_j)],
+    G(r, t) = t int_0^oo D(xi) J0(xi r) J0(xi t) d(xi) = t [D_oo f(0) - Re sum_j a_j f(d_j)],
     f(d) = (2/pi) K(m) / sqrt((r+t)^2 + d^2) = 1 / agm(sqrt((r+t)^2 + d^2), sqrt((r-t)^2 + d^2)),
 
 so that a ring of unit pressure lifts the surface by (2/E*) G, E* = E/(1-nu^2) at the surface (`fscm.graded.images`).
-For a homogeneous solid D = 1, and G is that of Eq. 6 at k = 0.
+For a homogeneous solid D = 1, and G is that of Eq. 6 at k = 0.  Where every surface has a tension D_oo = 0.
 """
 
 from __future__ import annotations
@@ -13,8 +13,9 @@ import numpy as np
 import scipy
 
 from fscm._typing import Array, ComplexArray
+from fscm.bodies import Bodies
 from fscm.graded.images import Images, images_of
-from fscm.solids import GradedHalfSpace
+from fscm.solids import Solid
 
 __all__ = ["GradedKernel", "image_ring", "image_sum"]
 
@@ -64,11 +65,11 @@ def image_sum(total: Array, distance: Array, depths: ComplexArray, strengths: Co
 
 
 class GradedKernel:
-    """G(r, t) of a solid with a positive modulus at the surface.
+    """G(r, t) of solids that are no power law, or have surface tension.
 
     Parameters
     ----------
-    solid : GradedHalfSpace
+    solids : Bodies or Solid
     longest : float, optional
         Longest distance of interest, by default 1e6 times the deepest change of the constants.
 
@@ -80,9 +81,8 @@ class GradedKernel:
     array([1.  , 0.25])
     """
 
-    def __init__(self, solid: GradedHalfSpace, longest: float | None = None) -> None:
-        self.solid = solid
-        self.images: Images = images_of(solid, longest)
+    def __init__(self, solids: Bodies | Solid, longest: float | None = None) -> None:
+        self.images: Images = images_of(solids, longest)
 
     def images_at(self, total: Array, distance: Array) -> Array:
         """Re sum_j a_j f(d_j), shape of both arguments."""
@@ -97,7 +97,9 @@ class GradedKernel:
         """G(r, t), dimensionless; `distance` is abs(r - t) where the radii cannot carry it."""
         r, t = np.broadcast_arrays(np.asarray(r, float), np.asarray(t, float))
         gap = np.abs(r - t) if distance is None else np.asarray(distance, float)
-        return t * (image_ring(r + t, gap, np.zeros(())) - self.images_at(r + t, gap))
+        # Infinite at r = t without surface tension alone.
+        shortest = self.images.shortest and self.images.shortest * image_ring(r + t, gap, np.zeros(()))
+        return np.asarray(t * (shortest - self.images_at(r + t, gap)))
 
     def error(self, r: Array, t: Array) -> Array:
         """Bound of the error of G(r, t): t int eps(xi) |J0(xi r) J0(xi t)| d(xi), with the error eps of D.

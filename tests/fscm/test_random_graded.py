@@ -1,19 +1,31 @@
-"""Stated uncertainty of events on random graded solids, against finer meshes and another fit of the response.
+"""Stated uncertainty of events on random graded solids and bodies, against finer meshes and another fit.
 
 The reference has panels of order 16 (tolerance 1e-9 against order 12, 1e-7), ends ten times farther out, and has half
 as many images and wave numbers again, and more nodes on the pieces of the response.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from fscm import Coating, Exponential, NoSuchEvent, OffsetPowerLaw, Problem, TabulatedModulus, solve_together
+from fscm import (
+    Coating,
+    Exponential,
+    LennardJones,
+    NoSuchEvent,
+    OffsetPowerLaw,
+    PowerLaw,
+    PowerPunch,
+    Problem,
+    TabulatedModulus,
+    solve_together,
+)
 from fscm._meshes import Mesh, Meshes
 from fscm.graded import images, panels, patches, response
 
-COUNT = 40
+COUNT, COUNT_OF_BODIES = 40, 30
 #: Of the light tests: n = 3 on an offset power law.
 LIGHT = (29,)
 QUANTITIES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
@@ -52,6 +64,25 @@ def problems():
     return problems
 
 
+def _body(rng):
+    """A solid, half of them power laws and half of them with surface tension, over lengths of 1e-3 to 10 radii."""
+    solid = _solid(rng) if rng.random() < 0.5 else PowerLaw(1.0, 1.0, float(rng.uniform(0.0, 0.8)), 0.3)
+    return replace(solid, surface_tension=_between(rng, 1e-3, 10.0) if rng.random() < 0.5 else 0.0)
+
+
+def problems_of_bodies():
+    """Random pairs, and single bodies with surface tension."""
+    rng = np.random.default_rng(20261128)
+    problems = []
+    while len(problems) < COUNT_OF_BODIES:
+        punch = PowerPunch(float(rng.choice([1.0, 1.5, 2.0, 3.0])), 1.0)
+        bodies = [_body(rng) for _ in range(int(rng.integers(1, 3)))]
+        problem = Problem(bodies[0], punch, LennardJones(_between(rng, 0.1, 3.0), 1.0), *bodies[1:])
+        if problem.dimensionless.graded is not None:
+            problems.append(problem)
+    return problems
+
+
 @pytest.fixture
 def finer(monkeypatch):
     """A function that makes the responses of solids finer from then on."""
@@ -84,9 +115,17 @@ def finer(monkeypatch):
     "number", [i if i in LIGHT else pytest.param(i, marks=pytest.mark.heavy) for i in range(COUNT)]
 )
 def test_events_on_random_graded_solids_are_honest(number, finer):
-    problem = problems()[number]
     # The light tests have no jumps, which take a whole path.
-    names = QUANTITIES[:1] if number in LIGHT else QUANTITIES
+    _check(problems()[number], QUANTITIES[:1] if number in LIGHT else QUANTITIES, finer)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("number", range(COUNT_OF_BODIES))
+def test_events_of_random_bodies_are_honest(number, finer):
+    _check(problems_of_bodies()[number], QUANTITIES, finer)
+
+
+def _check(problem, names, finer):
     solutions = solve_together(problem, names)
     finer()
     exact = solve_together(problem, names, FINE)
