@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, overload
 
 import numpy as np
@@ -16,6 +16,7 @@ import numpy as np
 from fscm._response_factor import response_factor_per_rest
 from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, units_of
 from fscm._validation import real_number
+from fscm.interaction import Interaction, interaction_of
 from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law
 from fscm.punch import PowerPunch, PunchShape, scaled_punch, unit_of_radii
 from fscm.solids import GradedHalfSpace, PowerLaw, ScaledSolid, Solid
@@ -60,10 +61,13 @@ class Problem:
     graded : GradedHalfSpace, optional
         A solid that is not a power law, with depths in (Q z0)^(1/n).  Then k = 0, and mu is that of the surface, with
         the modulus E(0) / (1 - nu(0)^2).
+    interaction : str
+        Of the surface: "derjaguin", the law at the vertical gap, or "body", the potential of the punch at the place of
+        each point, which is known for a `Ball` under `LennardJones` or `Mie` (see `fscm.interaction`).
 
     Attributes
     ----------
-    n, k, mu, punch, law, solid, graded
+    n, k, mu, punch, law, solid, graded, interaction
         As above.  In a physical problem punch and law are physical, n and Q define the unit of the radii (those of the
         punch if it is a power law), and `graded` is None; in a dimensionless one `solid` is None.
 
@@ -93,11 +97,14 @@ class Problem:
     law: SurfaceLaw
     graded: GradedHalfSpace | None
     solid: Solid | None
+    interaction: str
     _dimensionless: Problem | None = field(init=False, repr=False, compare=False)
     _units: Mapping[str, float] = field(init=False, repr=False, compare=False)
 
     @overload
-    def __init__(self, solid: Solid, punch: PunchShape, law: SurfaceLaw) -> None: ...
+    def __init__(
+        self, solid: Solid, punch: PunchShape, law: SurfaceLaw, *, interaction: str = "derjaguin"
+    ) -> None: ...
     @overload
     def __init__(
         self,
@@ -108,6 +115,7 @@ class Problem:
         law: SurfaceLaw | None = None,
         graded: GradedHalfSpace | None = None,
         solid: None = None,
+        interaction: str = "derjaguin",
     ) -> None: ...
     def __init__(  # type: ignore[misc]  # the positions of the two have other names
         self,
@@ -118,6 +126,7 @@ class Problem:
         law: Any = None,
         graded: Any = None,
         solid: Any = None,
+        interaction: str = "derjaguin",
     ) -> None:
         # The three positions of a physical problem are solid, punch and law.
         if hasattr(n, "modulus"):
@@ -125,16 +134,16 @@ class Problem:
             punch, k = (k, None) if punch is None else (punch, k)
             law, mu = (mu, None) if law is None else (law, mu)
         if solid is None:
-            self._pose(n, k, mu, punch, law, graded)
+            self._pose(n, k, mu, punch, law, graded, interaction)
         elif n is k is mu is graded is None:
-            self._pose_physical(solid, punch, law)
+            self._pose_physical(solid, punch, law, interaction)
         else:
             raise ValueError(
                 "a problem has a solid, a punch and a law, or else n, k and mu: a physical problem is changed by "
                 "making another one of its parts"
             )
 
-    def _pose(self, n: Any, k: Any, mu: Any, punch: Any, law: Any, graded: Any) -> None:
+    def _pose(self, n: Any, k: Any, mu: Any, punch: Any, law: Any, graded: Any, interaction: str) -> None:
         """Check and set the attributes of a dimensionless problem."""
         inf = math.inf
         n = real_number("shape index n", n, low=0.0, high=inf, reason="f = r^n / n must grow with r")
@@ -181,9 +190,15 @@ class Problem:
                 "a physical one is Problem(solid, punch, law)"
             )
         law = dimensionless_law(law)
-        self._set(n, k, mu, punch, law, graded, None, None, DIMENSIONLESS)
+        interaction_of(punch, law, interaction)
+        if k == 1.0 and interaction != "derjaguin":
+            raise ValueError(
+                f"interaction {interaction!r} is not known for k = 1: each point of the Gibson solid has the equilibria of "
+                "one gap there; take 'derjaguin'"
+            )
+        self._set(n, k, mu, punch, law, graded, None, interaction, None, DIMENSIONLESS)
 
-    def _pose_physical(self, solid: Any, punch: Any, law: Any) -> None:
+    def _pose_physical(self, solid: Any, punch: Any, law: Any, interaction: str) -> None:
         """Set a physical problem, and its dimensionless one, which is checked."""
         _check_parts(punch, law)
         w, z0 = law.work_of_adhesion, law.z0
@@ -204,12 +219,12 @@ class Problem:
         _check_exponents(n, k, punch, law)
         mu = number_from_log("Tabor number", log_tabor_number(power_law, n, Q, w, z0))
         shape = PowerPunch(n) if type(punch) is PowerPunch else scaled_punch(punch, units["radius"], z0)
-        core = Problem(n, k, mu, shape, dimensionless_law(law), graded)
-        self._set(n, k, core.mu, punch, law, None, solid, core, units)
+        core = Problem(n, k, mu, shape, dimensionless_law(law), graded, interaction=interaction)
+        self._set(n, k, core.mu, punch, law, None, solid, interaction, core, units)
 
     def _set(self, *values: Any) -> None:
         # The generated __setattr__ of a frozen class refuses; writing through object is its own idiom.
-        names = ("n", "k", "mu", "punch", "law", "graded", "solid", "_dimensionless", "_units")
+        names = ("n", "k", "mu", "punch", "law", "graded", "solid", "interaction", "_dimensionless", "_units")
         for name, value in zip(names, values, strict=True):
             object.__setattr__(self, name, value)
 
@@ -217,6 +232,8 @@ class Problem:
         names = ("n", "k", "mu", "punch", "law") if self.solid is None else ("solid", "punch", "law")
         if self.graded is not None:
             names = (*names, "graded")
+        if self.interaction != "derjaguin":
+            names = (*names, "interaction")
         return f"Problem({', '.join(f'{name}={getattr(self, name)!r}' for name in names)})"
 
     def __str__(self) -> str:
@@ -225,8 +242,8 @@ class Problem:
     def __reduce__(self) -> tuple[Any, ...]:
         """Rebuilt from its parts: units cannot be pickled."""
         if self.solid is not None:
-            return Problem, (self.solid, self.punch, self.law)
-        return Problem, (self.n, self.k, self.mu, self.punch, self.law, self.graded)
+            return Problem, (self.solid, self.punch, self.law, None, None, None, None, self.interaction)
+        return Problem, (self.n, self.k, self.mu, self.punch, self.law, self.graded, None, self.interaction)
 
     @property
     def dimensionless(self) -> Problem:
@@ -241,6 +258,27 @@ class Problem:
         (Eq. 31); energy: load * displacement; stiffness: load / displacement; energy_per_area: dgamma; number: 1.
         """
         return self._units
+
+    def under(self, interaction: str | None) -> Problem:
+        """The problem with another interaction; itself for None.
+
+        Raises
+        ------
+        ValueError
+            When the interaction is unknown, or not known for this punch and law.
+
+        Examples
+        --------
+        >>> from fscm import Ball, Homogeneous, LennardJones
+        >>> bead = Problem(Homogeneous(E=1.5e6, nu=0.5), Ball(R=5e-6), LennardJones(0.05, 3e-9))
+        >>> bead.under("body").interaction
+        'body'
+        """
+        if interaction in (None, self.interaction):
+            return self
+        if self.solid is None:
+            return replace(self, interaction=interaction)
+        return Problem(self.solid, self.punch, self.law, interaction=interaction)
 
     def in_units(self, *, c0: float, nu: float, Q: float, work_of_adhesion: float, z0: float) -> Problem:
         """The physical problem of given scales whose modulus E0 gives the Tabor number of this one.
@@ -274,6 +312,11 @@ class Problem:
         scales = {"c0": c0, "Q": punch.Q, "work_of_adhesion": law.work_of_adhesion, "z0": law.z0}
         E0 = modulus_for(self.mu, n=self.n, k=self.k, nu=nu, **scales)
         return Problem(PowerLaw(E0, c0, self.k, nu), punch, law)
+
+    @property
+    def force(self) -> Interaction:
+        """The interaction of punch and law."""
+        return interaction_of(self.punch, self.law, self.interaction)
 
     @property
     def tabor_number_jin(self) -> float:
