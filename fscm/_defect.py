@@ -138,7 +138,9 @@ class Defect:
         samples, force = Samples(mesh), fine.problem.force
         radii = state.scale * samples.radii
         gap = fine.height(radii) - state.displacement + coarse.transfer(nodal, mesh, POINTS)
-        self._pressure_error = samples.projected(force.traction(radii, gap) - coarse.transfer(state.pressure, mesh, POINTS))
+        self._pressure_error = samples.projected(
+            force.traction(radii, gap) - coarse.transfer(state.pressure, mesh, POINTS)
+        )
         self._pressure = polynomial + self._pressure_error
         self._surface_energy = samples.integrals(2.0 * state.scale * radii * force.energy(radii, gap))
         deformation = self._stiffness * (fine.response(state.scale) @ polynomial) + f.tail.displacement
@@ -327,9 +329,7 @@ class Defect:
             return stored + _WEIGHT * float(self._area @ sizes)
         if name == "central_gap":
             return (
-                stored
-                + abs(f.displacement)
-                + _ENTRY * self._stiffness * float(f.disc.axis_response(f.scale) @ sizes)
+                stored + abs(f.displacement) + _ENTRY * self._stiffness * float(f.disc.axis_response(f.scale) @ sizes)
             )
         if name == "energy":
             density = 0.5 * sizes * np.abs(f.deformation) + np.abs(force.energy(f.radius, f.gap))

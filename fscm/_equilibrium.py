@@ -213,7 +213,12 @@ class State:
     @property
     def gap_at_edge(self) -> float:
         """Gap at s = 1 when the mesh follows the edge."""
-        return self.disc.problem.law.peak_gap if self.edge_gap is None else self.edge_gap
+        return float(self.disc.problem.force.peak_gap(np.array(self.scale))) if self.edge_gap is None else self.edge_gap
+
+    @property
+    def drift_at_edge(self) -> float:
+        """Derivative of that gap by log c."""
+        return self.disc.problem.force.peak_drift(self.scale) if self.edge_gap is None else 0.0
 
     @cached_property
     def radius(self) -> Array:
@@ -327,7 +332,7 @@ class Linearisation:
             axis_growth = axis_growth + K * float(d.axis_response(s.scale) @ self.drift)
         self.scale_column = -(rise + (1.0 - k) * elastic + growth + s.tail.displacement_rate)
         # Derivatives of the anchor by delta and log c.
-        self._anchor_ends = 0.0, 0.0 if s.follows_edge else 1.0
+        self._anchor_ends = 0.0, -s.drift_at_edge if s.follows_edge else 1.0
         self.anchor = float(d.edge @ s.gap) - s.gap_at_edge if s.follows_edge else 0.0
         self._growth_on_axis = float(axis_growth)
         self._slope, self._rise = slope, rise
@@ -343,7 +348,7 @@ class Linearisation:
         if s.follows_edge:
             edge = np.array([s.scale])
             self.anchor = float(d.height(edge)[0] - s.displacement + d.edge @ lift) - s.gap_at_edge
-            self._anchor_ends = -1.0, float(d.rise(edge)[0])
+            self._anchor_ends = -1.0, float(d.rise(edge)[0]) - s.drift_at_edge
 
     @cached_property
     def load_gradient(self) -> Array:

@@ -51,7 +51,7 @@ class TailOfBody:
     def force(self) -> Body:
         """The interaction."""
         force = self.problem.force
-        assert isinstance(force, Body)  # noqa: S101  # the caller asked
+        assert isinstance(force, Body)  # the caller asked
         return force
 
     @cached_property

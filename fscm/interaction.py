@@ -22,9 +22,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
+import scipy
 
 from fscm._typing import Array
 from fscm.laws import LennardJones, Mie, SurfaceLaw
@@ -43,6 +45,8 @@ _LAST_POWER = 33
 #: begins at _FARTHEST sizes of ball and radius, beyond which the traction is a power of the distance.
 _GAUSS = np.polynomial.legendre.leggauss(20)
 _FARTHER, _FARTHEST = 4.0, 40.0
+#: Logarithm of the distance of the largest tension in lengths of the law: between these.
+_LOG_PEAK = -2.5, 2.5
 
 
 class Interaction(Protocol):
@@ -69,6 +73,14 @@ class Interaction(Protocol):
 
     def energy(self, r: Array, H: Array) -> Array:
         """Integral of p from H to infinity at a fixed radius."""
+        ...
+
+    def peak_gap(self, r: Array) -> Array | float:
+        """Gap of the largest tension at a radius: the one at a contact edge."""
+        ...
+
+    def peak_drift(self, r: float) -> float:
+        """Its derivative by the logarithm of the radius."""
         ...
 
 
@@ -107,6 +119,14 @@ class Derjaguin:
     def energy(self, r: Array, H: Array) -> Array:
         """e(H)."""
         return self.law.energy(H)
+
+    def peak_gap(self, r: Array) -> float:
+        """That of the law."""
+        return self.law.peak_gap
+
+    def peak_drift(self, r: float) -> float:
+        """Zero."""
+        return 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,6 +218,19 @@ class Body:
         at = self._distances(r, H)
         return self._rate(at) * at.nearer
 
+    def _peak(self, r: Array) -> Array:
+        """Height of the center above the sphere around it on which the tension is largest; 0 outside of that."""
+        return np.sqrt(np.maximum(_peak_distance(self) ** 2 - (self.aspect * np.asarray(r)) ** 2, 0.0))
+
+    def peak_gap(self, r: Array) -> Array:
+        """Gap on the sphere around the ball on which the tension is largest; outside of it the one at its height."""
+        return self._peak(r) - (self.ball_radius - self.punch.height(r)) - self.law.z0
+
+    def peak_drift(self, r: float) -> float:
+        """Its derivative by the logarithm of the radius."""
+        height, x = float(self._peak(np.array(r))), self.aspect * r
+        return float(r * self.punch.slope(np.array(r))) - (x * x / height if height > 0.0 else 0.0)
+
     def energy(self, r: Array, H: Array) -> Array:
         """Integral of p from H to infinity at a fixed radius, by quadrature over 1/(distance of the surface)."""
         r, H = np.broadcast_arrays(np.asarray(r, float), np.asarray(H, float))
@@ -268,6 +301,19 @@ def _far(t: Array, m: float, rate: bool = False) -> Array:
         if i % 2:
             total += 2.0 * factor * (i - 1.0) * t**i * (m + i if rate else 1.0)
     return total
+
+
+@lru_cache(maxsize=64)
+def _peak_distance(body: Body) -> float:
+    """Distance of the center of a ball at which the tension is largest."""
+
+    def rate(log_d: float) -> float:
+        d = np.array(body.law.z0 * math.exp(log_d))
+        unknown = np.zeros(())
+        at = _Distances(body.ball_radius, body.law.z0, body.ball_radius + d, d, unknown, unknown)
+        return float(body._rate(at))
+
+    return body.ball_radius + body.law.z0 * math.exp(scipy.optimize.brentq(rate, *_LOG_PEAK, xtol=1e-15))
 
 
 def check_interaction(name: object) -> None:

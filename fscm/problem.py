@@ -102,9 +102,7 @@ class Problem:
     _units: Mapping[str, float] = field(init=False, repr=False, compare=False)
 
     @overload
-    def __init__(
-        self, solid: Solid, punch: PunchShape, law: SurfaceLaw, *, interaction: str = "derjaguin"
-    ) -> None: ...
+    def __init__(self, solid: Solid, punch: PunchShape, law: SurfaceLaw, *, interaction: str = "derjaguin") -> None: ...
     @overload
     def __init__(
         self,
@@ -193,8 +191,8 @@ class Problem:
         interaction_of(punch, law, interaction)
         if k == 1.0 and interaction != "derjaguin":
             raise ValueError(
-                f"interaction {interaction!r} is not known for k = 1: each point of the Gibson solid has the equilibria of "
-                "one gap there; take 'derjaguin'"
+                f"interaction {interaction!r} is not known for k = 1: the Gibson solid is solved for a traction that "
+                "depends on the gap alone; take 'derjaguin'"
             )
         self._set(n, k, mu, punch, law, graded, None, interaction, None, DIMENSIONLESS)
 
