@@ -35,7 +35,7 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
     Returns
     -------
     dict or None
-        None if the solid is a power law, or if there is no force.  `free_k` is the exponent of the fit without limits;
+        None if the solid is a power law, if there is no force, or for two bodies, surface tension or friction.  `free_k` is the exponent of the fit without limits;
         the deviations of the compliance are relative root mean squares, of this law and of the modulus of the surface;
         nine tenths of the elastic energy are between both `lengths`; `pull_off_force` has the error of this law, and
         `closed_forms` those of the closed forms with this law, against the force of the solid itself;
@@ -51,7 +51,7 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
     >>> 0.1 < equivalent["k"] < 0.3, abs(equivalent["pull_off_force"]["error"]) < 0.02
     (True, True)
     """
-    if problem.is_of_the_paper("solid") or force.value is None:
+    if problem.is_of_the_paper("solid") or force.value is None or problem.punch_solid or problem.surface:
         return None
     try:
         spectrum = energy_spectrum(problem)

@@ -15,7 +15,12 @@ _STATED = ("model", "value", "u_num", "unit", "status", "reason")
 
 
 def reference_force(problem: Problem) -> Row:
-    """Return the pull-off force of the atlas where it has the problem, and else that of the FSCM."""
+    """Return the pull-off force of the atlas where it has the problem, and else that of the FSCM.
+
+    The FSCM has no friction: with friction the force is that of the finite elements.
+    """
+    if "solid.friction" in problem.surface:
+        return evaluate("fem", "pull_off_force", problem)
     row = evaluate("atlas", "pull_off_force", problem)
     return row if row.status == "ok" else evaluate("fscm", "pull_off_force", problem)
 

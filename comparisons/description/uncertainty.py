@@ -51,6 +51,11 @@ def uncertainty(problem: Problem, quantity: str = "pull_off_force") -> Json:
     0.05
     """
     uncertain = problem.uncertain
+    if "solid.friction" in problem.surface:
+        raise ValueError(
+            f'{problem.path}: friction = "bonded" has no exact derivatives, which are those of the integral equation; '
+            "leave it out, or solve the file at two values"
+        )
     if not uncertain:
         raise ValueError(
             f'{problem.path}: no value has an uncertainty; write one as "2 +- 0.1 GPa", "2 GPa +- 5 %" or '

@@ -172,6 +172,8 @@ def fit(
 
 def checked_keys(problem: Problem, free: Sequence[str], model: str | None) -> list[Key]:
     """Return the free keys of a fit; `ValueError` if there is no such key, or the model cannot describe the problem."""
+    if "solid.friction" in problem.surface:
+        raise ValueError('friction = "bonded" cannot be fitted: the models of a fit, fscm and jkr, have no friction')
     if model == "jkr" and not problem.is_of_the_paper("solid", "punch", "law"):
         raise ValueError("--model jkr takes power-law solids and punches under the 9-3 law")
     return free_keys(problem, free)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from comparisons.data.validation import known_name, shown
 from comparisons.problem import Problem
-from comparisons.problem.kinds import SECTIONS
+from comparisons.problem.kinds import KINDS
 from comparisons.problem.uncertain import Uncertainty
 
 #: Largest logarithm of a share of the value of the file: seventeen powers of ten.
@@ -88,8 +88,8 @@ def uncertain_keys(problem: Problem, free: Sequence[Key]) -> list[Key]:
 def _key(problem: Problem, name: str) -> Key:
     section, _, key = name.partition(".")
     where = f"--free {shown(name)}"
-    known_name("section", section, SECTIONS, where)
-    known_name("key", key, getattr(problem, section).values, where)
+    known_name("section", section, KINDS, where)
+    known_name("key", key, problem.section(section).values, where)
     start = problem[name]
     if not isinstance(start, float | int):
         raise ValueError(f"{where}: it is not a number of the file; only numbers can be fitted")

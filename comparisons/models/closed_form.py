@@ -64,6 +64,9 @@ class ClosedForm:
         Further ranges of single quantities.
     undefined : str
         Why the model does not define the other quantities.
+    neglects_surface : bool
+        Whether the model has neither surface tension nor friction: `comparisons.problem.evaluation` evaluates it
+        without them, and says so.
 
     Examples
     --------
@@ -78,6 +81,7 @@ class ClosedForm:
     domain: ClassVar[str]
     limits: ClassVar[Limits | None] = {}
     narrower: ClassVar[dict[str, Limits]] = {}
+    neglects_surface: ClassVar[bool] = True
     undefined: ClassVar[str] = "its equations hold in contact only, where the gap is zero"
 
     @property

@@ -202,6 +202,13 @@ def _body(problem: Problem) -> fem_reference.Problem:
     """Return the problem of the solver, whose homogeneous solid may be incompressible."""
     if not problem.name:
         raise NotApplicable("n, k and mu do not state how large the strains are; give a problem file")
+    stated = [*problem.surface, *(["punch_solid"] if problem.punch_solid else [])]
+    stated += ["punch.R_solid"] if "R_solid" in problem.punch.values else []
+    if stated:
+        raise NotApplicable(
+            f"finite strain is for a rigid punch on a plane solid without surface tension and friction: leave out "
+            f"{', '.join(stated)}, or take small strains"
+        )
     if problem.solid.kind != "homogeneous":
         return built(problem)
     solid = fem_reference.NeoHookean(problem.solid["E"], problem.solid["nu"])

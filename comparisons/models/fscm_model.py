@@ -47,26 +47,28 @@ class FullSelfConsistent(SolverModel):
         with translated(fscm):
             if problem.posed.k == 1.0:
                 return gibson_profile(problem.posed)
-            _check_ball(problem)
+            _check(problem)
             event = fscm.Analysis(problem.posed).event("pull_off")
         return surface_of(radial_field(event.check), radial_field(event.value))
 
     def _result(self, problem: Problem, quantity: str) -> Result:
-        _check_ball(problem)
+        _check(problem)
         return result_of(fscm.solve(problem.posed, quantity))
 
     def _curve(self, problem: Problem) -> Curve:
         if problem.posed.k == 1.0:
             return gibson_curve(problem.posed)
-        _check_ball(problem)
+        _check(problem)
         path = fscm.trace(problem.posed, longest_step=_STEP)
         curve = curve_of(path)
         curve.columns.update({name: getattr(path, name).astype(float) for name in _MARKS})
         return curve
 
 
-def _check_ball(problem: Problem) -> None:
-    """Refuse a ball that is smaller than its contact before its path is traced."""
+def _check(problem: Problem) -> None:
+    """Refuse friction, and a ball that is smaller than its contact before its path is traced."""
+    if problem.solid.get("friction", "none") != "none":
+        raise NotApplicable('the integral equation has no friction; friction = "bonded" is for fem')
     if problem.punch.kind != "ball" or problem.posed.mu < _LIKE_JKR:
         return
     if problem.is_of_the_paper("solid") and problem.posed.k == 0.0:

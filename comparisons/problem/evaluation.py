@@ -30,6 +30,7 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     """Return a quantity by a model, in the units of the problem.
 
     A scalar of a model that knows n, k and mu alone is that of the equivalent power law where the solid is another one.
+    One of a closed form is that without surface tension and friction, which its reason names.
 
     Raises
     ------
@@ -44,8 +45,11 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     """
     row = ALL_QUANTITIES[quantity]
     only_the_solid_differs = problem.is_of_the_paper("punch", "law") and not problem.is_of_the_paper("solid")
-    is_closed_form = model.name not in REFERENCES and not getattr(model, "checks_problems", False)
-    if quantity in QUANTITIES and only_the_solid_differs and is_closed_form:
+    checks_problems = getattr(model, "checks_problems", False)
+    is_closed_form = model.name not in REFERENCES and not checks_problems
+    if quantity in QUANTITIES and problem.surface and getattr(model, "neglects_surface", is_closed_form):
+        return _without_surface(problem, model, quantity)
+    if quantity in QUANTITIES and only_the_solid_differs and is_closed_form and problem.punch_solid is None:
         return _with_equivalent_solid(problem, model, quantity)
     _check(problem, model, quantity)
     return row.in_units(row.evaluate(model, problem), problem.units)  # type: ignore[arg-type]  # of its own kind
@@ -65,6 +69,13 @@ def _with_equivalent_solid(problem: Problem, model: Model, quantity: str) -> Res
     )
 
 
+def _without_surface(problem: Problem, model: Model, quantity: str) -> Result:
+    """Evaluate a model that knows elasticity alone without the surface tension and the friction of a problem."""
+    result = cast(Result, evaluated(problem.without(*problem.surface), model, quantity))
+    neglected = " and ".join(f"{name} = {value}" for name, value in problem.surface.items())
+    return replace(result, reason="; ".join(filter(None, (result.reason, f"{model.name} neglects {neglected}"))))
+
+
 def _check(problem: Problem, model: Model, quantity: str) -> None:
     """Raise `NotApplicable` where a model does not take the parts of a problem, or is outside its domain."""
     if problem.is_of_the_paper():
@@ -73,8 +84,8 @@ def _check(problem: Problem, model: Model, quantity: str) -> None:
             raise NotApplicable(domain.refusal(quantity))
     elif not getattr(model, "checks_problems", False):
         raise NotApplicable(
-            f"{model.name} takes a power-law or homogeneous solid, a sphere, cone or power-law punch and the 9-3 law; "
-            f"this problem has a {problem.solid.kind} solid, a {problem.punch.kind} punch and a {problem.law.kind} law"
+            f"{model.name} takes a power-law or homogeneous solid, or two of one k, with neither surface tension nor "
+            f"friction, a sphere, cone or power-law punch and the 9-3 law; this problem has {problem.parts}"
         )
     elif quantity == "critical_tabor_number":
         raise NotApplicable("the critical Tabor number is that of a power-law solid and punch with the 9-3 law")

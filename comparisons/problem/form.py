@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.data.validation import known_name, shown
-from comparisons.problem.kinds import KINDS, Form, Kind
+from comparisons.problem.kinds import KINDS, PUNCH_SOLID, Form, Kind
 from comparisons.problem.uncertain import Uncertainty, uncertain_in_si
 from comparisons.problem.units import NotAValue, in_si
 
@@ -64,6 +64,8 @@ def kind_of(section: str, table: object, source: Source) -> Kind:
     known_name(f"{section}.kind", name, KINDS[section], source.place(section, "kind"))
     kind = KINDS[section][name]
     for key in table:
+        if key not in ("kind", *kind.keys) and (reason := _of_another(section, name, key)):
+            raise source.refusal(f"{section}.{key}: {reason}", section, key)
         known_name("key", key, ["kind", *kind.keys], f"{source.place(section, key)}: {section}")
     if missing := [key for key in kind.required if key not in table]:
         has = f"a {section} of the kind {name} has {', '.join(kind.required)}"
@@ -73,6 +75,17 @@ def kind_of(section: str, table: object, source: Source) -> Kind:
         choices = " or else ".join(" and ".join(choice) for choice in kind.choices)
         raise source.refusal(f"{section} must be a {name} with {choices}", section)
     return kind
+
+
+def _of_another(section: str, name: str, key: str) -> str:
+    """Where a key belongs that a kind does not have; nothing for one that no section near has."""
+    of_solids = {key for kind in KINDS["solid"].values() for key in kind.keys}
+    if section == "punch" and key in of_solids:
+        return f"a punch has a shape alone; the solid of an elastic punch is the section [{PUNCH_SOLID}], with its kind"
+    if section == PUNCH_SOLID and key == "friction":
+        return "friction is one for both bodies; write it in [solid]"
+    others = [other for other, kind in KINDS[section].items() if key in kind.keys]
+    return f"{key} is a key of the kind {' or '.join(others)}, not of {name}" if key == "R_solid" and others else ""
 
 
 def values_in_si(
@@ -103,6 +116,8 @@ def values_in_si(
         try:
             if form.is_file:
                 values[key] = _filled(written, str, "name")
+            elif form.words:
+                values[key] = _word(written, form)
             elif form.is_list:
                 values[key] = tuple(_value(entry, form, power)[0] for entry in _filled(written, list, "list of values"))
             else:
@@ -119,6 +134,13 @@ def _filled(written: Any, wanted: type, name: str) -> Any:
     if not isinstance(written, wanted) or not written:
         raise NotAValue(f"is not a {name}")
     return written
+
+
+def _word(written: object, form: Form) -> str:
+    """A word as it is written; `NotAValue` if it is none of the form."""
+    if written not in form.words:
+        raise NotAValue(f"is not one of {', '.join(form.words)}")
+    return str(written)
 
 
 def _value(written: object, form: Form, power: float) -> tuple[float, Uncertainty | None]:

@@ -19,8 +19,9 @@ from comparisons.problem.punch_shapes import RoundedFlat, SmoothedProfile
 if TYPE_CHECKING:
     from comparisons.problem.problem import Section
 
-#: The sections of a file, all required.
+#: The sections that every file has, and that of an elastic punch, whose kinds are those of the solid.
 SECTIONS = ("solid", "punch", "law")
+PUNCH_SOLID = "punch_solid"
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,8 @@ class Form:
         Limits in SI.
     excluded : sequence of float
         Limits that are not admissible themselves.
+    words : sequence of str
+        What the value is one of, if it is a word.
     is_list, is_file : bool
         Whether the value is a list with an entry for each layer, or the name of a file.
     is_uncertain : bool
@@ -59,6 +62,7 @@ class Form:
     low: float = -math.inf
     high: float = math.inf
     excluded: Sequence[float] = ()
+    words: Sequence[str] = ()
     is_list: bool = False
     is_file: bool = False
     is_uncertain: bool = True
@@ -91,7 +95,9 @@ class Kind:
         What the kind is, for people.
     keys : mapping of str to Form
     builds : str or callable
-        Name of the class in `fscm` and in `fem_reference`, or (solver, section) -> solid, punch or law in SI.
+        Name of the class in `fscm` and in `fem_reference`, or (solver, section, keywords) -> solid, punch or law in SI.
+    keywords : sequence of str
+        Optional keys that the class takes by name.
     optional : sequence of str
         Keys that a file may leave out.
     choices : tuple of tuple of str
@@ -104,7 +110,8 @@ class Kind:
 
     formula: str
     keys: Mapping[str, Form]
-    builds: str | Callable[[ModuleType, Section], Any]
+    builds: str | Callable[..., Any]
+    keywords: Sequence[str] = ()
     optional: Sequence[str] = ()
     choices: tuple[tuple[str, ...], ...] = ()
     columns: Mapping[str, Form] = field(default_factory=dict)
@@ -117,24 +124,32 @@ class Kind:
 
     def build(self, solver: ModuleType, section: Section) -> Any:
         """Return the solid, punch or law by the classes of a solver, `fscm` or `fem_reference`, in SI."""
+        keywords = {key: section[key] for key in self.keywords if key in section.values}
         if not isinstance(self.builds, str):
-            return self.builds(solver, section)
+            return self.builds(solver, section, **keywords)
         built = getattr(solver, self.builds, None)
         if built is None:
             raise ValueError(f"{solver.__name__} has no class for the kind {section.kind}: {self.formula}")
-        return built(*(section[key] for key in self.keys))
+        return built(*(section[key] for key in self.required), **keywords)
 
 
-def _coating(solver: ModuleType, solid: Section) -> Any:
+def _coating(solver: ModuleType, solid: Section, **keywords: float) -> Any:
     ratios = solid.get("nu_coating", solid.get("nu")), solid.get("nu_substrate")
     interface = solid["thickness"], solid.get("transition", 0.0)
-    return solver.Coating(solid["E_coating"], solid["E_substrate"], *interface, *ratios)
+    return solver.Coating(solid["E_coating"], solid["E_substrate"], *interface, *ratios, **keywords)
 
 
-def _tabulated_modulus(solver: ModuleType, solid: Section) -> Any:
+def _tabulated_modulus(solver: ModuleType, solid: Section, **keywords: float) -> Any:
     if ("nu" in solid.columns) == ("nu" in solid.values):
         raise ValueError("nu is needed once, as a column of the table or as a key of the section")
-    return solver.TabulatedModulus(solid.columns["z"], solid.columns["E"], solid.columns.get("nu", solid.get("nu")))
+    ratios = solid.columns.get("nu", solid.get("nu"))
+    return solver.TabulatedModulus(solid.columns["z"], solid.columns["E"], ratios, **keywords)
+
+
+def _paraboloid(solver: ModuleType, punch: Section) -> Any:
+    """The gap of two spheres is that of a sphere and a plane whose curvature is the sum."""
+    R, R_solid = punch["R"], punch.get("R_solid")
+    return solver.PowerPunch(2.0, R if R_solid is None else R * R_solid / (R + R_solid))
 
 
 def _profile(solver: ModuleType, punch: Section) -> Any:
@@ -155,10 +170,10 @@ def _tabulated_law(solver: ModuleType, law: Section) -> Any:
 
 
 #: Kinds that are no class of the solvers, by section and name.
-_BUILDERS: dict[str, Callable[[ModuleType, Section], Any]] = {
+_BUILDERS: dict[str, Callable[..., Any]] = {
     "solid.coating": _coating,
     "solid.table": _tabulated_modulus,
-    "punch.sphere": lambda solver, punch: solver.PowerPunch(2.0, punch["R"]),
+    "punch.sphere": _paraboloid,
     "punch.cone": lambda solver, punch: solver.PowerPunch(1.0, math.tan(punch["half_angle"])),
     "punch.rounded-cone": lambda solver, punch: solver.RoundedCone(punch["R"] * punch["slope"], punch["slope"]),
     "punch.rounded-flat": lambda solver, punch: RoundedFlat(punch["flat_radius"], punch["R"]),
@@ -178,14 +193,24 @@ def _forms(names: Mapping[str, str]) -> dict[str, Form]:
     return forms
 
 
-def _kind(section: str, name: str, row: Mapping[str, Any]) -> Kind:
-    forms = {"keys": _forms(row["keys"]), "columns": _forms(row.get("columns", {}))}
-    choices = tuple(map(tuple, row.get("choices", ())))
-    return Kind(**{"builds": _BUILDERS.get(f"{section}.{name}", ""), **row, **forms, "choices": choices})
+def _kind(table: str, name: str, row: Mapping[str, Any], every: Mapping[str, Any]) -> Kind:
+    forms = {"keys": _forms(row["keys"] | every.get("keys", {})), "columns": _forms(row.get("columns", {}))}
+    lists = {
+        "choices": tuple(map(tuple, row.get("choices", ()))),
+        "optional": (*row.get("optional", ()), *every.get("keys", {})),
+        "keywords": tuple(every.get("keywords", ())),
+    }
+    return Kind(**{"builds": _BUILDERS.get(f"{table}.{name}", ""), **row, **forms, **lists})
+
+
+def _kinds(section: str, table: str) -> dict[str, Kind]:
+    """The kinds of a section, whose rows are those of a table of the file."""
+    every = _TABLES["every"].get(section, {})
+    return {name: _kind(table, name, row, every) for name, row in _TABLES[table].items()}
 
 
 #: The kinds of each section, by name.
-KINDS = {section: {name: _kind(section, name, row) for name, row in _TABLES[section].items()} for section in SECTIONS}
+KINDS = {name: _kinds(name, name) for name in SECTIONS} | {PUNCH_SOLID: _kinds(PUNCH_SOLID, "solid")}
 
 
 def kind_rows() -> Iterator[dict[str, str]]:
@@ -196,8 +221,8 @@ def kind_rows() -> Iterator[dict[str, str]]:
     >>> next(row["keys"] for row in kind_rows() if row["kind"] == "rounded-cone")
     'R [m], slope'
     """
-    for section, kinds in KINDS.items():
-        for name, kind in kinds.items():
+    for section in SECTIONS:
+        for name, kind in KINDS[section].items():
             groups = [" and ".join(_named(kind.keys, choice)) for choice in kind.choices]
             keys = [*_named(kind.keys, kind.required), *([" or ".join(groups)] if groups else [])]
             keys += [f"perhaps {key}" for key in _named(kind.keys, kind.optional)]

@@ -16,7 +16,7 @@ from typing import Any
 import fscm
 from comparisons.model import NotApplicable
 from comparisons.numerics.number_text import case_text
-from comparisons.problem.kinds import KINDS, SECTIONS, Form
+from comparisons.problem.kinds import KINDS, PUNCH_SOLID, SECTIONS, Form
 from comparisons.problem.uncertain import Uncertainty
 
 #: Parameters of a dimensionless problem; nu is optional.
@@ -28,13 +28,13 @@ BETWEEN = "; "
 
 @dataclass(frozen=True)
 class Section:
-    """The solid, the punch or the law of a problem.
+    """The solid, the punch, the law or the solid of the punch of a problem.
 
     Attributes
     ----------
     kind : str
     values : mapping of str to float, tuple of float or str
-        Numbers in SI, lists of them, and the name of the file of a table.
+        Numbers in SI, lists of them, words, and the name of the file of a table.
     columns : mapping of str to tuple of float
         The columns of that file, in SI.
     uncertain : mapping of str to Uncertainty
@@ -66,7 +66,7 @@ class Section:
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Adhesive contact of a rigid punch with a half-space: what every model is evaluated for.
+    """Adhesive contact of a punch with a half-space: what every model is evaluated for.
 
     `Problem.dimensionless` and `Problem.load` make one.
 
@@ -80,6 +80,8 @@ class Problem:
         The name of the file with the values of its varied keys, or else "problem"; empty for a dimensionless problem.
     path : Path, optional
         The file that was read.
+    punch_solid : Section, optional
+        The solid of an elastic punch, of a kind of solid; without it the punch is rigid.
     digest : str
         SHA-256 of the content of the file; empty for a dimensionless problem.
 
@@ -96,9 +98,15 @@ class Problem:
     parameters: Mapping[str, float | str] = field(default_factory=dict)
     name: str = ""
     path: Path | None = None
+    punch_solid: Section | None = None
     digest: str = field(init=False, default="")
 
     def __post_init__(self) -> None:
+        if "mu" in self.parameters and self.punch_solid is not None:
+            raise ValueError(
+                f"punch_solid = {self.punch_solid.kind} is not admissible with n, k and mu: the Tabor number is that "
+                "of both bodies together; give mu with 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2"
+            )
         if "mu" not in self.parameters:
             object.__setattr__(self, "name", self.name or "problem")
             content = [
@@ -158,7 +166,9 @@ class Problem:
         name, _, key_of_section = key.partition(".")
         if not key_of_section:
             return self.parameters.get(key)
-        section = self._sections[name]
+        section = self._sections.get(name)
+        if section is None:
+            return None
         key, _, number = key_of_section.partition(".")
         value = section.content.get(key)
         if number and isinstance(value, tuple) and 1 <= int(number) <= len(value):
@@ -167,7 +177,15 @@ class Problem:
 
     @property
     def _sections(self) -> dict[str, Section]:
-        return {name: getattr(self, name) for name in SECTIONS}
+        """The sections that the problem has, by name."""
+        sections = {name: getattr(self, name) for name in (*SECTIONS, PUNCH_SOLID)}
+        return {name: section for name, section in sections.items() if section is not None}
+
+    def section(self, name: str) -> Section:
+        """Return a section by its name; `ValueError`, one sentence, if the problem does not have it."""
+        if name not in self._sections:
+            raise ValueError(f"{self.label} has no section [{name}]: its punch is rigid; write its kind and keys")
+        return self._sections[name]
 
     @cached_property
     def _order(self) -> tuple[float | str, ...]:
@@ -183,7 +201,7 @@ class Problem:
 
     @property
     def content(self) -> dict[str, Any]:
-        """The content for output: the name of the file and the three sections."""
+        """The content for output: the name of the file and its sections."""
         sections = {name: section.content for name, section in self._sections.items()}
         return {"file": "" if self.path is None else self.path.name, **sections}
 
@@ -212,9 +230,45 @@ class Problem:
     def is_of_the_paper(self, *names: str) -> bool:
         """Whether the problem of three numbers n, k and mu, which every model takes, has the kinds of these sections.
 
-        By default of all.  The solid of such a problem is E0 (z/c0)^k.
+        By default of all.  The solid of such a problem is E0 (z/c0)^k, or that of two bodies with one k, whose surface
+        has neither tension nor friction.
         """
+        if "solid" in (names or SECTIONS) and not self._is_one_power_law:
+            return False
         return all(KINDS[name][self._sections[name].kind].is_of_the_paper for name in names or SECTIONS)
+
+    @property
+    def bodies(self) -> list[Section]:
+        """The solid, and that of an elastic punch."""
+        return [self.solid] if self.punch_solid is None else [self.solid, self.punch_solid]
+
+    @property
+    def surface(self) -> dict[str, float | str]:
+        """What the surfaces of the bodies have besides elasticity: surface tensions and friction, by names of keys."""
+        return {
+            f"{name}.{key}": section[key]
+            for name, section in self._sections.items()
+            for key in ("surface_tension", "friction")
+            if section.get(key) not in (None, 0.0, "none")
+        }
+
+    def without(self, *names: str) -> Problem:
+        """Return the problem without some keys, as "solid.surface_tension"."""
+        problem = self
+        for name in names:
+            section, _, key = name.partition(".")
+            body = problem._sections[section]
+            values = {other: value for other, value in body.values.items() if other != key}
+            changed: dict[str, Any] = {section: replace(body, values=values)}
+            problem = replace(problem, **changed)
+        return problem
+
+    @property
+    def _is_one_power_law(self) -> bool:
+        """Whether the compliance of the surface is that of one power law."""
+        kinds = [KINDS["solid"][body.kind] for body in self.bodies]
+        exponents = {body.get("k", 0.0) for body in self.bodies}
+        return all(kind.is_of_the_paper for kind in kinds) and len(exponents) == 1 and not self.surface
 
     @property
     def n(self) -> float:
@@ -233,16 +287,30 @@ class Problem:
 
     @property
     def nu(self) -> float | None:
-        """Poisson's ratio of a problem of the paper; None if a dimensionless one does not prescribe it."""
-        return self.solid.get("nu") if self.is_of_the_paper() else None
+        """Poisson's ratio of one body of a problem of the paper; None if a dimensionless one does not prescribe it."""
+        return self.solid.get("nu") if self.is_of_the_paper() and self.punch_solid is None else None
 
     def _number(self, name: str) -> float:
         if not self.is_of_the_paper("solid", "punch"):
             raise NotApplicable(
-                f"{self.label} has no {name}: its solid is of the kind {self.solid.kind} and its punch of the kind "
-                f"{self.punch.kind}; n, k and mu are those of power laws"
+                f"{self.label} has no {name}: it has {self.parts}; n, k and mu are those of power laws, two bodies "
+                "have them with one k, and surfaces without tension and friction"
             )
         return float(getattr(self.posed, name))
+
+    @property
+    def parts(self) -> str:
+        """The kinds of the sections in words, with what the surfaces have.
+
+        Examples
+        --------
+        >>> Problem.dimensionless(2, 0.4, 1).parts
+        'a power-law (k = 0.4) solid, a power-law punch and a lennard-jones-9-3 law'
+        """
+        kinds = [f"a {_described(self.solid)} solid", f"a {self.punch.kind} punch", f"a {self.law.kind} law"]
+        if self.punch_solid is not None:
+            kinds[1] += f" of a {_described(self.punch_solid)} solid"
+        return f"{kinds[0]}, {kinds[1]} and {kinds[2]}"
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -259,6 +327,7 @@ class Problem:
             If it is outside of what the solver admits.
         """
         sections = self._sections.items()
+        # The punch_solid stands last, as in both solvers.
         return solver.Problem(*(KINDS[name][section.kind].build(solver, section) for name, section in sections))
 
     @property
@@ -308,6 +377,13 @@ def _of_fscm(problem: Problem) -> fscm.Problem:
     if not problem.name:
         return fscm.Problem(problem["n"], problem["k"], problem["mu"])
     return problem.build(fscm)
+
+
+def _described(body: Section) -> str:
+    """The kind of a solid, with its exponent and what its surface has, in words."""
+    exponent = f" (k = {body['k']:g})" if body.kind == "power-law" and "k" in body.values else ""
+    stated = [key for key in ("surface_tension", "friction") if body.get(key) not in (None, 0.0, "none")]
+    return f"{body.kind}{exponent}" + "".join(f" with {key.replace('_', ' ')}" for key in stated)
 
 
 def split_name(name: str) -> list[str]:

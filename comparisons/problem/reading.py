@@ -14,7 +14,7 @@ from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, shown
 from comparisons.problem.columns import read_columns
 from comparisons.problem.form import Source, kind_of, values_in_si
-from comparisons.problem.kinds import SECTIONS
+from comparisons.problem.kinds import KINDS, SECTIONS
 from comparisons.problem.problem import Problem, Section
 from fscm.punch import unit_of_radii
 
@@ -29,7 +29,7 @@ def load_problem(path: str | os.PathLike[str]) -> Problem:
     Parameters
     ----------
     path : str or path
-        A TOML file with the sections solid, punch and law; tables are in its folder.
+        A TOML file with the sections solid, punch and law, and perhaps punch_solid; tables are in its folder.
 
     Returns
     -------
@@ -71,11 +71,11 @@ def problem_of(document: Mapping[str, Any], source: Source) -> Problem:
         As `load_problem`.
     """
     for name in document:
-        known_name("section", name, SECTIONS, source.place(name))
+        known_name("section", name, KINDS, source.place(name))
     if missing := [name for name in SECTIONS if name not in document]:
         raise ValueError(f"{source.path}: {', '.join(missing)} missing; a problem file has {', '.join(SECTIONS)}")
-    solid, punch, law = (_section(name, document[name], source) for name in SECTIONS)
-    problem = Problem(solid, punch, law, name=source.path.name, path=source.path)
+    sections = {name: _section(name, table, source) for name, table in document.items()}
+    problem = Problem(**sections, name=source.path.name, path=source.path)
     _check_scales(problem, source)
     return problem
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.data.validation import known_name, shown
-from comparisons.problem.kinds import KINDS, SECTIONS
+from comparisons.problem.kinds import KINDS
 from comparisons.problem.problem import BETWEEN, Problem
 from comparisons.problem.reading import document_of, problem_of
 from comparisons.problem.units import NUMBER
@@ -118,7 +118,7 @@ def require_units(problem: Problem, variations: Mapping[str, Values]) -> None:
     """
     for name, values in variations.items():
         section_name, key, *_ = _parts(name, values)
-        section = getattr(problem, section_name)
+        section = problem.section(section_name)
         form = KINDS[section_name][section.kind].keys.get(key)
         # The slope Q of a cone has no unit.
         unit = "" if form is None or (form.unit == "m^(n-1)" and section["n"] == 1.0) else form.unit
@@ -162,7 +162,9 @@ def problems_of(path: Path, variations: Mapping[str, Values], name: str = "") ->
     if (count := prod(map(len, variations.values()))) > _MOST:
         raise ValueError(f"the values have {count} combinations, more than {_MOST}; give fewer values")
     document, source = document_of(path)
-    problem_of(document, source)
+    as_written = problem_of(document, source)
+    for section, *_ in keys:
+        as_written.section(section)
     for values in product(*variations.values()):
         changed = deepcopy(document)
         for key, value in zip(keys, values, strict=True):
@@ -181,7 +183,7 @@ def _parts(name: str, values: Values) -> list[str]:
     parts, where = name.split(".", 2), f"vary {shown(name)}"
     if len(parts) < 2 or not all(parts):
         raise ValueError(f'{where} names no key; write SECTION.KEY, as "solid.thickness"')
-    known_name("section", parts[0], SECTIONS, where)
+    known_name("section", parts[0], KINDS, where)
     if parts[1] == "kind":
         raise ValueError(f"{where}: a kind is not varied, since its keys differ; write one file for each")
     if len(set(map(str, values))) < len(values):

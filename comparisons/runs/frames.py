@@ -11,7 +11,7 @@ import pandas as pd
 from comparisons.data.columns import column
 from comparisons.data.file_names import CURVES, RESULTS
 from comparisons.problem import PARAMETERS
-from comparisons.problem.kinds import SECTIONS
+from comparisons.problem.kinds import KINDS
 from comparisons.problem.problem import split_name
 from comparisons.runs.rows import CASE, DIMENSIONLESS, Key, Row, none_if_nan
 
@@ -63,7 +63,7 @@ def varied_of(table: pd.DataFrame) -> list[str]:
     >>> varied_of(pd.DataFrame(columns=["model", "punch.R [m]", "value"]))
     ['punch.R [m]']
     """
-    return [name for name in table.columns if name.partition(".")[0] in SECTIONS]
+    return [name for name in table.columns if name.partition(".")[0] in KINDS]
 
 
 def unit_in(column: str) -> tuple[str, str]:
