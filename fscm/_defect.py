@@ -142,7 +142,7 @@ class Defect:
             force.traction(radii, gap) - coarse.transfer(state.pressure, mesh, POINTS)
         )
         self._pressure = polynomial + self._pressure_error
-        self._surface_energy = samples.integrals(2.0 * state.scale * radii * force.energy(radii, gap))
+        self._sampled = samples, radii, gap
         deformation = self._stiffness * (fine.response(state.scale) @ polynomial) + f.tail.displacement
         self._gap_error = lift - deformation if fine.steep else f.gap + state.displacement - height - deformation
         axis = (d.axis_response(state.scale) @ p for d, p in ((fine, polynomial), (state.disc, state.pressure)))
@@ -255,6 +255,13 @@ class Defect:
         deformation = self._stiffness * (f.disc.response(f.scale) @ self._pressure) + f.tail.displacement
         surface = np.bincount(self._owner[:: f.disc.mesh.order], self._surface_energy, minlength=self._panels)
         return self._by_panel(0.5 * self._area * self._pressure * deformation) + surface
+
+    @cached_property
+    def _surface_energy(self) -> Array:
+        """That of the gap between the nodes, by panel of the finer mesh."""
+        samples, radii, gap = self._sampled
+        energy = self.fine.disc.problem.force.energy(radii, gap)
+        return samples.integrals(2.0 * self.coarse.scale * radii * energy)
 
     def _coarse_energy(self) -> Array:
         state = self.coarse

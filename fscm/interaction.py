@@ -274,7 +274,7 @@ class _Distances:
         """k_m, the power relative to that over a half-space at the distance d."""
         u = self.d / (self.s + self.R)
         near = -np.expm1(m * np.log(u)) + m / (m - 1.0) * (self.d / self.s) * np.expm1((m - 1.0) * np.log(u))
-        return self._or_far(near, lambda t: (1.0 - t) ** m * _far(t, m))
+        return self._or_far(near, lambda t, s: (1.0 - t) ** m * _far(t, m))
 
     def power(self, m: float) -> Array:
         """Power m of the law."""
@@ -285,22 +285,27 @@ class _Distances:
         d, D, s = self.d, self.s + self.R, self.s
         near, far = (self.z0 / d) ** m, (self.z0 / D) ** m
         value = -m * (near / d - far / D) + m / s * (near - far) + m / (m - 1.0) * (near * d - far * D) / s**2
-        return self._or_far(value, lambda t: -((self.z0 / s) ** m) / s * _far(t, m, rate=True))
+        return self._or_far(value, lambda t, s: -((self.z0 / s) ** m) / s * _far(t, m, rate=True))
 
-    def _or_far(self, near: Array, far: Callable[[Array], Array]) -> Array:
-        t = self.R / self.s
+    def _or_far(self, near: Array, far: Callable[[Array, Array], Array]) -> Array:
+        t = np.asarray(self.R / self.s)
         distant = t < _FAR
-        return np.where(distant, far(np.where(distant, t, 0.0)), near) if np.any(distant) else near
+        if not np.any(distant):
+            return near
+        values = np.array(near)
+        values[distant] = far(t[distant], np.broadcast_to(self.s, t.shape)[distant])
+        return values
 
 
 def _far(t: Array, m: float, rate: bool = False) -> Array:
     """(s/z0)^m times the power m at t = R/s, by its series; or -s (s/z0)^m times its derivative by s."""
-    total, factor = np.zeros_like(t), 1.0
+    coefficients = np.zeros(_LAST_POWER + 1)
+    factor = 1.0
     for i in range(2, _LAST_POWER + 1):
         factor *= (m + i - 2.0) / i  # Pochhammer symbol (m)_(i-1) over i!
         if i % 2:
-            total += 2.0 * factor * (i - 1.0) * t**i * (m + i if rate else 1.0)
-    return total
+            coefficients[i] = 2.0 * factor * (i - 1.0) * (m + i if rate else 1.0)
+    return np.asarray(t * np.polynomial.polynomial.polyval(t * t, coefficients[1::2]))
 
 
 @lru_cache(maxsize=64)
