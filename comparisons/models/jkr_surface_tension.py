@@ -5,8 +5,8 @@ delta = x^2 e/k.  Griffith's balance (1/2) flat^2 dC/da = 2 pi a dgamma gives wh
 
     flat = sqrt(2 pi x/k),   delta = x^2 e/k - flat,   P = 2 x c delta - (2/3) x^3 m,
 
-delta in A^2/R and P in R dgamma.  l = 2 Y/E*, so that all depends on L = l/A = 2 Y mu z0/(dgamma R).  For L -> 0 this is
-JKR, and for L -> infinity, where the surface tension alone resists, the pull-off force is pi R dgamma.
+delta in A^2/R and P in R dgamma.  l = 2 Y/E*, so that all depends on L = l/A = 2 Y mu z0/(dgamma R).  For L -> 0 this
+is JKR, and for L -> infinity, where the surface tension alone resists, the pull-off force is pi R dgamma.
 """
 
 from __future__ import annotations

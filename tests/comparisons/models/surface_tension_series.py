@@ -1,9 +1,12 @@
-"""Series of `comparisons.models.surface_tension`: `python -m tests.comparisons.models.surface_tension_series` prints it.
+"""Series of `comparisons.models.surface_tension`.
+
+`python -m tests.comparisons.models.surface_tension_series` prints it.
 
 The equation is solved with t = 1 - y^2, where chi has the edge 1/y, by collocation on panels that become shorter
 towards y = 0; the kernel is integrated with each polynomial of a panel by rules that are graded towards its logarithm.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -75,7 +78,7 @@ def constants(ratio):
     matrix = np.concatenate(
         [
             sum(panel_rows(y, target, a, b, ratio, x) for target in (y, np.sqrt(2.0 - y * y)))
-            for a, b in zip(ends[:-1], ends[1:], strict=True)
+            for a, b in itertools.pairwise(ends)
         ],
         axis=1,
     )
