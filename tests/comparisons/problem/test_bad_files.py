@@ -97,6 +97,12 @@ BAD_TEXT = [
     ("nu = 0.3\n", "nu = 0.3\nfriction = 0.3\n", ["line 8", "solid.friction", "0.3", "none, bonded"]),
     ("nu = 0.3\n", 'nu = 0.3\nsurface_tension = "-20 mN/m"\n', ["line 8", "outside its range", "0 or more"]),
     ("nu = 0.3\n", 'nu = 0.3\nsurface_tension = "20 mN"\n', ["line 8", "unit mN", "N/m"]),
+    (
+        GOOD,
+        GOOD.replace("nu = 0.3\n", 'nu = 0.3\nfriction = "bonded"\n')
+        + '[punch_solid]\nkind = "homogeneous"\nE = "1 GPa"\nnu = 0.3\n',
+        ["line 8", "friction", "rigid punch"],
+    ),
     (LAW, f"[punch_solid]\n{LAW}", ["line 13", "punch_solid: kind missing", "homogeneous"]),
     (LAW, f'[punch_solid]\nkind = "sphere"\n\n{LAW}', ["line 14", "punch_solid.kind", "'sphere'"]),
     (LAW, f'[punch_solid]\nkind = "homogeneous"\nE = "70 GPa"\n\n{LAW}', ["line 13", "punch_solid: nu missing"]),
