@@ -35,6 +35,7 @@ MODELS = {
     "jump-asymptotes": "comparisons.models.jump_asymptotes:JumpAsymptotes",
     "jkr-sphere": "comparisons.models.jkr_sphere:JKRSphere",
     "jkr-sphere-projected": "comparisons.models.jkr_sphere:JKRSphereProjected",
+    "jkr-surface-tension": "comparisons.models.jkr_surface_tension:JKRSurfaceTension",
     "atlas": "comparisons.models.fscm_model:Atlas",
     "fem-large-strain": "comparisons.models.fem_model:LargeStrain",
 }

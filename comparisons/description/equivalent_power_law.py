@@ -35,11 +35,12 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
     Returns
     -------
     dict or None
-        None if the solid is a power law, if there is no force, or for two bodies, surface tension or friction.  `free_k` is the exponent of the fit without limits;
-        the deviations of the compliance are relative root mean squares, of this law and of the modulus of the surface;
-        nine tenths of the elastic energy are between both `lengths`; `pull_off_force` has the error of this law, and
-        `closed_forms` those of the closed forms with this law, against the force of the solid itself;
-        `closed_form_within` has the simplest one for which that of the law and its own, added by size, are within.
+        None if the solid is a power law, if there is no force, or for two bodies, surface tension or friction.
+        `free_k` is the exponent of the fit without limits; the deviations of the compliance are relative root mean
+        squares, of this law and of the modulus of the surface; nine tenths of the elastic energy are between both
+        `lengths`; `pull_off_force` has the error of this law, and `closed_forms` those of the closed forms with this
+        law, against the force of the solid itself; `closed_form_within` has the simplest one for which that of the law
+        and its own, added by size, are within.
 
     Examples
     --------

@@ -24,6 +24,7 @@ SIMPLEST_FIRST = (
     "jkr",
     "jkr-sphere",
     "jkr-sphere-projected",
+    "jkr-surface-tension",
     "dmt",
     "bradley",
     "semi-rigid",
@@ -44,7 +45,8 @@ def model_errors(problem: Problem, force: Row) -> list[Json]:
     force : Row
         Of this problem, or of another one that this one stands for.
     """
-    names = [name for name in MODELS if name not in REFERENCES] if problem.is_of_the_paper() else []
+    is_of_the_paper = problem.without(*problem.surface).is_of_the_paper()
+    names = [name for name in MODELS if name not in REFERENCES] if is_of_the_paper else []
     if problem.punch.kind == "ball":
         names = ["jkr-sphere", "jkr-sphere-projected"]
     changes = {name: change_of(evaluate(name, "pull_off_force", problem), force) for name in names}

@@ -76,6 +76,13 @@ def problem_of(document: Mapping[str, Any], source: Source) -> Problem:
         raise ValueError(f"{source.path}: {', '.join(missing)} missing; a problem file has {', '.join(SECTIONS)}")
     sections = {name: _section(name, table, source) for name, table in document.items()}
     problem = Problem(**sections, name=source.path.name, path=source.path)
+    if problem.punch_solid is not None and "solid.friction" in problem.surface:
+        raise source.refusal(
+            'solid.friction = "bonded" needs a rigid punch, at which points keep their radius; leave out [punch_solid], '
+            'or write "none"',
+            "solid",
+            "friction",
+        )
     _check_scales(problem, source)
     return problem
 

@@ -89,6 +89,28 @@ BAD_TEXT = [
     (SOLID, layers("[1e9, 2e9]", "[0.3, 0.3]", "[1e-9, 1e-9]"), ["line 1", "solid", "one entry more"]),
     (SOLID, layers('["1 GPa +- 5 %", 2e9]', "[0.3, 0.3]", "[1e-9]"), ["line 3", "solid.E", "uncertainty"]),
     (PUNCH, '[punch]\nkind = "power-law"\nn = 3\nQ = "1 um"\n\n', ["line 12", "unit um", "m^(2)"]),
+    # Two bodies and what their surfaces have.
+    (PUNCH, f"{PUNCH.strip()}\nE = 7e10\nnu = 0.2\n\n", ["line 12", "punch.E", "shape", "[punch_solid]"]),
+    (PUNCH, f'{PUNCH.strip()}\nsurface_tension = "1 N/m"\n\n', ["line 12", "surface_tension", "[punch_solid]"]),
+    (PUNCH, f'{cone(1.2).strip()}\nR_solid = "3 um"\n\n', ["line 12", "R_solid", "sphere", "not of cone"]),
+    ("nu = 0.3\n", 'nu = 0.3\nfriction = "rough"\n', ["line 8", "solid.friction", "'rough'", "none, bonded"]),
+    ("nu = 0.3\n", "nu = 0.3\nfriction = 0.3\n", ["line 8", "solid.friction", "0.3", "none, bonded"]),
+    ("nu = 0.3\n", 'nu = 0.3\nsurface_tension = "-20 mN/m"\n', ["line 8", "outside its range", "0 or more"]),
+    ("nu = 0.3\n", 'nu = 0.3\nsurface_tension = "20 mN"\n', ["line 8", "unit mN", "N/m"]),
+    (
+        GOOD,
+        GOOD.replace("nu = 0.3\n", 'nu = 0.3\nfriction = "bonded"\n')
+        + '[punch_solid]\nkind = "homogeneous"\nE = "1 GPa"\nnu = 0.3\n',
+        ["line 8", "friction", "rigid punch"],
+    ),
+    (LAW, f"[punch_solid]\n{LAW}", ["line 13", "punch_solid: kind missing", "homogeneous"]),
+    (LAW, f'[punch_solid]\nkind = "sphere"\n\n{LAW}', ["line 14", "punch_solid.kind", "'sphere'"]),
+    (LAW, f'[punch_solid]\nkind = "homogeneous"\nE = "70 GPa"\n\n{LAW}', ["line 13", "punch_solid: nu missing"]),
+    (
+        LAW,
+        f'[punch_solid]\nkind = "homogeneous"\nE = "1 GPa"\nnu = 0.3\nfriction = "bonded"\n\n{LAW}',
+        ["line 17", "friction", "[solid]"],
+    ),
     (PUNCH, PUNCH_TABLE.replace("profile", "a" * 5000), ["line 11", "punch.file", "not in the folder"]),
     (PUNCH, PUNCH_TABLE.replace("profile", "a\\u0000b"), ["line 11", "is not in the folder"]),
 ]
@@ -166,6 +188,13 @@ def test_bad_tables(table, content, parts, tmp_path):
     if content is not None:
         (tmp_path / table[1].split('"')[3]).write_text(content)
     sentence_of(tmp_path, *parts, old=table[0], new=table[1])
+
+
+def test_keys_of_a_rigid_punch_are_not_varied(tmp_path, refused):
+    (tmp_path / "pad.toml").write_text(GOOD)
+    vary = ["--vary", "punch_solid.E=1 GPa, 2 GPa"]
+    command = ["sweep", "--problem", tmp_path / "pad.toml", "--model", "jkr", *vary, "--out", tmp_path / "never"]
+    refused(command, "no section [punch_solid]")
 
 
 def test_the_command_has_status_2(tmp_path, refused):
