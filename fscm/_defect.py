@@ -138,9 +138,8 @@ class Defect:
         samples, force = Samples(mesh), fine.problem.force
         radii = state.scale * samples.radii
         gap = fine.height(radii) - state.displacement + coarse.transfer(nodal, mesh, POINTS)
-        self._pressure_error = samples.projected(
-            force.traction(radii, gap) - coarse.transfer(state.pressure, mesh, POINTS)
-        )
+        sampled = force.traction(radii, gap) - coarse.transfer(state.pressure, mesh, POINTS)
+        self._pressure_error = samples.projected(sampled)
         self._pressure = polynomial + self._pressure_error
         self._sampled = samples, radii, gap
         deformation = self._stiffness * (fine.response(state.scale) @ polynomial) + f.tail.displacement
@@ -224,15 +223,15 @@ class Defect:
         by_scale = 2.0 * float(surface) + elastic + pressure * tail.displacement_rate
         by_scale += (behind(_STEP, 0.0) - behind(-_STEP, 0.0)) / (2.0 * _STEP)
         if self._system.drift is not None:
-            by_scale += self._drift_of_energy(weighed)
+            by_scale += self._drift_of_energy(weighed, self._system.drift)
         if f.lift is not None:  # the gap follows from it, H = f(c s) - delta + w
             by_displacement -= float(row.sum())
             by_scale += float(row @ f.disc.rise(f.radius))
         return np.concatenate([row, [by_displacement, by_scale]])
 
-    def _drift_of_energy(self, weighed: Array) -> float:
+    def _drift_of_energy(self, weighed: Array, drift: Array) -> float:
         """Derivative of the energy by log c by that of the pressure at a fixed gap."""
-        f, force, drift = self.fine, self.fine.disc.problem.force, self._system.drift
+        f, force = self.fine, self.fine.disc.problem.force
         outside, inside = (force.energy(f.radius * (1.0 + step), f.gap) for step in (_STEP, -_STEP))
         elastic = 0.5 * (self._area * f.deformation + self._backwards(weighed)) @ drift
         return float(elastic + self._area @ (outside - inside) / (2.0 * _STEP))

@@ -74,8 +74,7 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
     """
     if isinstance(problem.force, Body):
         body = TailOfBody(problem, T, displacement)
-        (load, load_rate, load_slope), (lift, lift_rate, lift_slope) = body.load, body.lift
-        return Tail(load, lift, load_rate, lift_rate, load_slope, lift_slope)
+        return Tail(body.load[0], body.lift[0], body.load[1], body.lift[1], body.load[2], body.lift[2])
     C, m = problem.law.decay
     F = _height(problem, T)
     if C == 0.0 or F > _ZERO:

@@ -183,7 +183,7 @@ def rigid_change(range_over_radius: float) -> float:
         traction = interaction_of(ball, law, name).traction
 
         def load(height: float, traction: Callable[[Array, Array], Array] = traction) -> float:
-            return float(np.sum(measure * traction(rho, np.full_like(rho, height * range_over_radius))))
+            return float(np.sum(measure * traction(rho, ball.height(rho) + height * range_over_radius)))
 
         forces.append(-minimize_scalar(load, bounds=_HEIGHTS, method="bounded", options={"xatol": 1e-9}).fun)
     return float(forces[1] / forces[0] - 1.0)

@@ -15,6 +15,7 @@ from fscm._tail import tail_errors, tail_of
 from fscm._tail_of_body import TailOfBody
 from fscm.interaction import Body, Derjaguin, interaction_of
 from fscm.punch import ScaledPunch
+from fscm.stieltjes import StieltjesScheme
 from tests.refusals import refused
 
 GAUSS = np.polynomial.legendre.leggauss(24)
@@ -205,4 +206,5 @@ def test_what_has_no_potential_is_refused():
         pass
 
     refused("Steeper", interaction_of, Ball(1.0), Steeper(), "body")
+    refused("scheme of the paper", StieltjesScheme, Problem(2.0, 0.0, 1.0, punch=Ball(50.0), interaction="body"))
     refused("k = 1", Problem, 2.0, 1.0, 1.0, punch=Ball(50.0), interaction="body")
