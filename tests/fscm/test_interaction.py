@@ -158,18 +158,18 @@ def test_the_tail_is_the_integral_of_the_potential(k):
     t, weight = composite(np.geomspace(T, 1e7 * T, 200))
     body = problem.force
     pressure = body.traction(t, problem.punch.height(t) - displacement)
-    assert tail.load == pytest.approx(2.0 * float((weight * t) @ pressure), rel=1e-9)
+    assert tail.load == pytest.approx(2.0 * float((weight * t) @ pressure), rel=1e-9, abs=0.0)
     lift = problem.compliance * (1.0 - k) * float((weight * t**-k) @ pressure)
-    assert tail.displacement == pytest.approx(lift, rel=1e-9)
+    assert tail.displacement == pytest.approx(lift, rel=1e-9, abs=0.0)
     beside = [tail_of(problem, T * math.exp(sign * step), displacement) for sign in (1.0, -1.0)]
-    assert (beside[0].load - beside[1].load) / (2 * step) == pytest.approx(tail.load_rate, rel=1e-6)
+    assert (beside[0].load - beside[1].load) / (2 * step) == pytest.approx(tail.load_rate, rel=1e-6, abs=0.0)
     lower, upper = (tail_of(problem, T, displacement + sign * 0.1) for sign in (-1.0, 1.0))
-    assert (upper.load - lower.load) / 0.2 == pytest.approx(tail.load_slope, rel=1e-3)
+    assert (upper.load - lower.load) / 0.2 == pytest.approx(tail.load_slope, rel=1e-3, abs=0.0)
     computed, remainder = tail_errors(problem, T, displacement)
     assert np.all(np.abs(computed) <= 1e-12 * abs(tail.load) * T**2)
     assert np.all(remainder >= 0.0)
     coarse = TailOfBody(problem, T, displacement)
-    assert coarse.load[0] == pytest.approx(2.0 * float((weight * t) @ pressure), rel=1e-9)
+    assert coarse.load[0] == pytest.approx(2.0 * float((weight * t) @ pressure), rel=1e-9, abs=0.0)
 
 
 #: Change of the pull-off force by the potential at w/(E* R) = 1e-5, nu = 0.5: to first order by the difference of the
