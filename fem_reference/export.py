@@ -137,7 +137,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
         scaled = scaled_modulus(solid.modulus, c)
         half_space = assemble_half_space(spec.grid(), scaled, scaled_poisson(solid.poisson, c), spec.order)
         trace = contact.compliance.trace
-        pressure = contact.law.traction(contact.gap(y))
+        pressure = contact.pressure(y)
         load = np.zeros(half_space.elements.size)
         load[half_space.surface] = trace.phi.T @ (trace.weight * trace.s * pressure)
         # Lengths scale by c: stiffness by c, load by c^2.
@@ -175,7 +175,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
             np.stack([component.ravel() for component in stress], axis=1),
             E.ravel(),
             gap,
-            contact.law.traction(gap),
+            contact.force.traction(radius, gap),
         )
 
 

@@ -1,12 +1,12 @@
 r"""Surface forces of a rigid punch: the traction at the place of a point of the surface.
 
-Atoms attract each other through all directions.  A point of the solid at the radius rho and at the height h below the
-apex of the punch has the potential of the whole punch there, and an incompressible solid of uniform density moves as
-under this potential as a pressure p(rho, h) on its deformed surface.  For atoms of a 12-6 potential over a half-space
-it is the 9-3 law of the distance.
+Atoms attract each other through all directions.  A point of the solid at the radius rho and at the vertical gap H to
+the punch has the potential of the whole punch there, and an incompressible solid of uniform density moves as under this
+potential as a pressure p(rho, H) on its deformed surface.  For atoms of a 12-6 potential over a half-space it is the
+9-3 law of the distance.
 
-* "derjaguin": p is the law at the vertical gap H = h + f(rho), as over a plane surface whose facing parts are parallel.
-  The energy of adhesion is then counted for the projected area.
+* "derjaguin": p is the law at the vertical gap, as over a plane surface whose facing parts are parallel.  The energy of
+  adhesion is then counted for the projected area.
 * "body": p is the potential of the punch itself.  It is counted for the true area.
 
 For a ball the pair potentials d^-(m+3) of the powers d^-m of the law are integrated in closed form: with the distance s
@@ -14,15 +14,18 @@ of its centre, d = s - R and D = s + R,
 
     p_m = z0^m { d^-m - D^-m - m/((m-1) s) [d^(1-m) - D^(1-m)] },
 
-which is (z0/d)^m for R -> infinity, and [(s^2 - R^2)/(2 R z0)]^-3 for m = 3.
+which is (z0/d)^m for R -> infinity, and [(s^2 - R^2)/(2 R z0)]^-3 for m = 3.  With c = R - f(rho), the height of the
+centre above the face of the punch, s^2 - R^2 = (z0 + H)(2 c + z0 + H) on the sphere, which does not cancel.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal, Protocol
 
 import numpy as np
+from scipy.optimize import brentq
 
 from fem_reference._typing import Array
 from fem_reference.laws import LennardJones, Mie, SurfaceLaw
@@ -47,20 +50,48 @@ _TERMS = 26
 _GAUSS = np.polynomial.legendre.leggauss(16)
 _RATIO, _FARTHEST = 2.0, 1e5
 
+#: The distance of the largest tension is a length of the law, up to this factor.
+_WIDEST = 10.0
+
+#: Distance in radii beyond which a ball is a point to 1e-6.
+_POINT = 1e3
+
 
 class Interaction(Protocol):
     """Traction on the surface of the solid; compression is positive."""
 
-    def traction(self, rho: Array, h: Array) -> Array:
-        """p at the radius rho and the height h below the apex, shape of both."""
+    @property
+    def punch(self) -> Punch:
+        """The punch."""
         ...
 
-    def slopes(self, rho: Array, h: Array) -> tuple[Array, Array]:
-        """dp/drho and dp/dh."""
+    @property
+    def law(self) -> SurfaceLaw:
+        """The law of the same atoms over a half-space."""
         ...
 
-    def energy(self, rho: Array, h: Array) -> Array:
-        """Integral of p from h to infinity, the energy per projected area."""
+    def traction(self, rho: Array, gap: Array) -> Array:
+        """p at the radius rho and the vertical gap H, shape of both."""
+        ...
+
+    def slopes(self, rho: Array, gap: Array) -> tuple[Array, Array]:
+        """dp/drho at a fixed gap, and dp/dH."""
+        ...
+
+    def energy(self, rho: Array, gap: Array) -> Array:
+        """Integral of p from H to infinity, the energy per projected area."""
+        ...
+
+    def peak_gap(self, rho: Array) -> Array | float:
+        """Gap of the largest tension at a radius: the one at the contact edge."""
+        ...
+
+    def peak_slope(self, rho: Array) -> Array | float:
+        """Its derivative by the radius."""
+        ...
+
+    def fall(self, r: float) -> float:
+        """Exponent q of p ~ r^-q on the undeformed surface at a radius; infinite or nan where nothing is left."""
         ...
 
 
@@ -76,28 +107,37 @@ class Derjaguin:
     Examples
     --------
     >>> facing = Derjaguin(Ball(R=5.0), LennardJones(work_of_adhesion=1.0, z0=1.0))
-    >>> float(facing.traction(np.array(3.0), np.array(-1.0)))  # f = 1
+    >>> float(facing.traction(np.array(3.0), np.array(0.0)))
     0.0
     """
 
     punch: Punch
     law: SurfaceLaw
 
-    def _gap(self, rho: Array, h: Array) -> Array:
-        return np.asarray(self.punch.height(rho) + h)
+    def traction(self, rho: Array, gap: Array) -> Array:
+        """p(H)."""
+        return self.law.traction(gap)
 
-    def traction(self, rho: Array, h: Array) -> Array:
-        """p(H), shape of both."""
-        return np.asarray(self.law.traction(self._gap(rho, h)))
+    def slopes(self, rho: Array, gap: Array) -> tuple[Array, Array]:
+        """0 and p'(H)."""
+        return np.zeros_like(gap), self.law.slope(gap)
 
-    def slopes(self, rho: Array, h: Array) -> tuple[Array, Array]:
-        """dp/drho = p'(H) f'(rho) and dp/dh = p'(H)."""
-        slope = np.asarray(self.law.slope(self._gap(rho, h)))
-        return slope * np.asarray(self.punch.slope(rho)), slope
+    def energy(self, rho: Array, gap: Array) -> Array:
+        """e(H)."""
+        return self.law.energy(gap)
 
-    def energy(self, rho: Array, h: Array) -> Array:
-        """e(H), shape of both."""
-        return np.asarray(self.law.energy(self._gap(rho, h)))
+    def peak_gap(self, rho: Array) -> float:
+        """That of the law."""
+        return self.law.peak_gap
+
+    def peak_slope(self, rho: Array) -> float:
+        """Zero."""
+        return 0.0
+
+    def fall(self, r: float) -> float:
+        """Exponent of the law times that of the height."""
+        at = np.array(r)
+        return self.law.decay[1] * float(r * self.punch.slope(at) / self.punch.height(at))
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,61 +146,87 @@ class Body:
 
     Parameters
     ----------
-    ball : Ball
+    punch : Ball
     law : LennardJones or Mie
         Law of the same atoms over a half-space.
 
     Examples
     --------
     >>> body = Body(Ball(R=20.0), LennardJones(work_of_adhesion=1.0, z0=1.0))
-    >>> q = 1.0 * (1.0 + 1.0 / 40.0)  # at h = 0 and rho = 0
+    >>> q = 1.0 * (1.0 + 1.0 / 40.0)  # at H = 0 and rho = 0
     >>> x = 21.0 / 20.0
     >>> exact = 8 / 3 * (q**-9 * (5 + 45 * x**2 + 63 * x**4 + 15 * x**6) / 128 - q**-3)
     >>> bool(abs(body.traction(np.array(0.0), np.array(0.0)) - exact) < 1e-13)
     True
     """
 
-    ball: Ball
+    punch: Ball
     law: LennardJones | Mie
 
-    def _distance(self, rho: Array, h: Array) -> tuple[Array, Array]:
-        """Distance of the centre, and its vertical part: faces without traction are z0 apart."""
-        vertical = self.ball.R + self.law.z0 + np.asarray(h, float)
-        return np.hypot(rho, vertical), vertical
+    def _distances(self, rho: Array, gap: Array) -> tuple[Array, Array, Array]:
+        """Distances of the centre and of the surface of the ball, and the vertical one of the centre."""
+        R, x, facing = self.punch.R, np.asarray(rho, float), self.law.z0 + np.asarray(gap, float)
+        above = R - self.punch.height(x)  # of the centre, from the face of the punch
+        vertical = above + facing
+        between = np.where(x <= self.punch.reach, facing * (above + vertical), x * x - R * R + vertical**2)
+        s = np.sqrt(np.maximum(R * R + between, 0.0))
+        return s, between / (s + R), vertical
 
-    def traction(self, rho: Array, h: Array) -> Array:
-        """p(rho, h), shape of both."""
-        s, _ = self._distance(rho, h)
-        return self._at(s)
+    def traction(self, rho: Array, gap: Array) -> Array:
+        """p(rho, H), shape of both."""
+        s, d, _ = self._distances(rho, gap)
+        return self._at(s, d)
 
-    def slopes(self, rho: Array, h: Array) -> tuple[Array, Array]:
-        """dp/drho and dp/dh."""
-        s, vertical = self._distance(rho, h)
-        rate = sum(strength * self._power_rate(s, m) for strength, m in self.law.powers)
-        return np.asarray(rate * rho / s), np.asarray(rate * vertical / s)
+    def slopes(self, rho: Array, gap: Array) -> tuple[Array, Array]:
+        """dp/drho at a fixed gap, and dp/dH."""
+        s, d, vertical = self._distances(rho, gap)
+        rate = sum(strength * self._power_rate(s, d, m) for strength, m in self.law.powers) / s
+        return np.asarray(rate * (rho - vertical * self.punch.slope(rho))), np.asarray(rate * vertical)
 
-    def energy(self, rho: Array, h: Array) -> Array:
-        """Integral of p from h to infinity, by quadrature along the vertical line."""
-        s, vertical = self._distance(rho, h)
+    def peak_gap(self, rho: Array) -> Array:
+        """Gap on the sphere around the centre where the tension is largest; outside of it the one level with that."""
+        above = self.punch.R - self.punch.height(rho)
+        return np.sqrt(np.maximum(_peak_distance(self) ** 2 - np.square(rho), 0.0)) - above - self.law.z0
+
+    def peak_slope(self, rho: Array) -> Array:
+        """Its derivative by the radius."""
+        root = np.sqrt(np.maximum(_peak_distance(self) ** 2 - np.square(rho), 0.0))
+        falling = np.where(root > 0.0, rho / np.where(root > 0.0, root, 1.0), 0.0)
+        return np.asarray(self.punch.slope(rho) - falling)
+
+    def fall(self, r: float) -> float:
+        """That of the potential where the surface is level with the apex; far away the ball is a point."""
+        if r > _POINT * self.punch.R:
+            return self.law.decay[1] + 3.0
+        at = np.array(r)
+        level = np.array(self.punch.height(at))
+        by_radius, by_gap = self.slopes(at, level)
+        return -r * float((by_radius + by_gap * self.punch.slope(at)) / self.traction(at, level))
+
+    def energy(self, rho: Array, gap: Array) -> Array:
+        """Integral of p from H to infinity, by quadrature along the vertical line."""
+        s, d, vertical = self._distances(rho, gap)
         x, weights = _GAUSS
         # From the least distance on, in pieces whose lengths grow with it.
-        nearest = np.maximum(s - self.ball.R, np.finfo(float).tiny)
-        pieces = np.ceil(np.log(_FARTHEST * self.ball.R / nearest.min()) / np.log(_RATIO))
+        nearest = np.maximum(d, np.finfo(float).tiny)
+        pieces = np.ceil(np.log(_FARTHEST * self.punch.R / nearest.min()) / np.log(_RATIO))
         total = np.zeros_like(s)
         for piece in range(int(pieces)):
             start, stop = nearest * _RATIO**piece, nearest * _RATIO ** (piece + 1)
             beyond = start + 0.5 * (stop - start) * (1.0 + x.reshape(-1, *[1] * s.ndim)) - nearest
-            values = self._at(np.hypot(rho, vertical + beyond))
+            farther = np.hypot(rho, vertical + beyond)
+            distance = d + beyond * (2.0 * vertical + beyond) / (farther + s)
+            values = self._at(farther, distance)
             total += 0.5 * (stop - start) * np.tensordot(weights, values, 1)
         return total
 
-    def _at(self, s: Array) -> Array:
-        return np.asarray(sum(strength * self._power(s, m) for strength, m in self.law.powers))
+    def _at(self, s: Array, d: Array) -> Array:
+        return np.asarray(sum(strength * self._power(s, d, m) for strength, m in self.law.powers))
 
-    def _power(self, s: Array, m: float) -> Array:
-        """p_m at a distance of the centre, in units of its strength."""
-        R, z0 = self.ball.R, self.law.z0
-        d, D = s - R, s + R
+    def _power(self, s: Array, d: Array, m: float) -> Array:
+        """p_m at distances of the centre and of the surface, in units of its strength."""
+        R, z0 = self.punch.R, self.law.z0
+        D = s + R
         far = R / s < _SERIES_BELOW
         with np.errstate(divide="ignore", invalid="ignore"):
             power = (z0 / d) ** m * -np.expm1(m * np.log(d / D))
@@ -169,10 +235,10 @@ class Body:
             return np.asarray(power - rest)
         return np.where(far, (z0 / s) ** m * _far_series(np.where(far, R / s, 0.0), m), power - rest)
 
-    def _power_rate(self, s: Array, m: float) -> Array:
+    def _power_rate(self, s: Array, d: Array, m: float) -> Array:
         """Derivative of p_m by the distance of the centre."""
-        R, z0 = self.ball.R, self.law.z0
-        d, D = s - R, s + R
+        R, z0 = self.punch.R, self.law.z0
+        D = s + R
         far = R / s < _SERIES_BELOW
         with np.errstate(divide="ignore", invalid="ignore"):
             power = -m * ((z0 / d) ** m / d - (z0 / D) ** m / D)
@@ -192,6 +258,19 @@ def _far_series(x: Array, m: float, rate: bool = False) -> Array:
         if i % 2:
             total += 2.0 * factor * (i - 1.0) * x**i * (m + i if rate else 1.0)
     return total
+
+
+@lru_cache(maxsize=32)
+def _peak_distance(body: Body) -> float:
+    """Distance of the centre at which the tension is largest."""
+    R, length = body.punch.R, body.law.z0
+
+    def rate(log_d: float) -> float:
+        d = np.array(length * np.exp(log_d))
+        rates = [strength * float(body._power_rate(R + d, d, m)) * float(d) for strength, m in body.law.powers]
+        return sum(rates)
+
+    return R + length * float(np.exp(brentq(rate, -np.log(_WIDEST), np.log(_WIDEST), xtol=1e-14)))
 
 
 def interaction_of(punch: Punch, law: SurfaceLaw, name: InteractionName) -> Interaction:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fem_reference.interaction import Interaction, InteractionName, interaction_of
 from fem_reference.laws import SurfaceLaw
 from fem_reference.punch import CustomPunch, Punch, radius_at_height
 from fem_reference.solids import Solid
@@ -35,6 +36,10 @@ class Problem:
         Shape f(r).
     law : SurfaceLaw
         Traction p(H).
+    interaction : {"derjaguin", "body", "auto"}
+        Where the surface force of small strain is taken: the law at the vertical gap, or the potential of the punch at
+        the place of each point, which is known for a `Ball` under `LennardJones` or `Mie`; "auto" is "body" where it is
+        known.
 
     Raises
     ------
@@ -52,6 +57,7 @@ class Problem:
     solid: Solid
     punch: Punch
     law: SurfaceLaw
+    interaction: InteractionName = "derjaguin"
 
     def __post_init__(self) -> None:
         if not isinstance(self.solid, Solid):
@@ -67,6 +73,7 @@ class Problem:
             hash((self.solid, self.punch, self.law))
         except TypeError as error:
             raise ValueError(f"the problem is not hashable ({error}); make its parts frozen dataclasses") from error
+        interaction_of(self.punch, self.law, self.interaction)
         C, m = self.law.decay
         r = radius_at_height(self.punch, FAR * self.law.z0)
         growth = r * float(self.punch.slope(np.array(r))) / float(self.punch.height(np.array(r)))
@@ -80,3 +87,18 @@ class Problem:
                 f"growth f ~ r^{growth:.9g} of the punch is outside ({LOAD_INTEGRAL:g}/{m:g}, inf): with "
                 f"p ~ H^-{m:g} far away, the load integral of p r dr diverges"
             )
+
+    @property
+    def force(self) -> Interaction:
+        """The surface force of small strain."""
+        return interaction_of(self.punch, self.law, self.interaction)
+
+    def under(self, interaction: InteractionName | None) -> Problem:
+        """Return the problem with another interaction, or itself for None.
+
+        Raises
+        ------
+        ValueError
+            If the interaction is unknown, or not known for this punch and law.
+        """
+        return self if interaction is None else replace(self, interaction=interaction)

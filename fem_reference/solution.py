@@ -22,6 +22,7 @@ from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
 from fem_reference.accuracy import coarser_accuracy, relative_error
 from fem_reference.errors import AccuracyWarning, NoSuchEvent, NotConverged
+from fem_reference.interaction import InteractionName
 from fem_reference.problem import Problem
 from fem_reference.punch import check_contact
 from fem_reference.quantities import (
@@ -43,7 +44,13 @@ __all__ = ["solve", "solve_together"]
 CUSP_SHARE = 0.3
 
 
-def solve(problem: Problem, quantity: str, accuracy: float | str = "default") -> Solution:
+def solve(
+    problem: Problem,
+    quantity: str,
+    accuracy: float | str = "default",
+    *,
+    interaction: InteractionName | None = None,
+) -> Solution:
     """Compute one quantity with a bound on its numerical error.
 
     Parameters
@@ -57,6 +64,8 @@ def solve(problem: Problem, quantity: str, accuracy: float | str = "default") ->
         actual error.  Finer meshes are used where the path cannot be traced.  A value at an accuracy finer than
         "default" that misses it is also computed at "default", and the one with the smaller `u_num` is returned.  If
         the bound exceeds a requested number, an `AccuracyWarning` says so.
+    interaction : str, optional
+        In place of that of the problem: "derjaguin", "body" or "auto" (see `Problem`).
 
     Returns
     -------
@@ -65,7 +74,7 @@ def solve(problem: Problem, quantity: str, accuracy: float | str = "default") ->
     Raises
     ------
     ValueError
-        For an unknown quantity or accuracy.
+        For an unknown quantity, accuracy or interaction, or an interaction that is not known for this punch and law.
     NoSuchEvent
         If the path has no such point.
     NotConverged
@@ -80,20 +89,24 @@ def solve(problem: Problem, quantity: str, accuracy: float | str = "default") ->
     >>> round(solution.value, 3), solution.u_num < 1e-5  # Bradley's 2 pi for a rigid solid
     (6.226, True)
     """
-    result = solve_together(problem, (quantity,), accuracy)[quantity]
+    result = solve_together(problem, (quantity,), accuracy, interaction=interaction)[quantity]
     if isinstance(result, NoSuchEvent):
         raise result
     return result
 
 
 def solve_together(
-    problem: Problem, quantities: Iterable[str] = QUANTITIES, accuracy: float | str = "default"
+    problem: Problem,
+    quantities: Iterable[str] = QUANTITIES,
+    accuracy: float | str = "default",
+    *,
+    interaction: InteractionName | None = None,
 ) -> dict[str, Solution | NoSuchEvent]:
     """Compute several quantities on the same meshes, tracing each path once.
 
     Parameters
     ----------
-    problem, accuracy
+    problem, accuracy, interaction
         As for `solve`.
     quantities : iterable of str
         Of `QUANTITIES`, `LOSSES` and `CRITICAL_MODULUS`; all of `QUANTITIES` by default.  The mesh is made for the
@@ -125,6 +138,7 @@ def solve_together(
         raise ValueError(f"quantities = {quantities!r} is one name: give several as a list, or call solve for one")
     if not isinstance(problem, Problem):
         raise ValueError(f"problem = {problem!r} is no Problem: write Problem(solid, punch, law)")
+    problem = problem.under(interaction)
     rows = {name: quantity_named(name) for name in quantities}
     if not rows:
         raise ValueError(f"no quantity is named; choose at least one of {', '.join(TABLE)}")

@@ -18,6 +18,7 @@ from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._presentation import Columns
 from fem_reference._threads import one_thread
 from fem_reference._typing import Array
+from fem_reference.interaction import InteractionName
 from fem_reference.problem import Problem
 
 __all__ = ["EVENTS", "EquilibriumPath", "RadialField", "event_state", "profile", "trace"]
@@ -71,7 +72,13 @@ class RadialField(Columns):
     load: float
 
 
-def trace(problem: Problem, accuracy: float | str = "default", largest_turn: float | None = None) -> EquilibriumPath:
+def trace(
+    problem: Problem,
+    accuracy: float | str = "default",
+    largest_turn: float | None = None,
+    *,
+    interaction: InteractionName | None = None,
+) -> EquilibriumPath:
     """Trace the equilibrium path from far away until the load is compressive.
 
     In contact with a solid that is not a power law, each radius of the contact edge has a mesh of its own.
@@ -83,6 +90,8 @@ def trace(problem: Problem, accuracy: float | str = "default", largest_turn: flo
     largest_turn : float, optional
         Angle in degrees, in (0, 180]: points are inserted until the plotted curve of load over displacement turns by
         less from one point to the next.
+    interaction : str, optional
+        In place of that of the problem (see `fem_reference.solve`).
 
     Returns
     -------
@@ -107,7 +116,7 @@ def trace(problem: Problem, accuracy: float | str = "default", largest_turn: flo
     if largest_turn is not None and not 0.0 < largest_turn <= 180.0:
         raise ValueError(f"largest_turn = {largest_turn} is outside (0, 180]: it is an angle in degrees")
     with one_thread:
-        path = whole_path(problem, accuracy)
+        path = whole_path(problem if interaction is None else problem.under(interaction), accuracy)
         points = path.points if largest_turn is None else turning_slowly(path, largest_turn)
         return EquilibriumPath(
             np.array([p.state.displacement for p in points]),
@@ -205,7 +214,7 @@ def profile(
             )
         w = mesh.evaluate(s) @ y[:-2]
         gap = -y[-2] + problem.punch.height(s * y[-1]) + w
-        pressure = problem.law.traction(gap)
+        pressure = problem.force.traction(s * y[-1], gap)
         return RadialField(s * y[-1], gap, pressure, w, point.state.displacement, point.state.load)
 
 

@@ -203,7 +203,9 @@ class _Field:
         self.mesh = state.disc.mesh if mesh is None else mesh
         self.gap = state.gap if gap is None else gap
         self.stiffness = state.disc.stiffness_scale(self.scale)
-        self.pressure = state.pressure if gap is None else self.problem.law.traction(gap)
+        self.pressure = state.pressure
+        if gap is not None:
+            self.pressure = self.problem.force.traction(self.scale * self.mesh.nodes, gap)
 
 
 def _weights(field: _Field, starts: Array, lengths: Array) -> Array:

@@ -39,12 +39,19 @@ def predicted(state: State, rates: Rates, step: float) -> State:
 def follow_edge(state: State, end_height: float, tolerance: float, edge_gap: float | None = None) -> State:
     """Guess on a mesh scaled so that the outermost edge gap, by default that of largest tension, is at s = 1."""
     problem, mesh = state.disc.problem, state.disc.mesh
-    target = problem.law.peak_gap if edge_gap is None else edge_gap
-    outer = int(np.flatnonzero(state.gap < target)[-1]) if np.any(state.gap < target) else -1
+
+    def target(radius: Array) -> Array | float:
+        return problem.force.peak_gap(radius) if edge_gap is None else edge_gap
+
+    def excess(offset: float) -> float:
+        at = np.array([offset])
+        gap = mesh.evaluate_at_offsets(state.gap, at)
+        return float((gap - target(state.scale * (mesh.origin + at)))[0])
+
+    inside = state.gap < target(state.radius)
+    outer = int(np.flatnonzero(inside)[-1]) if np.any(inside) else -1
     low = -mesh.origin if outer < 0 else float(mesh.node_offsets[outer])
-    offset = scipy.optimize.brentq(
-        lambda s: mesh.evaluate_at_offsets(state.gap, np.array([s]))[0] - target, low, mesh.node_offsets[outer + 1]
-    )
+    offset = scipy.optimize.brentq(excess, low, mesh.node_offsets[outer + 1])
     ratio = mesh.origin + offset
     scale, shape = state.scale * ratio, problem.punch.height
     kinked = bool(kinks_of(problem.punch))

@@ -135,12 +135,13 @@ class Defect:
         self._area = 2.0 * state.scale**2 * mesh.weights * mesh.nodes
         polynomial = coarse.transfer(state.pressure, mesh)
         # Errors of the interpolated pressure, and of the deformation between the nodes.
-        samples, law = Samples(mesh), fine.problem.law
+        samples, force = Samples(mesh), fine.problem.force
         radii = state.scale * samples.radii
         gap = fine.height(radii) - state.displacement + coarse.transfer(nodal, mesh, POINTS)
-        self._pressure_error = samples.projected(law.traction(gap) - coarse.transfer(state.pressure, mesh, POINTS))
+        sampled = force.traction(radii, gap) - coarse.transfer(state.pressure, mesh, POINTS)
+        self._pressure_error = samples.projected(sampled)
         self._pressure = polynomial + self._pressure_error
-        self._surface_energy = samples.integrals(2.0 * state.scale * radii * law.energy(gap))
+        self._sampled = samples, radii, gap
         deformation = self._stiffness * (fine.response(state.scale) @ polynomial) + f.tail.displacement
         self._gap_error = lift - deformation if fine.steep else f.gap + state.displacement - height - deformation
         axis = (d.axis_response(state.scale) @ p for d, p in ((fine, polynomial), (state.disc, state.pressure)))
@@ -202,17 +203,17 @@ class Defect:
         return unit
 
     def _energy_gradient(self) -> Array:
-        f, tail, law = self.fine, self.fine.tail, self.fine.disc.problem.law
+        f, tail, force = self.fine, self.fine.tail, self.fine.disc.problem.force
         k = f.disc.problem.k
         weighed = self._area * f.pressure
-        slope = law.slope(f.gap)
+        slope = force.slope(f.radius, f.gap)
         row = self._area * (0.5 * slope * f.deformation - f.pressure) + 0.5 * slope * self._backwards(weighed)
 
         def behind(relative: float, shift: float) -> float:
             return tail_energy(f.disc.problem, f.end * (1.0 + relative), f.displacement + shift)
 
         pressure = 0.5 * float(np.sum(weighed))
-        surface = self._area @ (0.5 * f.pressure * f.deformation + law.energy(f.gap))
+        surface = self._area @ (0.5 * f.pressure * f.deformation + force.energy(f.radius, f.gap))
         elastic = 0.5 * (1.0 - k) * float(weighed @ (f.deformation - tail.displacement))
         growth = f.disc.growth(f.scale, f.pressure)[0]
         elastic += 0.5 * self._stiffness * float(np.sum(weighed * growth))
@@ -221,10 +222,19 @@ class Defect:
         )
         by_scale = 2.0 * float(surface) + elastic + pressure * tail.displacement_rate
         by_scale += (behind(_STEP, 0.0) - behind(-_STEP, 0.0)) / (2.0 * _STEP)
+        if self._system.drift is not None:
+            by_scale += self._drift_of_energy(weighed, self._system.drift)
         if f.lift is not None:  # the gap follows from it, H = f(c s) - delta + w
             by_displacement -= float(row.sum())
             by_scale += float(row @ f.disc.rise(f.radius))
         return np.concatenate([row, [by_displacement, by_scale]])
+
+    def _drift_of_energy(self, weighed: Array, drift: Array) -> float:
+        """Derivative of the energy by log c by that of the pressure at a fixed gap."""
+        f, force = self.fine, self.fine.disc.problem.force
+        outside, inside = (force.energy(f.radius * (1.0 + step), f.gap) for step in (_STEP, -_STEP))
+        elastic = 0.5 * (self._area * f.deformation + self._backwards(weighed)) @ drift
+        return float(elastic + self._area @ (outside - inside) / (2.0 * _STEP))
 
     def _difference(self, name: str) -> Array:
         """A functional on the finer mesh minus that on the coarse one, by panel."""
@@ -245,10 +255,17 @@ class Defect:
         surface = np.bincount(self._owner[:: f.disc.mesh.order], self._surface_energy, minlength=self._panels)
         return self._by_panel(0.5 * self._area * self._pressure * deformation) + surface
 
+    @cached_property
+    def _surface_energy(self) -> Array:
+        """That of the gap between the nodes, by panel of the finer mesh."""
+        samples, radii, gap = self._sampled
+        energy = self.fine.disc.problem.force.energy(radii, gap)
+        return samples.integrals(2.0 * self.coarse.scale * radii * energy)
+
     def _coarse_energy(self) -> Array:
         state = self.coarse
-        mesh, law = state.disc.mesh, state.disc.problem.law
-        density = 0.5 * state.pressure * state.deformation + law.energy(state.gap)
+        mesh, force = state.disc.mesh, state.disc.problem.force
+        density = 0.5 * state.pressure * state.deformation + force.energy(state.radius, state.gap)
         return (2.0 * state.scale**2 * mesh.weights * mesh.nodes * density).reshape(self._panels, -1).sum(axis=1)
 
     def _explicit(self, name: str) -> Array:
@@ -298,30 +315,30 @@ class Defect:
         f = self.fine
         row = np.abs(adjoint)
         backwards = np.abs(self._backwards(row))
-        product = float(backwards @ np.abs(f.pressure))
+        force = f.disc.problem.force
+        product = float(backwards @ force.size(f.radius, f.gap))
         size = abs(f.displacement) + f.disc.height(f.radius) + np.abs(f.disc.rise(f.radius))
         if f.lift is None:
             size = size + np.abs(f.gap)
         else:  # the height is rounded in the gap, not in the equation
-            product += float(backwards @ np.abs(f.disc.problem.law.slope(f.gap) * size)) / _ENTRY
+            product += float(backwards @ np.abs(force.slope(f.radius, f.gap) * size)) / _ENTRY
             size = np.abs(f.lift)
         functionals = self._functional_rounding(functional) + abs(border) * self._functional_rounding(control)
         return _ROUNDOFF * (float(row @ size) + _ENTRY * product + functionals)
 
     def _functional_rounding(self, name: str) -> float:
         """Sizes of the terms of a functional, in units of the roundoff."""
-        f = self.fine
+        f, force = self.fine, self.fine.disc.problem.force
+        sizes = force.size(f.radius, f.gap)
         stored = float(np.abs(self._gradient(name)[:-2]) @ np.abs(f.gap))
         if name == "load":
-            return stored + _WEIGHT * float(self._area @ np.abs(f.pressure))
+            return stored + _WEIGHT * float(self._area @ sizes)
         if name == "central_gap":
             return (
-                stored
-                + abs(f.displacement)
-                + _ENTRY * self._stiffness * float(f.disc.axis_response(f.scale) @ np.abs(f.pressure))
+                stored + abs(f.displacement) + _ENTRY * self._stiffness * float(f.disc.axis_response(f.scale) @ sizes)
             )
         if name == "energy":
-            density = 0.5 * np.abs(f.pressure * f.deformation) + np.abs(f.disc.problem.law.energy(f.gap))
+            density = 0.5 * sizes * np.abs(f.deformation) + np.abs(force.energy(f.radius, f.gap))
             return stored + _WEIGHT * float(self._area @ density)
         return abs(f.displacement)
 

@@ -251,7 +251,12 @@ class State:
     @property
     def gap_at_edge(self) -> float:
         """Gap at s = 1 when the mesh follows the edge."""
-        return self.disc.problem.law.peak_gap if self.edge_gap is None else self.edge_gap
+        return float(self.disc.problem.force.peak_gap(np.array(self.scale))) if self.edge_gap is None else self.edge_gap
+
+    @property
+    def drift_at_edge(self) -> float:
+        """Derivative of that gap by log c."""
+        return self.disc.problem.force.peak_drift(self.scale) if self.edge_gap is None else 0.0
 
     @cached_property
     def radius(self) -> Array:
@@ -266,7 +271,7 @@ class State:
     @cached_property
     def pressure(self) -> Array:
         """p at the nodes, shape (N,)."""
-        return self.disc.problem.law.traction(self.gap)
+        return self.disc.problem.force.traction(self.radius, self.gap)
 
     @cached_property
     def tail(self) -> Tail:
@@ -302,9 +307,9 @@ class State:
         the surface part is infinite (a cone under the 9-3 law) its finite part is taken: the divergent
         constant is the same for all states of a problem, so differences are right.
         """
-        d, law = self.disc, self.disc.problem.law
+        d = self.disc
         area = 2.0 * self.scale**2 * d.mesh.weights * d.mesh.nodes
-        density = 0.5 * self.pressure * self.deformation + law.energy(self.gap)
+        density = 0.5 * self.pressure * self.deformation + d.problem.force.energy(self.radius, self.gap)
         return float(area @ density) + tail_energy(self.disc.problem, self.end, self.displacement)
 
     @cached_property
@@ -346,7 +351,7 @@ class Linearisation:
         self.state = s = state
         d, problem = s.disc, s.disc.problem
         K = d.stiffness_scale(s.scale)
-        slope = problem.law.slope(s.gap)
+        slope = problem.force.slope(s.radius, s.gap)
         k = problem.k
         rise = d.rise(s.radius)
         if s.lift is None:
@@ -358,9 +363,14 @@ class Linearisation:
         self._stiffness_slope = K * slope
         self._displacement_column: float | Array = 1.0 - s.tail.displacement_slope
         growth, axis_growth = (K * rate for rate in d.growth(s.scale, s.pressure))
+        #: r dp/dr at a fixed gap, by which the pressure at a node changes with log c; None if it does not.
+        self.drift = problem.force.drift(s.radius, s.gap)
+        if self.drift is not None:
+            growth = growth + K * (d.response(s.scale) @ self.drift)
+            axis_growth = axis_growth + K * float(d.axis_response(s.scale) @ self.drift)
         self.scale_column = -(rise + (1.0 - k) * elastic + growth + s.tail.displacement_rate)
         # Derivatives of the anchor by delta and log c.
-        self._anchor_ends = 0.0, 0.0 if s.follows_edge else 1.0
+        self._anchor_ends = 0.0, -s.drift_at_edge if s.follows_edge else 1.0
         self.anchor = float(d.edge @ s.gap) - s.gap_at_edge if s.follows_edge else 0.0
         self._growth_on_axis = float(axis_growth)
         self._slope, self._rise = slope, rise
@@ -376,7 +386,7 @@ class Linearisation:
         if s.follows_edge:
             edge = np.array([s.scale])
             self.anchor = float(d.height(edge)[0] - s.displacement + d.edge @ lift) - s.gap_at_edge
-            self._anchor_ends = -1.0, float(d.rise(edge)[0])
+            self._anchor_ends = -1.0, float(d.rise(edge)[0]) - s.drift_at_edge
 
     @cached_property
     def load_gradient(self) -> Array:
@@ -384,6 +394,8 @@ class Linearisation:
         s, mesh = self.state, self.state.disc.mesh
         area = 2.0 * s.scale**2 * mesh.weights * mesh.nodes
         by_scale = 2.0 * (s.load - s.tail.load) + s.tail.load_rate
+        if self.drift is not None:
+            by_scale += float(area @ self.drift)
         return self._by_unknowns(area * self._slope, s.tail.load_slope, by_scale)
 
     @cached_property
@@ -419,7 +431,7 @@ class Linearisation:
     def rounding(self) -> Array:
         """Bound of the rounding of the residual, shape (N,)."""
         s, d = self.state, self.state.disc
-        product = d.stiffness_scale(s.scale) * (d.response(s.scale) @ np.abs(s.pressure))
+        product = d.stiffness_scale(s.scale) * (d.response(s.scale) @ d.problem.force.size(s.radius, s.gap))
         if s.lift is not None:
             size = np.abs(s.lift)
         else:

@@ -79,8 +79,11 @@ class PathEnd:
     def __call__(self, state: State) -> bool:
         self.farthest = max(self.farthest, state.displacement)
         deepest = state.displacement >= max(self.farthest, self.displacement)
-        touching = min(state.central_gap, float(np.min(state.gap))) < state.disc.problem.law.peak_gap
-        return (state.follows_edge or touching) and state.load > self.load and deepest and beyond_layers(state)
+        force = state.disc.problem.force
+        touching = state.central_gap < state.disc.problem.law.peak_gap or np.any(
+            state.gap < force.peak_gap(state.radius)
+        )
+        return bool(state.follows_edge or touching) and state.load > self.load and deepest and beyond_layers(state)
 
 
 def beyond_layers(state: State) -> bool:
@@ -89,7 +92,7 @@ def beyond_layers(state: State) -> bool:
     if response is None or response.kernel is None:
         return True
     stiffness = _Stiffness(*response.spectrum)
-    touching = state.radius[state.gap < state.disc.problem.law.peak_gap]
+    touching = state.radius[state.gap < state.disc.problem.force.peak_gap(state.radius)]
     a = max(float(touching[-1]) if touching.size else 0.0, float(state.radius[0]))
     later = np.geomspace(a, max(a, stiffness.deepest) * _LAYERS, _LATER)
     least = float(np.min(stiffness.least(later) * later * punch.slope(later) ** 2))

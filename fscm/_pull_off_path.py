@@ -113,6 +113,8 @@ def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
     """
     if not isinstance(problem.punch, PowerPunch) or problem.response is not None:
         return None
+    if problem.interaction != "derjaguin":  # the load of the rigid solid bounds that of vertical gaps
+        return None
     if not isinstance(problem.law, LennardJones | Mie) or problem.law.decay[1] * problem.n <= 2.0:
         return None
     start = _start(problem)

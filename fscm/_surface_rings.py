@@ -111,6 +111,6 @@ def ring_limit(problem: Problem) -> RingLimit | None:
 def check_rings(state: State, limit: RingLimit) -> None:
     """Raise `RingsForm` if the gap decreases outwards from above the gap of largest tension to an unstable one."""
     least_outside = np.minimum.accumulate(state.gap[::-1])[::-1]
-    ring = (state.gap > state.disc.problem.law.peak_gap) & (least_outside <= limit.farthest)
+    ring = (state.gap > state.disc.problem.force.peak_gap(state.radius)) & (least_outside <= limit.farthest)
     if np.any(state.gap[ring] - least_outside[ring] > _FALL):
         raise limit.refusal(state.disc.problem)

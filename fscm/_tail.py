@@ -14,7 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fscm._kernel import kernel_of
+from fscm._tail_of_body import TailOfBody
 from fscm._typing import Array
+from fscm.interaction import Body
 from fscm.problem import Problem
 
 __all__ = ["Tail", "deformation_beyond", "tail_energy", "tail_errors", "tail_of", "tail_variation"]
@@ -74,6 +76,9 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
     displacement : float
         delta, in z0; w is neglected.
     """
+    if isinstance(problem.force, Body):
+        body = TailOfBody(problem, T, displacement)
+        return Tail(body.load[0], body.lift[0], body.load[1], body.lift[1], body.load[2], body.lift[2])
     C, m = problem.law.decay
     F = _height(problem, T)
     if C == 0.0 or F > _ZERO:
@@ -145,6 +150,8 @@ def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array,
     >>> bool(abs(computed[0]) < 1e-15), bool(remainder[0] < 1e-6 * abs(computed[0]))
     (True, True)
     """
+    if isinstance(problem.force, Body):
+        return TailOfBody(problem, T, displacement).errors()
     C, m = problem.law.decay
     if C == 0.0 or _height(problem, T) > _ZERO:
         return np.zeros(3), np.zeros(3)
@@ -216,7 +223,10 @@ def tail_variation(problem: Problem, T: float, displacement: float, radii: Array
     # The change falls or rises with t between two rings; beyond the last one it falls.
     largest = np.maximum(change, np.append(change[1:], change[-1:], axis=0))
     power = problem.law.decay[1] * problem.punch.growth
-    strength = abs(float(problem.law.traction(np.array(_height(problem, T) - displacement)))) * T / (power - 1.0)
+    if isinstance(problem.force, Body):
+        power = TailOfBody(problem, T, displacement).least_exponent()
+    at_end = float(problem.force.traction(np.array(T), np.array(_height(problem, T) - displacement)))
+    strength = abs(at_end) * T / (power - 1.0)
     shares = -np.diff(np.append(_RINGS ** (1.0 - power), 0.0))
     bound = np.maximum.accumulate(problem.compliance * (1.0 - k) * strength * (shares @ largest))
     # Near the center it falls like r^2.
@@ -255,6 +265,8 @@ def tail_energy(problem: Problem, T: float, displacement: float) -> float:
     problem, T, displacement
         As for `tail_of`.
     """
+    if isinstance(problem.force, Body):
+        return TailOfBody(problem, T, displacement).energy
     return _tail_energy(problem, T, displacement, 1)
 
 

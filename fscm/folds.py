@@ -70,12 +70,18 @@ def edge_radius(state: State) -> float:
     problem, mesh = state.disc.problem, state.disc.mesh
     if state.follows_edge:
         return float(state.scale)
-    inside = np.flatnonzero(state.gap < problem.law.peak_gap)
+    force = problem.force
+    inside = np.flatnonzero(state.gap < force.peak_gap(state.radius))
     # For a power law the mesh follows the edge soon after it appears.
     if isinstance(problem.punch, PowerPunch) or not inside.size:
         return math.nan
     low, high = mesh.nodes[inside[-1] : inside[-1] + 2]
-    s = scipy.optimize.brentq(lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - problem.law.peak_gap, low, high)
+
+    def excess(s: float) -> float:
+        at = np.array([s])
+        return float((mesh.evaluate(state.gap, at) - force.peak_gap(state.scale * at))[0])
+
+    s = scipy.optimize.brentq(excess, low, high)
     return float(state.scale * s)
 
 

@@ -109,6 +109,7 @@ def trace(
     longest_step: float = _LONGEST_STEP,
     largest_turn: float = _LARGEST_TURN,
     with_bounds: bool = True,
+    interaction: str | None = None,
 ) -> EquilibriumPath:
     """Follow the whole equilibrium path.
 
@@ -129,6 +130,8 @@ def trace(
     largest_turn : float
         Degrees, above 0: equilibrium states are added until the tangent of load over displacement turns by less from
         point to point, in a square plot of the part with tension; 180 adds none.
+    interaction : str, optional
+        In place of that of the problem (see `solve`).
 
     Raises
     ------
@@ -143,7 +146,7 @@ def trace(
     >>> bool(abs(path.load.min() + 1.788) < 1e-2)
     True
     """
-    meshes = Meshes.of(accuracy)
+    meshes, problem = Meshes.of(accuracy), problem.under(interaction)
     units, problem = problem.units, problem.dimensionless
     max_load = None if max_load is None else max_load / units["load"]
     start_gap = None if start_gap is None else start_gap / units["gap"]

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, overload
 
 from fscm._response_factor import response_factor_per_rest
 from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, units_of
 from fscm._validation import real_number
 from fscm.bodies import Bodies, ScaledSolid, power_law_of, scaled, tension_length, tension_of
+from fscm.interaction import Interaction, interaction_of
 from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law
 from fscm.punch import PowerPunch, PunchShape, scaled_punch, unit_of_radii
 from fscm.solids import GradedHalfSpace, PowerLaw, Solid
@@ -67,10 +68,13 @@ class Problem:
         A solid that is not a power law, or several (`fscm.bodies`), with lengths in (Q z0)^(1/n).  Their k and mu are
         those of all compliances at short wave lengths without surface tension: k = 0 and the modulus
         E(0) / (1 - nu(0)^2) of one graded solid.
+    interaction : str
+        Of the surface: "derjaguin", the law at the vertical gap, or "body", the potential of the punch at the place of
+        each point, which is known for a rigid `Ball` under `LennardJones` or `Mie` (see `fscm.interaction`).
 
     Attributes
     ----------
-    n, k, mu, punch, law, solid, punch_solid, graded
+    n, k, mu, punch, law, solid, punch_solid, graded, interaction
         As above.  In a physical problem punch and law are physical, n and Q define the unit of the radii (those of the
         punch if it is a power law), and `graded` is None; in a dimensionless one `solid` is None.
 
@@ -106,11 +110,20 @@ class Problem:
     graded: GradedHalfSpace | Bodies | None
     solid: Solid | None
     punch_solid: Solid | None
+    interaction: str
     _dimensionless: Problem | None = field(init=False, repr=False, compare=False)
     _units: Mapping[str, float] = field(init=False, repr=False, compare=False)
 
     @overload
-    def __init__(self, solid: Solid, punch: PunchShape, law: SurfaceLaw, punch_solid: Solid | None = None) -> None: ...
+    def __init__(
+        self,
+        solid: Solid,
+        punch: PunchShape,
+        law: SurfaceLaw,
+        punch_solid: Solid | None = None,
+        *,
+        interaction: str = "derjaguin",
+    ) -> None: ...
     @overload
     def __init__(
         self,
@@ -122,6 +135,7 @@ class Problem:
         graded: GradedHalfSpace | Bodies | None = None,
         solid: None = None,
         punch_solid: None = None,
+        interaction: str = "derjaguin",
     ) -> None: ...
     def __init__(  # type: ignore[misc]  # the positions of the two have other names
         self,
@@ -133,6 +147,7 @@ class Problem:
         graded: Any = None,
         solid: Any = None,
         punch_solid: Any = None,
+        interaction: str = "derjaguin",
     ) -> None:
         # The four positions of a physical problem are solid, punch, law and the solid of the punch.
         if hasattr(n, "modulus"):
@@ -142,16 +157,16 @@ class Problem:
             punch, k = (k, None) if punch is None else (punch, k)
             law, mu = (mu, None) if law is None else (law, mu)
         if solid is None and punch_solid is None:
-            self._pose(n, k, mu, punch, law, graded)
+            self._pose(n, k, mu, punch, law, graded, interaction)
         elif solid is not None and n is k is mu is graded is None:
-            self._pose_physical(solid, punch, law, punch_solid)
+            self._pose_physical(solid, punch, law, punch_solid, interaction)
         else:
             raise ValueError(
                 "a problem has a solid, a punch, a law and perhaps a punch_solid, or else n, k and mu: a physical "
                 "problem is changed by making another one of its parts"
             )
 
-    def _pose(self, n: Any, k: Any, mu: Any, punch: Any, law: Any, graded: Any) -> None:
+    def _pose(self, n: Any, k: Any, mu: Any, punch: Any, law: Any, graded: Any, interaction: str) -> None:
         """Check and set the attributes of a dimensionless problem."""
         inf = math.inf
         n = real_number("shape index n", n, low=0.0, high=inf, reason="f = r^n / n must grow with r")
@@ -193,9 +208,15 @@ class Problem:
                 "a physical one is Problem(solid, punch, law)"
             )
         law = dimensionless_law(law)
-        self._set(n, k, mu, punch, law, graded, None, None, None, DIMENSIONLESS)
+        interaction_of(punch, law, interaction)
+        if k == 1.0 and interaction != "derjaguin":
+            raise ValueError(
+                f"interaction {interaction!r} is not known for k = 1: the Gibson solid is solved for a traction that "
+                "depends on the gap alone; take 'derjaguin'"
+            )
+        self._set(n, k, mu, punch, law, graded, None, None, interaction, None, DIMENSIONLESS)
 
-    def _pose_physical(self, solid: Any, punch: Any, law: Any, punch_solid: Any) -> None:
+    def _pose_physical(self, solid: Any, punch: Any, law: Any, punch_solid: Any, interaction: str) -> None:
         """Set a physical problem, and its dimensionless one, which is checked."""
         _check_parts(punch, law)
         w, z0 = law.work_of_adhesion, law.z0
@@ -217,18 +238,25 @@ class Problem:
         _check_exponents(n, k, punch, law)
         mu = number_from_log("Tabor number", log_tabor_number(power_law, n, Q, w, z0))
         shape = PowerPunch(n) if type(punch) is PowerPunch else scaled_punch(punch, units["radius"], z0)
-        core = Problem(n, k, mu, shape, dimensionless_law(law), graded)
-        self._set(n, k, core.mu, punch, law, None, solid, punch_solid, core, units)
+        if punch_solid is not None and interaction != "derjaguin":
+            raise ValueError(
+                f"interaction {interaction!r} is not known with a punch_solid: the potential is that of a rigid punch; "
+                "take 'derjaguin'"
+            )
+        core = Problem(n, k, mu, shape, dimensionless_law(law), graded, interaction=interaction)
+        self._set(n, k, core.mu, punch, law, None, solid, punch_solid, interaction, core, units)
 
     def _set(self, *values: Any) -> None:
         # The generated __setattr__ of a frozen class refuses; writing through object is its own idiom.
-        names = ("n", "k", "mu", "punch", "law", "graded", "solid", "punch_solid", "_dimensionless", "_units")
-        for name, value in zip(names, values, strict=True):
+        parts = ("n", "k", "mu", "punch", "law", "graded", "solid", "punch_solid", "interaction")
+        for name, value in zip((*parts, "_dimensionless", "_units"), values, strict=True):
             object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
         names = ["n", "k", "mu", "punch", "law"] if self.solid is None else ["solid", "punch", "law"]
         names += [name for name in ("punch_solid", "graded") if getattr(self, name) is not None]
+        if self.interaction != "derjaguin":
+            names.append("interaction")
         return f"Problem({', '.join(f'{name}={getattr(self, name)!r}' for name in names)})"
 
     def __str__(self) -> str:
@@ -237,8 +265,8 @@ class Problem:
     def __reduce__(self) -> tuple[Any, ...]:
         """Rebuilt from its parts: units cannot be pickled."""
         if self.solid is not None:
-            return Problem, (self.solid, self.punch, self.law, self.punch_solid)
-        return Problem, (self.n, self.k, self.mu, self.punch, self.law, self.graded)
+            return Problem, (self.solid, self.punch, self.law, self.punch_solid, *[None] * 4, self.interaction)
+        return Problem, (self.n, self.k, self.mu, self.punch, self.law, self.graded, None, None, self.interaction)
 
     @property
     def dimensionless(self) -> Problem:
@@ -253,6 +281,27 @@ class Problem:
         (Eq. 31); energy: load * displacement; stiffness: load / displacement; energy_per_area: dgamma; number: 1.
         """
         return self._units
+
+    def under(self, interaction: str | None) -> Problem:
+        """The problem with another interaction; itself for None.
+
+        Raises
+        ------
+        ValueError
+            When the interaction is unknown, or not known for this punch and law.
+
+        Examples
+        --------
+        >>> from fscm import Ball, Homogeneous, LennardJones
+        >>> bead = Problem(Homogeneous(E=1.5e6, nu=0.5), Ball(R=5e-6), LennardJones(0.05, 3e-9))
+        >>> bead.under("body").interaction
+        'body'
+        """
+        if interaction in (None, self.interaction):
+            return self
+        if self.solid is None:
+            return replace(self, interaction=interaction)
+        return Problem(self.solid, self.punch, self.law, self.punch_solid, interaction=interaction)
 
     def in_units(self, *, c0: float, nu: float, Q: float, work_of_adhesion: float, z0: float) -> Problem:
         """The physical problem of given scales whose modulus E0 gives the Tabor number of this one.
@@ -286,6 +335,11 @@ class Problem:
         scales = {"c0": c0, "Q": punch.Q, "work_of_adhesion": law.work_of_adhesion, "z0": law.z0}
         E0 = modulus_for(self.mu, n=self.n, k=self.k, nu=nu, **scales)
         return Problem(PowerLaw(E0, c0, self.k, nu), punch, law)
+
+    @property
+    def force(self) -> Interaction:
+        """The interaction of punch and law."""
+        return interaction_of(self.punch, self.law, self.interaction)
 
     @property
     def tabor_number_jin(self) -> float:

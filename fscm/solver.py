@@ -22,7 +22,9 @@ def _model(problem: Problem, accuracy: Accuracy) -> Analysis | GibsonSolid:
 
 
 @one_thread()
-def solve(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> Solution:
+def solve(
+    problem: Problem, quantity: str, accuracy: Accuracy = "default", *, interaction: str | None = None
+) -> Solution:
     """Compute one quantity with its numerical uncertainty; k = 1 is solved as the Gibson solid.
 
     Parameters
@@ -34,6 +36,8 @@ def solve(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> So
         Requested relative error, between 1e-10 and 1e-4, or its name in `ACCURACIES`.  It selects the meshes: it is
         reached nearly always, and `u_num` bounds the error in any case.  If `u_num` exceeds a request above 1e-8, the
         value is computed again at the default.  The Gibson solid is exact to rounding.
+    interaction : str, optional
+        In place of that of the problem: "derjaguin" or "body".
 
     Returns
     -------
@@ -44,7 +48,7 @@ def solve(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> So
     Raises
     ------
     ValueError
-        For an unknown quantity or accuracy.
+        For an unknown quantity or accuracy, or an interaction that is not known for punch and law.
     NoSuchEvent
         When the path has no such event, e.g. no jump below the critical Tabor number.
     NotConverged
@@ -63,7 +67,8 @@ def solve(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> So
     >>> round(solve(Problem(pad, PowerPunch(n=2, Q=100e-9), law), "pull_off_force").value * 1e9, 6)
     27.066203
     """
-    unit = _posed(problem).units[quantity_named(quantity).kind]
+    problem = _posed(problem).under(interaction)
+    unit = problem.units[quantity_named(quantity).kind]
     return _model(problem.dimensionless, accuracy).solution(quantity).times(unit)
 
 
@@ -78,13 +83,17 @@ def _posed(problem: object) -> Problem:
 
 @one_thread()
 def solve_together(
-    problem: Problem, quantities: Iterable[str] = QUANTITIES, accuracy: Accuracy = "default"
+    problem: Problem,
+    quantities: Iterable[str] = QUANTITIES,
+    accuracy: Accuracy = "default",
+    *,
+    interaction: str | None = None,
 ) -> dict[str, Solution | NoSuchEvent]:
     """Compute several quantities on one path.
 
     Parameters
     ----------
-    problem, accuracy
+    problem, accuracy, interaction
         As for `solve`.
     quantities : iterable of str
         Of `QUANTITIES`; all of them by default.
@@ -108,7 +117,8 @@ def solve_together(
     """
     if isinstance(quantities, str):
         raise ValueError(f"quantities = {quantities!r} is one name: give several as a list, or call solve for one")
-    units = {name: _posed(problem).units[quantity_named(name).kind] for name in quantities}
+    problem = _posed(problem).under(interaction)
+    units = {name: problem.units[quantity_named(name).kind] for name in quantities}
     model = _model(problem.dimensionless, accuracy)
     solutions: dict[str, Solution | NoSuchEvent] = {}
     for name, unit in units.items():

@@ -96,7 +96,7 @@ def margins(state: State, m: int, count: int = 1) -> Array:
         When the eigenvalues are not found.
     """
     d = state.disc
-    slope = d.problem.law.slope(state.gap)
+    slope = d.problem.force.slope(state.radius, state.gap)
     attracted = slope > 0.0
     if m > 0 and d.problem.response is not None:
         raise NotConverged(f"the stability against cos({m} theta) is known for a power-law modulus only")

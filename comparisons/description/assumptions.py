@@ -57,7 +57,7 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
         return None
     contact_radius = measures["contact_radius"]
     is_sphere = problem.punch.kind in (PARABOLOID, BALL)
-    is_too_large = is_sphere and contact_radius > LARGEST_CONTACT * problem.punch["R"]
+    is_too_large = is_sphere and contact_radius > LARGEST_CONTACT * min(problem.punch.values.values())
     if is_too_large:
         errors = dict.fromkeys(ASSUMPTIONS, error_of(None, reason="the contact is larger than the sphere"))
     elif "R_solid" in problem.punch.values:

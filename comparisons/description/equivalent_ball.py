@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+import fscm
 from comparisons.model import Array, NotApplicable
 from comparisons.models.jkr_sphere import LARGEST_CONTACT
 from comparisons.problem import Problem
@@ -89,6 +90,4 @@ def _radius_of_jkr(problem: Problem) -> float:
 
 def _surface_ratio(problem: Problem) -> float:
     """Poisson's ratio of the surface."""
-    if problem.posed.graded is None:
-        return float(problem.solid["nu"])
-    return float(problem.posed.graded.poisson(np.zeros(1))[0])
+    return float(problem.build(fscm).solid.poisson(np.zeros(1))[0])

@@ -121,8 +121,8 @@ def _inverse(change: Change | None) -> tuple[float, float] | None:
 
 
 def _surface_tension(problem: Problem) -> Json:
-    """None where the problem states the surface tension, so that it has been computed with it."""
-    if problem.solid.get("surface_tension") is not None:
+    """None where the problem states the surface tension of each body, so that it has been computed with it."""
+    if all(body.get("surface_tension") is not None for body in problem.bodies):
         return error_of((0.0, 0.0))
     return error_of(None, reason="no value is stated")
 
@@ -135,6 +135,8 @@ def _friction(problem: Problem) -> Json:
     """
     if problem.solid.get("friction") == "bonded":
         return error_of((0.0, 0.0))
+    if problem.punch_solid is not None:
+        return error_of(None, reason="there is no formula for two elastic bodies")
     if not problem.is_of_the_paper("solid") or problem.posed.k != 0.0:
         return error_of(None, reason=f"there is no formula for the {problem.solid.kind} solid")
     nu = problem.solid["nu"]

@@ -229,7 +229,7 @@ def rigid_changes(range_over_radius: float) -> tuple[float, float]:
         traction = interaction_of(ball, law, name).traction
 
         def load(height: float, traction: Callable[[Array, Array], Array] = traction) -> float:
-            return float(np.sum(measure * traction(rho, np.full_like(rho, height * range_over_radius))))
+            return float(np.sum(measure * traction(rho, ball.height(rho) + height * range_over_radius)))
 
         forces.append(-minimize_scalar(load, bounds=_HEIGHTS, method="bounded", options={"xatol": 1e-9}).fun)
     # That of the paraboloid is 2 pi w R (Bradley).

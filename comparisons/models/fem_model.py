@@ -173,8 +173,8 @@ class LargeStrain(SolverModel):
     Parameters
     ----------
     interaction : str
-        Where the surface force is taken: "auto" is the potential of the punch where that is known, else the law at the
-        vertical gap, which is "derjaguin".
+        Where the surface force is taken if the problem does not state it: "auto" is the potential of the punch where
+        that is known, else the law at the vertical gap, which is "derjaguin".
 
     Examples
     --------
@@ -199,11 +199,17 @@ class LargeStrain(SolverModel):
         self._interaction = interaction
 
     def _result(self, problem: Problem, quantity: str) -> Result:
-        solution = fem_reference.solve_large_strain(_body(problem), quantity, interaction=self._interaction)
+        solution = fem_reference.solve_large_strain(_body(problem), quantity, interaction=self._stated(problem))
         return result_of(solution, unit=problem.units[QUANTITIES[quantity].scale])
 
     def _curve(self, problem: Problem) -> Curve:
-        return curve_of(fem_reference.trace_large_strain(_body(problem), interaction=self._interaction), problem.units)
+        path = fem_reference.trace_large_strain(_body(problem), interaction=self._stated(problem))
+        return curve_of(path, problem.units)
+
+    def _stated(self, problem: Problem) -> InteractionName:
+        """The interaction of the problem, or else of this model."""
+        stated: InteractionName = problem.law.get("interaction", self._interaction)
+        return stated
 
 
 def _body(problem: Problem) -> fem_reference.Problem:

@@ -213,3 +213,12 @@ class JKRSphereProjected(JKRSphere):
     citation = "Maugis, Langmuir 11 (1995) 679, with the sphere of Sneddon, Int. J. Eng. Sci. 3 (1965) 47"
     domain = "a ball on a homogeneous solid, contact radius up to 0.95 R; exact for vertical gaps as mu -> infinity"
     release: ClassVar[Release] = Release(0.0)
+
+    def check(self, problem: Problem) -> None:
+        """Raise `NotApplicable` for a force of the whole body as well, which counts the true area."""
+        super().check(problem)
+        if problem.interaction == "body":
+            raise NotApplicable(
+                f"{self.name} counts the work of adhesion for the projected area, as vertical gaps do: for interaction "
+                "= body take jkr-sphere"
+            )

@@ -87,7 +87,7 @@ def modulus_at(problem: Problem, wave_numbers: Array) -> Array:
     [1000000.0, 1330.0]
     """
     if problem.posed.graded is not None:
-        return np.asarray(2.0 / compliance(problem.posed.graded, wave_numbers * problem.units["radius"]))
+        return np.asarray(2.0 / compliance_of(problem.posed.graded, wave_numbers * problem.units["radius"]))
     solid: Any = problem.build(fscm).solid
     gamma = math.gamma((1.0 + solid.k) / 2.0) / math.gamma((1.0 - solid.k) / 2.0)
     at_surface = solid.E0 / (solid.response_factor * (1.0 - solid.nu**2)) * gamma

@@ -231,8 +231,10 @@ class Problem:
         """Whether the problem of three numbers n, k and mu, which every model takes, has the kinds of these sections.
 
         By default of all.  The solid of such a problem is E0 (z/c0)^k, or that of two bodies with one k, whose surface
-        has neither tension nor friction.
+        has neither tension nor friction; its law acts at the vertical gap.
         """
+        if "law" in (names or SECTIONS) and self.interaction == "body":
+            return False
         if "solid" in (names or SECTIONS) and not self._is_one_power_law:
             return False
         return all(KINDS[name][self._sections[name].kind].is_of_the_paper for name in names or SECTIONS)
@@ -262,6 +264,11 @@ class Problem:
             changed: dict[str, Any] = {section: replace(body, values=values)}
             problem = replace(problem, **changed)
         return problem
+
+    @property
+    def interaction(self) -> str:
+        """Where the surface force is taken: "derjaguin", unless the file states "body"."""
+        return str(self.law.get("interaction", "derjaguin"))
 
     @property
     def _is_one_power_law(self) -> bool:
@@ -310,7 +317,8 @@ class Problem:
         kinds = [f"a {_described(self.solid)}", f"a {self.punch.kind} punch", f"a {self.law.kind} law"]
         if self.punch_solid is not None:
             kinds[1] += f" of a {_described(self.punch_solid)}"
-        return f"{kinds[0]}, {kinds[1]} and {kinds[2]}"
+        of_body = " of the whole punch (interaction = body)" if self.interaction == "body" else ""
+        return f"{kinds[0]}, {kinds[1]} and {kinds[2]}{of_body}"
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -328,7 +336,8 @@ class Problem:
         """
         sections = self._sections.items()
         # The punch_solid stands last, as in both solvers.
-        return solver.Problem(*(KINDS[name][section.kind].build(solver, section) for name, section in sections))
+        parts = (KINDS[name][section.kind].build(solver, section) for name, section in sections)
+        return solver.Problem(*parts, interaction=self.interaction)
 
     @property
     def posed(self) -> fscm.Problem:

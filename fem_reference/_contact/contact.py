@@ -20,6 +20,7 @@ import numpy as np
 from fem_reference._contact.far_rule import far_rule
 from fem_reference._elastic.compliance import Compliance
 from fem_reference._typing import Array
+from fem_reference.interaction import Interaction
 from fem_reference.laws import SurfaceLaw
 from fem_reference.punch import Punch
 
@@ -36,17 +37,24 @@ class Contact:
 
     Attributes
     ----------
-    punch : Punch
-        f(r).
-    law : SurfaceLaw
-        p(H).
+    force : Interaction
+        p(r, H) of the punch.
     compliance : Compliance
         Of the solid, on its surface mesh.
     """
 
-    punch: Punch
-    law: SurfaceLaw
+    force: Interaction
     compliance: Compliance
+
+    @property
+    def punch(self) -> Punch:
+        """f(r)."""
+        return self.force.punch
+
+    @property
+    def law(self) -> SurfaceLaw:
+        """p(H) over a half-space."""
+        return self.force.law
 
     @property
     def unknowns(self) -> int:
@@ -58,18 +66,21 @@ class Contact:
         trace = self.compliance.trace
         return -y[-2] + self.punch.height(y[-1] * trace.s) + trace.phi @ y[:-2]
 
+    def pressure(self, y: Array) -> Array:
+        """p at the Gauss points."""
+        return self.force.traction(y[-1] * self.compliance.trace.s, self.gap(y))
+
     def residual(self, y: Array) -> Array:
         """Return w - factor X F, shape (m,)."""
         trace = self.compliance.trace
-        F = trace.phi.T @ (trace.weight * trace.s * self.law.traction(self.gap(y)))
+        F = trace.phi.T @ (trace.weight * trace.s * self.pressure(y))
         return y[:-2] - self.compliance.factor(y[-1]) * (self.compliance.matrix @ F)
 
     def tangent(self, y: Array) -> Array:
         """Return the derivative of the residual, shape (m, m + 2)."""
         trace, X, c = self.compliance.trace, self.compliance.matrix, float(y[-1])
-        H = self.gap(y)
-        load = trace.weight * trace.s * self.law.traction(H)
-        change = trace.weight * trace.s * self.law.slope(H)
+        load = trace.weight * trace.s * self.pressure(y)
+        change, drift = self._changes(y)
         rise = trace.s * self.punch.slope(c * trace.s)
         factor = self.compliance.factor(c)
         m = self.unknowns
@@ -77,43 +88,48 @@ class Contact:
         J = np.empty((m, m + 2), order="F")
         J[:, :m] = -factor * trace.mass_times(change, X).T
         J[np.arange(m), np.arange(m)] += 1.0
-        vectors = trace.phi.T @ np.stack([change, change * rise, load], axis=1)
+        vectors = trace.phi.T @ np.stack([change, change * rise + drift, load], axis=1)
         J[:, m] = factor * (X @ vectors[:, 0])
         J[:, m + 1] = -X @ (factor * vectors[:, 1] + self.compliance.factor_slope(c) * vectors[:, 2])
         return J
 
+    def _changes(self, y: Array) -> tuple[Array, Array]:
+        """Derivatives of p by the gap, and by the size at a fixed gap, times the weights s ds."""
+        trace = self.compliance.trace
+        by_radius, by_gap = self.force.slopes(y[-1] * trace.s, self.gap(y))
+        measure = trace.weight * trace.s
+        return measure * by_gap, measure * trace.s * by_radius
+
     def _tail(self, y: Array) -> tuple[Array, Array, Array]:
         """Radii, weights of dr, and gaps beyond the mesh."""
-        r, weight = far_rule(TAIL_POINTS, self.punch, self.law, self.compliance.trace.extent * float(y[-1]))
+        r, weight = far_rule(TAIL_POINTS, self.force, self.compliance.trace.extent * float(y[-1]))
         return r, weight, self.punch.height(r) - y[-2]
 
     def load(self, y: Array) -> float:
         """Total load P, compression positive (Eq. 11), with the load beyond the mesh."""
         trace = self.compliance.trace
-        inside = float(y[-1]) ** 2 * float(trace.weight * trace.s @ self.law.traction(self.gap(y)))
+        inside = float(y[-1]) ** 2 * float(trace.weight * trace.s @ self.pressure(y))
         r, w, H = self._tail(y)
-        return 2.0 * math.pi * (inside + float(w * r @ self.law.traction(H)))
+        return 2.0 * math.pi * (inside + float(w * r @ self.force.traction(r, H)))
 
     def load_beyond(self, y: Array) -> float:
         """Part of the load beyond the mesh."""
         r, w, H = self._tail(y)
-        return 2.0 * math.pi * float(w * r @ self.law.traction(H))
+        return 2.0 * math.pi * float(w * r @ self.force.traction(r, H))
 
     def load_gradient(self, y: Array) -> Array:
         """Return the derivative of the load with respect to y, shape (m + 2,)."""
         trace, c = self.compliance.trace, float(y[-1])
-        H = self.gap(y)
-        measure = trace.weight * trace.s
-        change = measure * self.law.slope(H)
+        change, drift = self._changes(y)
         r, w, far = self._tail(y)
         R = trace.extent * c
-        edge = float(self.law.traction(self.punch.height(np.array(R)) - y[-2]))
+        edge = float(self.force.traction(np.array(R), self.punch.height(np.array(R)) - y[-2]))
         g = np.empty(y.size)
         g[:-2] = c**2 * (change @ trace.phi)
-        g[-2] = -(c**2) * change.sum() - float(w * r @ self.law.slope(far))
+        g[-2] = -(c**2) * change.sum() - float(w * r @ self.force.slopes(r, far)[1])
         g[-1] = (
-            2.0 * c * float(measure @ self.law.traction(H))
-            + c**2 * float(change @ (trace.s * self.punch.slope(c * trace.s)))
+            2.0 * c * float(trace.weight * trace.s @ self.pressure(y))
+            + c**2 * float(change @ (trace.s * self.punch.slope(c * trace.s)) + drift.sum())
             - R * edge * trace.extent
         )
         return 2.0 * math.pi * g
@@ -121,10 +137,9 @@ class Contact:
     def energy(self, y: Array) -> float:
         """Elastic plus surface energy, relative to rigid faces at delta = 0; dE = P d(delta) on the path."""
         trace, c = self.compliance.trace, float(y[-1])
-        H = self.gap(y)
+        force, H, r = self.force, self.gap(y), c * trace.s
         w = trace.phi @ y[:-2]
-        shape = self.punch.height(c * trace.s)
-        density = 0.5 * self.law.traction(H) * w + self.law.energy(H) - self.law.energy(shape)
+        density = 0.5 * self.pressure(y) * w + force.energy(r, H) - force.energy(r, self.punch.height(r))
         r, weight, far = self._tail(y)
-        beyond = self.law.energy(far) - self.law.energy(self.punch.height(r))
+        beyond = force.energy(r, far) - force.energy(r, self.punch.height(r))
         return 2.0 * math.pi * (c**2 * float(trace.weight * trace.s @ density) + float(weight * r @ beyond))

@@ -82,37 +82,39 @@ class CentralGap:
 
 @dataclass(frozen=True, slots=True)
 class EdgeGap:
-    """The gap at the mesh node s = 1 is H1: the mesh follows the contact edge."""
+    """The gap at the mesh node s = 1 is H1, by default that of the largest tension: the mesh follows the edge."""
 
-    H1: float
+    H1: float | None = None
 
     def value(self, contact: Contact, y: Array) -> float:
         """Return H(s = 1) - H1."""
         edge = contact.compliance.trace.edge
-        return float(y[edge] - y[-2] + contact.punch.height(y[-1]) - self.H1)
+        H1 = contact.force.peak_gap(y[-1]) if self.H1 is None else self.H1
+        return float(y[edge] - y[-2] + contact.punch.height(y[-1]) - H1)
 
     def gradient(self, contact: Contact, y: Array) -> Array:
-        """Row of d H(1)."""
+        """Row of its change."""
         edge = contact.compliance.trace.edge
         row = _unit(y.size, edge) - _unit(y.size, -2)
         row[-1] = float(contact.punch.slope(y[-1]))
+        if self.H1 is None:
+            row[-1] -= float(contact.force.peak_slope(y[-1]))
         return row
 
 
 @dataclass(frozen=True, slots=True)
 class EdgeRadius:
-    """The gap at the radius `radius`, anywhere on the mesh, is H1: the edge moves over a fixed mesh."""
+    """The gap at the radius, anywhere on the mesh, is that of the largest tension: the edge moves over a fixed mesh."""
 
-    H1: float
     radius: float
 
     def _row(self, contact: Contact, y: Array) -> Array:
         return _functions_at(contact.compliance.trace, self.radius / float(y[-1]))
 
     def value(self, contact: Contact, y: Array) -> float:
-        """Return H(radius) - H1."""
-        height = float(contact.punch.height(np.array(self.radius)))
-        return float(self._row(contact, y) @ y[:-2]) - float(y[-2]) + height - self.H1
+        """Return H(radius) minus the gap of the largest tension there."""
+        height, at = float(contact.punch.height(np.array(self.radius))), np.array(self.radius)
+        return float(self._row(contact, y) @ y[:-2]) - float(y[-2]) + height - float(contact.force.peak_gap(at))
 
     def gradient(self, contact: Contact, y: Array) -> Array:
         """Row of d H(radius) on a mesh of fixed size."""
@@ -120,9 +122,9 @@ class EdgeRadius:
 
     def parameter_rate(self, contact: Contact, y: Array) -> float:
         """Change of the right-hand side per unit radius, -dH/dr (at a mesh line: that of its outer side)."""
-        slopes = contact.compliance.trace.slopes(np.array([self.radius / float(y[-1])]))[0]
+        slopes, at = contact.compliance.trace.slopes(np.array([self.radius / float(y[-1])]))[0], np.array(self.radius)
         rise = float(slopes @ y[:-2]) / float(y[-1])
-        return -rise - float(contact.punch.slope(np.array(self.radius)))
+        return -rise - float(contact.punch.slope(at)) + float(contact.force.peak_slope(at))
 
 
 @dataclass(frozen=True, slots=True)

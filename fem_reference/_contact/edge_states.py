@@ -231,7 +231,7 @@ class EdgeStates:
 
 def _state_from(nearest: Point, contact: Contact, radius: float) -> Point:
     """The state with the contact edge at a radius where a mesh is fine, from one on another mesh."""
-    branch = Branch(contact, Size(radius), lambda r: EdgeRadius(contact.law.peak_gap, r), touching=True)
+    branch = Branch(contact, Size(radius), EdgeRadius, touching=True)
     for start in (_shifted, _projected):
         with suppress(NotConverged):
             point = branch.solve(radius, start(nearest, contact, radius))

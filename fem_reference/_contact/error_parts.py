@@ -189,4 +189,4 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
 def _with_tail(contact: Contact, choice: MeshChoice) -> Contact:
     """The contact with the displacement beyond the mesh."""
     depth_exponent = choice.problem.solid.modulus.depth_exponent
-    return TailContact(contact.punch, contact.law, contact.compliance, depth_exponent)
+    return TailContact(contact.force, contact.compliance, depth_exponent)

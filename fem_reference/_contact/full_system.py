@@ -19,8 +19,7 @@ from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._linear.linear_solver import LinearResult, relative_residual
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._typing import Array
-from fem_reference.laws import SurfaceLaw
-from fem_reference.punch import Punch
+from fem_reference.interaction import Interaction
 
 __all__ = ["FullSystem"]
 
@@ -47,16 +46,14 @@ class _RectangleMapping(MappingIsoparametric):
 
 
 class FullSystem:
-    """Punch, surface law and the whole meshed half-space.
+    """Surface force of a punch and the whole meshed half-space.
 
     Parameters
     ----------
     half_space : HalfSpace
         On a mesh in units of the size c.
-    punch : Punch
-        Shape.
-    law : SurfaceLaw
-        Surface law.
+    force : Interaction
+        Surface force.
     preconditioner : ElasticPreconditioner, optional
         Of this half-space; built when absent.
     """
@@ -64,11 +61,10 @@ class FullSystem:
     def __init__(
         self,
         half_space: HalfSpace,
-        punch: Punch,
-        law: SurfaceLaw,
+        force: Interaction,
         preconditioner: ElasticPreconditioner | None = None,
     ) -> None:
-        self.half_space, self.punch, self.law = half_space, punch, law
+        self.half_space, self.force = half_space, force
         self.preconditioner = ElasticPreconditioner(half_space) if preconditioner is None else preconditioner
         dofs = half_space.dofs
         mesh = dofs.topo
@@ -82,7 +78,7 @@ class FullSystem:
 
     def gap(self, u: Array, delta: float, c: float) -> Array:
         """H at the facet Gauss points."""
-        return -delta + self.punch.height(c * self.s) + np.asarray(self.facets.interpolate(u[1::2]))
+        return -delta + self.force.punch.height(c * self.s) + np.asarray(self.facets.interpolate(u[1::2]))
 
     def vector(self, pressure: Array) -> Array:
         """Return the load vector of a pressure at the facet Gauss points, shape (2 N,)."""
@@ -96,16 +92,21 @@ class FullSystem:
         u[self.half_space.surface] = w
         return u
 
+    def pressure(self, u: Array, delta: float, c: float) -> Array:
+        """p at the facet Gauss points."""
+        return self.force.traction(c * self.s, self.gap(u, delta, c))
+
     def load_vector(self, y: Array) -> Array:
         """F at y = (w, delta, c), shape (2 N,)."""
-        return self.vector(self.law.traction(self.gap(self.on_surface(y[:-2]), y[-2], y[-1])))
+        return self.vector(self.pressure(self.on_surface(y[:-2]), y[-2], y[-1]))
 
     def load_vector_rate(self, y: Array, rate: Array) -> Array:
         """Derivative of F at y along `rate`, shape (2 N,)."""
-        slope = self.law.slope(self.gap(self.on_surface(y[:-2]), y[-2], y[-1]))
+        r = y[-1] * self.s
+        by_radius, by_gap = self.force.slopes(r, self.gap(self.on_surface(y[:-2]), y[-2], y[-1]))
         rise = np.asarray(self.facets.interpolate(self.on_surface(rate[:-2])[1::2]))
-        rise = rise - rate[-2] + rate[-1] * self.s * self.punch.slope(y[-1] * self.s)
-        return self.vector(slope * rise)
+        rise = rise - rate[-2] + rate[-1] * self.s * self.force.punch.slope(r)
+        return self.vector(by_gap * rise + rate[-1] * self.s * by_radius)
 
     def residuals(self, result: LinearResult, loads: Array, deltas: Array, sizes: Array, factors: Array) -> Array:
         """Residuals of whole nonlinear systems, one for each of the first loads of `result`, relative to those loads.
@@ -113,20 +114,20 @@ class FullSystem:
         The displacement leaves a residual of the load it was solved under, and makes another load.
         """
         columns = zip(result.solution.T, deltas, sizes, factors, strict=False)
-        made = [self.vector(self.law.traction(self.gap(factor * u, delta, c))) for u, delta, c, factor in columns]
+        made = [self.vector(self.pressure(factor * u, delta, c)) for u, delta, c, factor in columns]
         count = deltas.size
         left = np.stack(made, axis=1) - loads[:, :count] + result.remainder[:, :count]
         return relative_residual(self.half_space, left, result.norm[:count], self.preconditioner)
 
     def steepness(self, u: Array, delta: float, c: float) -> float:
         """Size of the slope of the traction relative to the traction, per length, in the norm of `residuals`."""
-        H = self.gap(u, delta, c)
-        loads = np.stack([self.vector(np.abs(self.law.slope(H))), self.vector(self.law.traction(H))], axis=1)
+        by_gap = self.force.slopes(c * self.s, self.gap(u, delta, c))[1]
+        loads = np.stack([self.vector(np.abs(by_gap)), self.vector(self.pressure(u, delta, c))], axis=1)
         slope, traction = (self.preconditioner.scale[:, None] * loads[self.half_space.free]).T
         left = self.preconditioner(np.stack([slope, traction], axis=1)).T
         return math.sqrt(abs(float(slope @ left[0])) / abs(float(traction @ left[1])))
 
     def load(self, u: Array, delta: float, c: float) -> float:
         """P on the mesh (compression positive)."""
-        p = self.law.traction(self.gap(u, delta, c))
+        p = self.pressure(u, delta, c)
         return 2.0 * math.pi * c**2 * float(np.sum(p * self.s * self.facets.dx))

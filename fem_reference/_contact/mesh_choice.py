@@ -55,10 +55,11 @@ class MeshChoice:
 
     def contact(self, spec: MeshSpec, size: float) -> Contact:
         """Discretise the problem on a mesh with its edge at the radius `size`."""
-        solid, punch, law = self.problem.solid, self.problem.punch, self.problem.law
+        solid = self.problem.solid
         # The whole system is solved on meshes of the accuracy itself, not on those that differ in one thing.
         whole = spec.order == self.level.order and not isinstance(spec, VariantSpec)
-        return Contact(punch, law, compliance_for(solid.modulus, solid.poisson, spec, size, self.scaling, whole))
+        compliance = compliance_for(solid.modulus, solid.poisson, spec, size, self.scaling, whole)
+        return Contact(self.problem.force, compliance)
 
     def lower_contact(self, spec: MeshSpec, size: float) -> Contact:
         """Discretise the problem with the degree below.

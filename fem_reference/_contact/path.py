@@ -235,9 +235,8 @@ def _farthest(branch: Branch, size: float) -> Point:
 def contact_branch(separate: Point, largest: float) -> Iterator[Point]:
     """Trace the branch of the contact edge from the last point before contact out to the radius `largest`."""
     contact = separate.branch.contact
-    peak = contact.law.peak_gap
     if not isinstance(contact.compliance, FixedCompliance):
-        point = Branch(contact, EdgeGap(peak), Size, touching=True).solve(separate.state.size, separate.state.y)
+        point = Branch(contact, EdgeGap(), Size, touching=True).solve(separate.state.size, separate.state.y)
         yield point
         yield from continuation(point, 0.05 * point.parameter, largest)
         return
@@ -247,7 +246,7 @@ def contact_branch(separate: Point, largest: float) -> Iterator[Point]:
     # The path is smooth, but its derivatives with respect to the radius of the edge jump at a kink.
     kinks = [r for r in kinks_of(contact.punch) if radius * (1.0 + 2.0 * BESIDE) < r < largest]
     for end in (*kinks, math.inf):
-        branch = Branch(contact, Size(size), lambda radius: EdgeRadius(peak, radius), touching=True)
+        branch = Branch(contact, Size(size), EdgeRadius, touching=True)
         point = branch.solve(radius, y)
         yield point
         for following in continuation(point, 0.05 * point.parameter, min(largest, end * (1.0 - BESIDE))):
@@ -265,8 +264,8 @@ def first_edge_radius(point: Point) -> float:
         If the central gap is above it, or the edge is inside the innermost Gauss point.
     """
     contact, y = point.branch.contact, point.state.y
-    trace, peak = contact.compliance.trace, contact.law.peak_gap
-    above = np.flatnonzero(contact.gap(y) > peak)
+    trace, force = contact.compliance.trace, contact.force
+    above = np.flatnonzero(contact.gap(y) > force.peak_gap(y[-1] * trace.s))
     if above.size == 0 or above[0] == 0:
         raise NotConverged(
             "contact begins on a spot smaller than the mesh resolves: take a stiffer surface or less adhesion"
@@ -274,7 +273,8 @@ def first_edge_radius(point: Point) -> float:
 
     def excess(s: float) -> float:
         w = float(trace.evaluate(np.array([s]))[0] @ y[:-2])
-        return -float(y[-2]) + float(contact.punch.height(np.array(y[-1] * s))) + w - peak
+        r = np.array(y[-1] * s)
+        return -float(y[-2]) + float(contact.punch.height(r)) + w - float(force.peak_gap(r))
 
     return float(y[-1]) * float(brentq(excess, trace.s[above[0] - 1], trace.s[above[0]], xtol=1e-14))
 
@@ -287,9 +287,10 @@ def edge_width(point: Point) -> float:
     at the edge, because the mesh is too coarse, the width is negative.
     """
     contact, y = point.branch.contact, point.state.y
-    radius, length, peak = point.edge_radius, contact.law.z0, contact.law.peak_gap
-    slope = -EdgeRadius(peak, radius).parameter_rate(contact, y)
+    radius, length = point.edge_radius, contact.law.z0
+    slope = -EdgeRadius(radius).parameter_rate(contact, y)
     s, gap = contact.compliance.trace.s, contact.gap(y)
+    peak = contact.force.peak_gap(y[-1] * s)
     at_edge = (gap > peak) & (gap < peak + length) & (y[-1] * s < 2.0 * radius)
     pairs = at_edge[:-1] & at_edge[1:]
     steepest = float(np.max(np.diff(gap)[pairs] / np.diff(s)[pairs], initial=0.0)) / float(y[-1])

@@ -45,7 +45,7 @@ class TailContact(Contact):
     def _tail(self, y: Array) -> tuple[Array, Array, Array]:
         """Radii, weights of dr, and gaps beyond the mesh."""
         R = self.compliance.trace.extent * float(y[-1])
-        r, weight = far_rule(POINTS, self.punch, self.law, R, least=LEAST_POWER)
+        r, weight = far_rule(POINTS, self.force, R, least=LEAST_POWER)
         rise = y[self._last] * (R / r) ** (1.0 + self.depth_exponent)
         return r, weight, self.punch.height(r) - y[-2] + rise
 
@@ -57,7 +57,7 @@ class TailContact(Contact):
         G = self.compliance.factor(c) * float(self.compliance.matrix[self._last, trace.edge]) / (2.0 * math.pi * c**2)
         r, weight, H = self._tail(y)
         decay = (trace.extent * c / r) ** (1.0 + self.depth_exponent)
-        return 2.0 * math.pi * G * float((weight * r * decay) @ self.law.traction(H))
+        return 2.0 * math.pi * G * float((weight * r * decay) @ self.force.traction(r, H))
 
     def residual(self, y: Array) -> Array:
         """Return w - factor X F minus the displacement under the traction beyond the mesh, shape (m,)."""
@@ -71,9 +71,10 @@ class TailContact(Contact):
         trace, c, power = self.compliance.trace, float(y[-1]), 1.0 + self.depth_exponent
         R, end = trace.extent * c, float(y[self._last])
         r, weight, H = self._tail(y)
-        change = float((weight * r * (R / r) ** power) @ self.law.slope(H))
+        change = float((weight * r * (R / r) ** power) @ self.force.slopes(r, H)[1])
         edge = float(self.punch.height(np.array(R)) - y[-2])
-        dropped = float(self.law.traction(np.array(edge + end)) - self.law.traction(np.array(edge)))
+        at_end = np.array(R)
+        dropped = float(self.force.traction(at_end, np.array(edge + end)) - self.force.traction(at_end, np.array(edge)))
         g[self._last] += 2.0 * math.pi * change
         g[-1] += 2.0 * math.pi * (change * end * power / c - R * trace.extent * dropped)
         return g
@@ -82,5 +83,5 @@ class TailContact(Contact):
         """Elastic plus surface energy, with the elastic energy of the displacement beyond the mesh."""
         r, weight, H = self._tail(y)
         w = H - self.punch.height(r) + y[-2]
-        beyond = 0.5 * float((weight * r * w) @ self.law.traction(H))
+        beyond = 0.5 * float((weight * r * w) @ self.force.traction(r, H))
         return Contact.energy(self, y) + 2.0 * math.pi * beyond

@@ -378,11 +378,11 @@ def uncondensed_events(choice: MeshChoice, spec: MeshSpec, size: float) -> Uncon
     NotConverged
         If the path cannot be traced.
     """
-    solid, punch, law = choice.problem.solid, choice.problem.punch, choice.problem.law
+    solid, force = choice.problem.solid, choice.problem.force
 
     def system() -> FullSystem:
         half_space, preconditioner = _preconditioned(*_unit(solid, size), spec)
-        return FullSystem(half_space, punch, law, preconditioner)
+        return FullSystem(half_space, force, preconditioner)
 
     path = choice.traced(spec, size)
     return UncondensedEvents(path, choice.lower_contact(spec, size), system)

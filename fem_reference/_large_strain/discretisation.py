@@ -73,9 +73,10 @@ def linear_problem(problem: Problem, friction: Friction = "frictionless") -> Pro
     """Return a problem with a path of small strain near that of an incompressible or a bonded solid.
 
     The response of the surface of a homogeneous solid depends on E/(1 - nu^2) only; where its points keep their radii
-    it is (3 - 4 nu)/(4 (1 - nu)^2) times as large (that of a force in the infinite solid, twice).
+    it is (3 - 4 nu)/(4 (1 - nu)^2) times as large (that of a force in the infinite solid, twice).  The first states of
+    finite strain begin from vertical gaps.
     """
-    solid = problem.solid
+    problem, solid = problem.under("derjaguin"), problem.solid
     modulus, nu = solid.modulus, solid.poisson
     if isinstance(nu, PoissonRatio) or not isinstance(modulus, PowerLawModulus | OffsetPowerLawModulus):
         return problem

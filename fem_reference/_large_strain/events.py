@@ -80,7 +80,9 @@ class Family:
         """Radius of the edge of the mesh, and the control."""
         law, point = self.discretisation.problem.law, self.event.point
         if point.branch.touching:
-            return self.event.radius * math.exp(x), lambda block: Control(block.trace.edge, law.peak_gap)
+            radius = self.event.radius * math.exp(x)
+            gap = float(self.discretisation.interaction.peak_gap(np.array(radius)))
+            return radius, lambda block: Control(block.trace.edge, gap)
         return self.event.radius, lambda block: Control(0, point.parameter + x * law.z0)
 
     def _continued(self, x: float) -> State:

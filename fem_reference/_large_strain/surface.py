@@ -1,8 +1,8 @@
 """Surface force on the deformed surface: residual, tangent, load and energy.
 
-The pressure p(rho, h) of an `Interaction` acts at the current radius rho = r + u_r and the height h = u_z - delta below
-the apex of the punch.  The energy is the integral of p over the solid, that is of e(rho, h) 2 pi rho d rho over the
-surface with de/dh = -p.  Its variation per radian is
+The pressure p(rho, H) of an `Interaction` acts at the current radius rho = r + u_r and the vertical gap
+H = f(rho) + u_z - delta.  The energy is the integral of p over the solid, that is of e(rho, H) 2 pi rho d rho over the
+surface with de/dH = -p.  Its variation per radian is
 
     integral of p [rho u_z' du_r - rho rho' du_z] dr,
 
@@ -36,15 +36,13 @@ class Faces:
 
     Attributes
     ----------
-    rho, stretch, tilt, height, gap : ndarray, shape (q,)
-        Current radius, its derivative, derivative of u_z, height of the apex of the punch above the point, and vertical
-        gap H.
+    rho, stretch, tilt, gap : ndarray, shape (q,)
+        Current radius, its derivative, derivative of u_z, and vertical gap H.
     """
 
     rho: Array
     stretch: Array
     tilt: Array
-    height: Array
     gap: Array
 
 
@@ -86,20 +84,21 @@ class Surface:
         height = (trace.local @ dropped).ravel() - delta
         # A trial step may lead beyond the axis.
         shape = self.punch.height(self.size * np.maximum(rho, 0.0)) / self.size
-        return Faces(rho, stretch, tilt, height, shape + height)
+        return Faces(rho, stretch, tilt, shape + height)
 
     def pressure(self, faces: Faces) -> Array:
         """p at the Gauss points, in units of the modulus."""
-        return self._traction(faces.rho, faces.height)
+        return self._traction(faces.rho, faces.gap)
 
-    def _traction(self, rho: Array, height: Array) -> Array:
-        return self.interaction.traction(self.size * np.maximum(rho, 0.0), self.size * height) / self.modulus
+    def _traction(self, rho: Array, gap: Array) -> Array:
+        return self.interaction.traction(self.size * np.maximum(rho, 0.0), self.size * gap) / self.modulus
 
     def pressure_slopes(self, faces: Faces) -> tuple[Array, Array]:
         """Derivatives of p at the Gauss points by the radius and by the height."""
-        rho, height = self.size * np.maximum(faces.rho, 0.0), self.size * faces.height
-        by_radius, by_height = self.interaction.slopes(rho, height)
-        return by_radius * self.size / self.modulus, by_height * self.size / self.modulus
+        rho = self.size * np.maximum(faces.rho, 0.0)
+        by_radius, by_gap = self.interaction.slopes(rho, self.size * faces.gap)
+        unit = self.size / self.modulus
+        return (by_radius + by_gap * self.punch.slope(rho)) * unit, by_gap * unit
 
     def residual(self, faces: Faces) -> tuple[Array, Array]:
         """Return the derivatives of the energy of the faces by both components, shape (e, p + 1)."""
@@ -134,9 +133,9 @@ class Surface:
         return K, by_delta
 
     def _beyond(self, end: float, delta: float) -> tuple[Array, Array, Array]:
-        """Current radii, weights of d rho, and heights beyond the mesh, where u_z is left out."""
-        r, weight = far_rule(TAIL_POINTS, self.punch, self.law, end, self.size)
-        return r, weight, np.full_like(r, -delta)
+        """Current radii, weights of d rho, and gaps beyond the mesh, where u_z is left out."""
+        r, weight = far_rule(TAIL_POINTS, self.interaction, end, self.size)
+        return r, weight, self.punch.height(self.size * r) / self.size - delta
 
     def load(self, faces: Faces, end: float, delta: float) -> float:
         """Load P in units of the input, compression positive.
@@ -149,16 +148,16 @@ class Surface:
         delta : float
         """
         inside = float((self.trace.weight * self.pressure(faces) * faces.rho) @ faces.stretch)
-        r, w, height = self._beyond(end, delta)
-        beyond = float(w * r @ self._traction(r, height))
+        r, w, gap = self._beyond(end, delta)
+        beyond = float(w * r @ self._traction(r, gap))
         return 2.0 * math.pi * self.size**2 * self.modulus * (inside + beyond)
 
     def energy(self, faces: Faces, end: float, delta: float) -> float:
         """Energy of the faces in units of the input."""
-        density = self.trace.weight * self.interaction.energy(self.size * faces.rho, self.size * faces.height)
+        density = self.trace.weight * self.interaction.energy(self.size * faces.rho, self.size * faces.gap)
         inside = float((density * faces.rho) @ faces.stretch)
-        r, w, height = self._beyond(end, delta)
-        beyond = float(w * r @ self.interaction.energy(self.size * r, self.size * height))
+        r, w, gap = self._beyond(end, delta)
+        beyond = float(w * r @ self.interaction.energy(self.size * r, self.size * gap))
         return 2.0 * math.pi * self.size**2 * (inside + beyond)
 
 

@@ -133,6 +133,11 @@ class StieltjesScheme:
         inf = math.inf
         if problem.k >= 1.0:
             raise ValueError("gradient exponent k = 1 is the Gibson solid, whose model is fscm.gibson")
+        if problem.interaction != "derjaguin":
+            raise ValueError(
+                f"interaction {problem.interaction!r} is not that of the scheme of the paper, whose traction depends "
+                "on the gap alone; take 'derjaguin'"
+            )
         if isinstance(segments, bool) or not isinstance(segments, int) or segments < 10:
             raise ValueError(f"segments = {segments!r} is not an integer >= 10: the contact needs some points")
         reason = "the path leads from a wide gap, through contact, above the singularity of the law"

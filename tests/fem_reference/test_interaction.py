@@ -42,9 +42,10 @@ def test_the_potential_is_that_of_all_atoms_of_the_ball(law, R):
         s = R + distance
         exact = sum(strength * integrated(R, m, s) for strength, m in law.powers)
         scale = sum(abs(strength) * integrated(R, m, s) for strength, m in law.powers)
-        h = np.array(distance - law.z0)  # on the axis
-        assert float(body.traction(np.array(0.0), h)) == pytest.approx(exact, abs=1e-12 * scale)
-        tilted = body.traction(np.array(0.6 * s), np.array(0.8 * s - R - law.z0))
+        gap = np.array(distance - law.z0)  # on the axis
+        assert float(body.traction(np.array(0.0), gap)) == pytest.approx(exact, abs=1e-12 * scale)
+        rho = np.array(0.6 * s)
+        tilted = body.traction(rho, 0.8 * s - R - law.z0 + Ball(R).height(rho))
         assert float(tilted) == pytest.approx(exact, abs=1e-11 * scale)
 
 
@@ -55,7 +56,7 @@ def test_over_a_plane_the_load_is_that_of_vertical_gaps_to_the_far_pole(law, R, 
     body = Body(Ball(R), law)
     log_rho, weight = composite(np.log(math.sqrt(R)) + np.linspace(-18.0, 40.0, 90))
     rho = np.exp(log_rho)
-    of_body = 2.0 * math.pi * float((weight * rho**2) @ body.traction(rho, np.full_like(rho, h)))
+    of_body = 2.0 * math.pi * float((weight * rho**2) @ body.traction(rho, h + Ball(R).height(rho)))
     D, weight = composite(np.geomspace(1.0 + h, 1.0 + h + 2.0 * R, 60))
     of_gaps = 2.0 * math.pi * float((weight * (R - (D - 1.0 - h))) @ law.traction(D - 1.0))
     assert of_body == pytest.approx(of_gaps, rel=1e-12)
@@ -67,15 +68,15 @@ def test_over_a_plane_the_load_is_that_of_vertical_gaps_to_the_far_pole(law, R, 
 @pytest.mark.parametrize("name", ["body", "derjaguin"])
 def test_slopes_and_energy_belong_to_the_traction(law, name):
     interaction = interaction_of(Ball(20.0), law, name)
-    rho, h = np.array([0.3, 5.0, 12.0]), np.array([0.2, -0.1, 30.0])
+    rho, gap = np.array([0.3, 5.0, 12.0]), np.array([0.2, -0.1, 30.0])
     step = 2e-5
-    by_radius, by_height = interaction.slopes(rho, h)
-    beside = [interaction.traction(rho + sign * step, h) for sign in (1, -1)]
+    by_radius, by_gap = interaction.slopes(rho, gap)
+    beside = [interaction.traction(rho + sign * step, gap) for sign in (1, -1)]
     assert by_radius == pytest.approx((beside[0] - beside[1]) / (2 * step), rel=1e-5)
-    beside = [interaction.traction(rho, h + sign * step) for sign in (1, -1)]
-    assert by_height == pytest.approx((beside[0] - beside[1]) / (2 * step), rel=1e-5)
-    energies = [interaction.energy(rho, h + sign * step) for sign in (1, -1)]
-    assert (energies[1] - energies[0]) / (2 * step) == pytest.approx(interaction.traction(rho, h), rel=1e-5)
+    beside = [interaction.traction(rho, gap + sign * step) for sign in (1, -1)]
+    assert by_gap == pytest.approx((beside[0] - beside[1]) / (2 * step), rel=1e-5)
+    energies = [interaction.energy(rho, gap + sign * step) for sign in (1, -1)]
+    assert (energies[1] - energies[0]) / (2 * step) == pytest.approx(interaction.traction(rho, gap), rel=1e-5)
 
 
 def test_a_large_ball_acts_as_its_law_over_a_plane():

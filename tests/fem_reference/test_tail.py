@@ -13,6 +13,7 @@ from fem_reference._contact.far_rule import far_rule
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.tail import TailContact
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference.interaction import Derjaguin
 from tests.fem_reference.solved_together import problem_with
 
 #: Of the two quadratures, relative; measured 3e-11.
@@ -29,7 +30,7 @@ def _contacts(k):
     problem = problem_with(k, 1.0)
     choice, _, size = chosen(problem, ("pull_off",), "quick")
     plain = choice.contact(SPEC, size)
-    tail = TailContact(plain.punch, plain.law, plain.compliance, k)
+    tail = TailContact(plain.force, plain.compliance, k)
     y = np.concatenate([np.full(plain.unknowns, AT_EDGE), [DISPLACEMENT, SIZE]])
     return problem, plain, tail, y
 
@@ -69,7 +70,7 @@ def test_the_gradient_of_the_load_is_its_derivative(law):
     _, plain, tail, y = _contacts(0.3)
     h = 1e-6
     for contact in (plain, tail):
-        contact = replace(contact, law=law or contact.law)
+        contact = replace(contact, force=Derjaguin(contact.punch, law or contact.law))
         for index in (0, int(tail.compliance.trace.nodes.size) - 1, -2, -1):
             step = np.zeros(y.size)
             step[index] = h
@@ -81,7 +82,7 @@ def test_the_gradient_of_the_load_is_its_derivative(law):
 def test_the_load_beyond_a_distant_end_is_that_of_a_power(growth, n):
     """R^2 p(R)/(m g - 2), up to the height of the end; m g - 2 from 0.002 to 38."""
     punch, law, R = PowerPunch(growth, 1.0), Mie(1.0, 1.0, m=20.0, n=n), 1e13 ** (1.0 / growth)
-    r, weight = far_rule(24, punch, law, R)
+    r, weight = far_rule(24, Derjaguin(punch, law), R)
     load = float((weight * r) @ law.traction(punch.height(r)))
     assert load == pytest.approx(R**2 * float(law.traction(punch.height(R))) / (n * growth - 2.0), rel=1e-11)
 

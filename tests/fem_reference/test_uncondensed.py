@@ -19,6 +19,7 @@ from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._linear.linear_solver import solve_cg
+from fem_reference.interaction import Derjaguin
 from fem_reference.laws import LennardJones
 from fem_reference.modulus import PowerLawModulus
 from fem_reference.problem import Problem
@@ -51,13 +52,13 @@ def _soft_contact(spoiled=0.0, spec=SPEC):
     """A solid with jumps on the small mesh; its compliance is too large by a share."""
     compliance = compliance_for(SOFT, NU, spec, 1.0)
     compliance = replace(compliance, matrix=(1.0 + spoiled) * compliance.matrix)
-    return Contact(PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9), compliance)
+    return Contact(Derjaguin(PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9)), compliance)
 
 
 @pytest.fixture(scope="module")
 def soft_system():
     half_space = assemble_half_space(SPEC.grid(), PowerLawModulus(1.0, 1.0, SOFT.k), NU, SPEC.order)
-    return FullSystem(half_space, PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9))
+    return FullSystem(half_space, Derjaguin(PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9)))
 
 
 @pytest.fixture(scope="module")
@@ -248,7 +249,7 @@ def test_facet_forms_on_elements_thinner_than_rounding_resolves():
     """At an edge of a millionth of its radius the reference coordinates are good to 1e-10 of an element."""
     grid = replace(SPEC, edge_width=1e-6, density=1.4).grid()
     half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, 0.4), NU, 4)
-    system = FullSystem(half_space, PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9), preconditioner=object())
+    system = FullSystem(half_space, Derjaguin(PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9)), preconditioner=object())
     assert system.facets.dx.sum() == pytest.approx(SPEC.extent, rel=1e-12)
     assert system.s.min() > 0.0
     nodes = grid.r[:-1, None]

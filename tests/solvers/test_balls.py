@@ -98,3 +98,49 @@ def test_a_contact_near_the_limit_has_the_force_of_jkr(mu):
     # Measured: 1.6e-6 and 2e-7 from JKR of the exact sphere.
     assert solution.value / softness == pytest.approx(exact, rel=5e-6)
     assert solution.u_num < 1e-9 * solution.value
+
+
+#: Solids on which the force of the whole ball is computed by both: w/(E* R), mu, law and gradient exponent.
+BODIES = [
+    (1e-3, 0.5, ("LennardJones",), 0.0),
+    (5e-3, 2.0, ("LennardJones",), 0.0),
+    (5e-3, 1.0, ("Mie", 12.0, 6.0), 0.0),
+    (1e-3, 1.0, ("Mie", 9.0, 2.5), 0.0),
+    (1e-3, 2.0, ("LennardJones",), 0.3),
+]
+
+
+def body_of(package, softness, mu, law, k):
+    """The problem of `ball` with the potential of the whole ball, under a law of that kind and exponents."""
+    name, *exponents = law
+    vertical = ball(package, softness, mu, k)
+    of_kind = getattr(package, name)(softness, vertical.law.z0, *exponents)
+    return package.Problem(vertical.solid, vertical.punch, of_kind, interaction="body")
+
+
+@pytest.mark.parametrize(("softness", "mu", "law", "k"), [BODIES[0], *heavy(*BODIES[1:])])
+def test_the_force_of_the_whole_ball_by_both(softness, mu, law, k):
+    quantities = ("pull_off_force", "pull_off_displacement", "zero_load_displacement")
+    pairs = agreeing(lambda package: body_of(package, softness, mu, law, k), quantities)
+    integral, elements = pairs["pull_off_force"]
+    assert integral.u_num < 1e-10 * integral.value
+    assert elements.u_num < LARGEST_BOUND * elements.value
+    vertical = fscm.solve(body_of(fscm, softness, mu, law, k), "pull_off_force", interaction="derjaguin")
+    assert integral.value > vertical.value + elements.u_num  # the true area is larger than the projected one
+
+
+@pytest.mark.heavy
+def test_the_jumps_of_the_whole_ball_by_both():
+    quantities = ("jump_in_displacement", "jump_out_displacement", "hysteresis_energy")
+    agreeing(lambda package: body_of(package, 1e-3, 2.0, ("LennardJones",), 0.0), quantities)
+
+
+def test_the_name_of_the_interaction_is_an_argument_and_a_part_of_the_problem():
+    problem = body_of(fem_reference, *BODIES[0])
+    vertical = problem.under("derjaguin")
+    stated, of_gaps = (fem_reference.solve(posed, "pull_off_force", "quick").value for posed in (problem, vertical))
+    named = fem_reference.solve(vertical, "pull_off_force", "quick", interaction="body").value
+    assert stated == named != of_gaps
+    for package in (fscm, fem_reference):
+        refused("PowerPunch", package.solve, ball(package, 1e-3, 1.0, shape=""), "pull_off_force", interaction="body")
+        refused("unknown", package.trace, ball(package, 1e-3, 1.0), interaction="vertical")

@@ -19,6 +19,7 @@ from comparisons.problem.reading import load_problem
 from comparisons.problem.variation import problems_of
 from comparisons.quantities import QUANTITIES
 from comparisons.runs.tasks import evaluate
+from tests.refusals import refused
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
 
@@ -227,3 +228,38 @@ def test_a_noisy_profile_is_smooth():
     assert np.max(np.abs(punch.slope(inside) - inside)) < 0.1
     assert math.isclose(float(punch.height(np.array([20.0]))[0]), 4 * float(punch.height(np.array([10.0]))[0]))
     assert hash(punch) == hash(SmoothedProfile(tuple(r), tuple(heights), smoothing=noise))
+
+
+#: A soft ball whose surface force is that of all of its atoms.
+BALL = {"solid": "homogeneous", "punch": "ball", "law": "lennard-jones-9-3"}
+OF_BODY = 'z0 = "0.4 nm"', 'z0 = "0.4 nm"\ninteraction = "body"'
+
+
+def test_the_key_interaction_reaches_both_solvers_and_no_closed_form_of_vertical_gaps(written):
+    problem = written(*OF_BODY, **BALL)
+    assert problem.posed.interaction == problem.build(fem_reference).interaction == "body"
+    assert not problem.is_of_the_paper("law")
+    vertical = problem.without("law.interaction")
+    assert vertical.posed.interaction == vertical.build(fem_reference).interaction == "derjaguin"
+    assert problem.digest != vertical.digest
+    forces = [evaluate("fscm", "pull_off_force", posed).value for posed in (problem, vertical)]
+    assert 1.0001 < forces[0] / forces[1] < 1.02
+    assert evaluate("jkr-sphere-projected", "pull_off_force", vertical).value is not None
+    refusal = evaluate("jkr-sphere-projected", "pull_off_force", problem)
+    assert (refusal.status, "jkr-sphere" in refusal.reason) == ("not-applicable", True)
+    assert evaluate("jkr-sphere", "pull_off_force", problem).value is not None
+
+
+@pytest.mark.parametrize(
+    ("changed", "kinds", "words"),
+    [
+        ({}, {"punch": "sphere"}, "PowerPunch"),
+        ({}, {"punch": "table"}, "MeasuredPunch"),
+        ({"body": "bodies"}, {}, "derjaguin, body"),
+    ],
+)
+def test_an_interaction_that_is_not_known_is_refused(written, changed, kinds, words):
+    old, new = OF_BODY
+    for name, other in changed.items():
+        new = new.replace(name, other)
+    refused(words, written, old, new, **(BALL | kinds))
