@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fem_reference._validation import check_tension
 from fem_reference.laws import SurfaceLaw
 from fem_reference.punch import CustomPunch, Punch, radius_at_height
 from fem_reference.solids import Solid
@@ -25,7 +26,7 @@ LOAD_INTEGRAL = 2.0
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """Adhesive contact of a rigid punch with a graded half-space.
+    """Adhesive contact of a punch, rigid or elastic, with a graded half-space.
 
     Parameters
     ----------
@@ -35,6 +36,9 @@ class Problem:
         Shape f(r).
     law : SurfaceLaw
         Traction p(H).
+    punch_solid : Solid, optional
+        Of an elastic punch: its surface moves like that of a half-space, and the displacements of both bodies add.
+        Rigid by default.
 
     Raises
     ------
@@ -52,10 +56,16 @@ class Problem:
     solid: Solid
     punch: Punch
     law: SurfaceLaw
+    punch_solid: Solid | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.solid, Solid):
             raise ValueError(f"solid = {self.solid!r} is not a solid: it needs modulus and poisson")
+        if self.punch_solid is not None and not isinstance(self.punch_solid, Solid):
+            raise ValueError(
+                f"punch_solid = {self.punch_solid!r} is not a solid, which needs modulus and poisson; leave it out for "
+                "a rigid punch"
+            )
         if not isinstance(self.punch, Punch):
             raise ValueError(f"punch = {self.punch!r} is not a punch shape: it needs height(r) and slope(r)")
         if not isinstance(self.law, SurfaceLaw):
@@ -63,8 +73,10 @@ class Problem:
                 f"law = {self.law!r} is not a surface law: it needs traction, slope and energy of the gap, and "
                 "work_of_adhesion, z0, peak_gap, singular_gap and decay"
             )
+        for solid in self.solids:
+            check_tension(getattr(solid, "surface_tension", 0.0))
         try:
-            hash((self.solid, self.punch, self.law))
+            hash((self.solid, self.punch, self.law, self.punch_solid))
         except TypeError as error:
             raise ValueError(f"the problem is not hashable ({error}); make its parts frozen dataclasses") from error
         C, m = self.law.decay
@@ -80,3 +92,8 @@ class Problem:
                 f"growth f ~ r^{growth:.9g} of the punch is outside ({LOAD_INTEGRAL:g}/{m:g}, inf): with "
                 f"p ~ H^-{m:g} far away, the load integral of p r dr diverges"
             )
+
+    @property
+    def solids(self) -> tuple[Solid, ...]:
+        """The solid, and that of an elastic punch."""
+        return (self.solid,) if self.punch_solid is None else (self.solid, self.punch_solid)

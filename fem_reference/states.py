@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference._contact.events import EVENTS
+from fem_reference._contact.friction import FrictionName, with_friction
 from fem_reference._contact.mesh_choice import MeshChoice, chosen, whole_path
 from fem_reference._contact.path import Point
 from fem_reference._contact.turning import turning_slowly
@@ -56,7 +57,8 @@ class RadialField(Columns):
     radius : ndarray
         Radii.
     gap, pressure, deformation : ndarray
-        Gap, pressure (compression positive) and displacement of the solid at those radii.
+        Gap, pressure (compression positive) and displacement of the solid at those radii; of two elastic bodies their
+        displacements together.
     displacement, load : float
         Approach delta and load P (tension negative) of the point.
     """
@@ -71,14 +73,19 @@ class RadialField(Columns):
     load: float
 
 
-def trace(problem: Problem, accuracy: float | str = "default", largest_turn: float | None = None) -> EquilibriumPath:
+def trace(
+    problem: Problem,
+    accuracy: float | str = "default",
+    largest_turn: float | None = None,
+    friction: FrictionName = "none",
+) -> EquilibriumPath:
     """Trace the equilibrium path from far away until the load is compressive.
 
     In contact with a solid that is not a power law, each radius of the contact edge has a mesh of its own.
 
     Parameters
     ----------
-    problem, accuracy
+    problem, accuracy, friction
         As for `fem_reference.solve`.
     largest_turn : float, optional
         Angle in degrees, in (0, 180]: points are inserted until the plotted curve of load over displacement turns by
@@ -92,7 +99,7 @@ def trace(problem: Problem, accuracy: float | str = "default", largest_turn: flo
     Raises
     ------
     ValueError
-        For an unknown accuracy, or an angle outside its range.
+        For an unknown accuracy or friction, or an angle outside its range.
     NotConverged
         If the path cannot be followed.
 
@@ -107,7 +114,7 @@ def trace(problem: Problem, accuracy: float | str = "default", largest_turn: flo
     if largest_turn is not None and not 0.0 < largest_turn <= 180.0:
         raise ValueError(f"largest_turn = {largest_turn} is outside (0, 180]: it is an angle in degrees")
     with one_thread:
-        path = whole_path(problem, accuracy)
+        path = whole_path(with_friction(problem, friction), accuracy)
         points = path.points if largest_turn is None else turning_slowly(path, largest_turn)
         return EquilibriumPath(
             np.array([p.state.displacement for p in points]),
@@ -117,12 +124,14 @@ def trace(problem: Problem, accuracy: float | str = "default", largest_turn: flo
         )
 
 
-def event_state(problem: Problem, event: str = "pull_off", accuracy: float | str = "default") -> tuple[MeshSpec, Point]:
+def event_state(
+    problem: Problem, event: str = "pull_off", accuracy: float | str = "default", friction: FrictionName = "none"
+) -> tuple[MeshSpec, Point]:
     """Return the equilibrium at an event, with the mesh.
 
     Parameters
     ----------
-    problem, accuracy
+    problem, accuracy, friction
         As for `fem_reference.solve`.
     event : str
         One of `EVENTS`.
@@ -154,18 +163,22 @@ def event_state(problem: Problem, event: str = "pull_off", accuracy: float | str
     if event not in EVENTS:
         raise ValueError(f"event {event!r} is unknown; choose one of {', '.join(EVENTS)}")
     with one_thread:
-        choice, spec, size = chosen(problem, (event,), accuracy, _traced)
+        choice, spec, size = chosen(with_friction(problem, friction), (event,), accuracy, _traced)
         return spec, uncondensed_events(choice, spec, size).at(event)
 
 
 def profile(
-    problem: Problem, event: str = "pull_off", accuracy: float | str = "default", radii: Array | None = None
+    problem: Problem,
+    event: str = "pull_off",
+    accuracy: float | str = "default",
+    radii: Array | None = None,
+    friction: FrictionName = "none",
 ) -> RadialField:
     """Return gap, pressure and deformation of the surface at an event.
 
     Parameters
     ----------
-    problem, accuracy
+    problem, accuracy, friction
         As for `fem_reference.solve`.
     event : str
         One of `EVENTS`.
@@ -194,7 +207,7 @@ def profile(
     True
     """
     with one_thread:
-        _, point = event_state(problem, event, accuracy)
+        _, point = event_state(problem, event, accuracy, friction)
         mesh = point.branch.contact.compliance.trace
         y = point.state.y
         s = mesh.s if radii is None else np.asarray(radii, float) / y[-1]
