@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from numbers import Real
 
-__all__ = ["check_positive"]
+__all__ = ["check_positive", "check_tension"]
 
 
 def check_positive(name: str, value: float) -> None:
@@ -14,3 +14,14 @@ def check_positive(name: str, value: float) -> None:
     if not (is_number and math.isfinite(value) and value > 0):
         shown = value if is_number else repr(value)
         raise ValueError(f"{name} = {shown} is outside (0, infinity): it is a real number")
+
+
+def check_tension(value: float) -> None:
+    """Raise ValueError with the value and the admissible range unless a surface tension is not negative, and finite."""
+    is_number = isinstance(value, Real) and not isinstance(value, bool)
+    if not (is_number and math.isfinite(value) and value >= 0):
+        shown = value if is_number else repr(value)
+        raise ValueError(
+            f"surface_tension = {shown} is outside [0, infinity): it is a force per length, and a surface that gains "
+            "energy by growing is unstable"
+        )

@@ -18,11 +18,14 @@ from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 from skfem import Basis, ElementQuadP
 
+from fem_reference._contact.bodies import condition_of
+from fem_reference._contact.friction import FrictionName
 from fem_reference._contact.path import Point
 from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
 from fem_reference._elastic.mapping import ChartMapping
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._elastic.surface_condition import SurfaceCondition
 from fem_reference._linear.linear_solver import solve_cg
 from fem_reference._threads import one_thread
 from fem_reference._typing import Array, Index
@@ -110,7 +113,7 @@ class Field:
         return np.sqrt(0.5 * ((rr - tt) ** 2 + (tt - zz) ** 2 + (zz - rr) ** 2) + 3.0 * rz**2)
 
 
-def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
+def contact_field(solid: Any, spec: MeshSpec, point: Point, friction: FrictionName = "none") -> Field:
     """Recover displacement and stress in the whole solid at a point of the equilibrium path.
 
     Parameters
@@ -121,10 +124,13 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
         The mesh the point was computed on.
     point : Point
         A converged equilibrium.
+    friction : {"none", "bonded"}
+        That of the point.
 
     Returns
     -------
     Field
+        Of the solid, also where the punch is elastic.
 
     Raises
     ------
@@ -135,12 +141,15 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
         contact, y = point.branch.contact, point.state.y
         c = float(y[-1])
         scaled = scaled_modulus(solid.modulus, c)
-        half_space = assemble_half_space(spec.grid(), scaled, scaled_poisson(solid.poisson, c), spec.order)
+        # Lengths scale by c: stiffness by c, load by c^2; the forces of the surface tension stay.
+        condition = SurfaceCondition(condition_of(solid).tension / c, friction == "bonded")
+        half_space = assemble_half_space(
+            spec.grid(), scaled, scaled_poisson(solid.poisson, c), spec.order, condition=condition
+        )
         trace = contact.compliance.trace
         pressure = contact.pressure(y)
         load = np.zeros(half_space.elements.size)
         load[half_space.surface] = trace.phi.T @ (trace.weight * trace.s * pressure)
-        # Lengths scale by c: stiffness by c, load by c^2.
         u = c * half_space.completed(solve_cg(half_space, load).solution[:, None])[:, 0]
         body = half_space.body
         side = np.linspace(SURFACE_OFFSET, 1.0 - SURFACE_OFFSET, SAMPLES)

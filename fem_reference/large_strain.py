@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from fem_reference._contact.bodies import condition_of
 from fem_reference._large_strain.block import Friction
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent, linear_event
 from fem_reference._large_strain.error_parts import estimate
@@ -66,6 +67,17 @@ def _check(problem: Problem, friction: Friction, form: Form, interaction: Intera
     if form not in ("auto", "displacement", "mixed"):
         raise ValueError(f"form {form!r} is unknown; choose 'auto', 'displacement' or 'mixed'")
     interaction_of(problem.punch, problem.law, interaction)
+    if problem.punch_solid is not None:
+        raise ValueError(
+            f"punch_solid = {problem.punch_solid!r} cannot be had at finite strain, where displacements do not add and "
+            "the punch is rigid; take `solve`, or leave it out"
+        )
+    tension = condition_of(problem.solid).tension
+    if tension:
+        raise ValueError(
+            f"surface_tension = {tension:g} is outside [0, 0] at finite strain, where the energy of the area of the "
+            "surface is not included; take `solve`, whose surface tension is that of small slopes"
+        )
     if problem.solid.modulus.surface_exponent > 0.0:
         raise ValueError(
             "the modulus vanishes at the surface, where any tension makes short waves of a compressible surface "

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fem_reference._validation import check_tension
 from fem_reference.interaction import Interaction, InteractionName, interaction_of
 from fem_reference.laws import SurfaceLaw
 from fem_reference.punch import CustomPunch, Punch, radius_at_height
@@ -26,7 +27,7 @@ LOAD_INTEGRAL = 2.0
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """Adhesive contact of a rigid punch with a graded half-space.
+    """Adhesive contact of a punch, rigid or elastic, with a graded half-space.
 
     Parameters
     ----------
@@ -36,10 +37,13 @@ class Problem:
         Shape f(r).
     law : SurfaceLaw
         Traction p(H).
+    punch_solid : Solid, optional
+        Of an elastic punch: its surface moves like that of a half-space, and the displacements of both bodies add.
+        Rigid by default.
     interaction : {"derjaguin", "body", "auto"}
-        Where the surface force of small strain is taken: the law at the vertical gap, or the potential of the punch at
-        the place of each point, which is known for a `Ball` under `LennardJones` or `Mie`; "auto" is "body" where it is
-        known.
+        Where the surface force of small strain is taken: the law at the vertical gap, or the potential of a rigid punch
+        at the place of each point, which is known for a `Ball` under `LennardJones` or `Mie`; "auto" is "body" where it
+        is known.
 
     Raises
     ------
@@ -57,11 +61,17 @@ class Problem:
     solid: Solid
     punch: Punch
     law: SurfaceLaw
+    punch_solid: Solid | None = None
     interaction: InteractionName = "derjaguin"
 
     def __post_init__(self) -> None:
         if not isinstance(self.solid, Solid):
             raise ValueError(f"solid = {self.solid!r} is not a solid: it needs modulus and poisson")
+        if self.punch_solid is not None and not isinstance(self.punch_solid, Solid):
+            raise ValueError(
+                f"punch_solid = {self.punch_solid!r} is not a solid, which needs modulus and poisson; leave it out for "
+                "a rigid punch"
+            )
         if not isinstance(self.punch, Punch):
             raise ValueError(f"punch = {self.punch!r} is not a punch shape: it needs height(r) and slope(r)")
         if not isinstance(self.law, SurfaceLaw):
@@ -69,11 +79,18 @@ class Problem:
                 f"law = {self.law!r} is not a surface law: it needs traction, slope and energy of the gap, and "
                 "work_of_adhesion, z0, peak_gap, singular_gap and decay"
             )
+        for solid in self.solids:
+            check_tension(getattr(solid, "surface_tension", 0.0))
         try:
-            hash((self.solid, self.punch, self.law))
+            hash((self.solid, self.punch, self.law, self.punch_solid))
         except TypeError as error:
             raise ValueError(f"the problem is not hashable ({error}); make its parts frozen dataclasses") from error
         interaction_of(self.punch, self.law, self.interaction)
+        if self.punch_solid is not None and self.interaction == "body":
+            raise ValueError(
+                "interaction 'body' is not known with a punch_solid: the potential is that of a rigid punch; take "
+                "'derjaguin'"
+            )
         C, m = self.law.decay
         r = radius_at_height(self.punch, FAR * self.law.z0)
         growth = r * float(self.punch.slope(np.array(r))) / float(self.punch.height(np.array(r)))
@@ -102,3 +119,8 @@ class Problem:
             If the interaction is unknown, or not known for this punch and law.
         """
         return self if interaction is None else replace(self, interaction=interaction)
+
+    @property
+    def solids(self) -> tuple[Solid, ...]:
+        """The solid, and that of an elastic punch."""
+        return (self.solid,) if self.punch_solid is None else (self.solid, self.punch_solid)

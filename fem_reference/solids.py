@@ -10,7 +10,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from fem_reference._typing import Array
-from fem_reference._validation import check_positive
+from fem_reference._validation import check_positive, check_tension
 from fem_reference.coating import CoatingModulus
 from fem_reference.depth_profiles import ExponentialModulus, TableModulus, TablePoisson
 from fem_reference.layers import StepProfile
@@ -34,6 +34,8 @@ __all__ = [
 @runtime_checkable
 class Solid(Protocol):
     """A half-space; hashable.
+
+    It may have a `surface_tension` too, a force per length; without one there is none.
 
     Examples
     --------
@@ -63,9 +65,11 @@ class _OneRatio:
 
     __slots__ = ()
     nu: float
+    surface_tension: float
 
     def __post_init__(self) -> None:
         _check_one_ratio(self.nu)
+        check_tension(self.surface_tension)
         self.modulus  # noqa: B018  # validates the rest
 
     @property
@@ -91,6 +95,8 @@ class PowerLaw(_OneRatio):
         Gradient exponent, 0 <= k < 1.
     nu : float
         Poisson's ratio in [0, 0.5).
+    surface_tension : float
+        Surface tension Y, a force per length, >= 0: the surface bears a pressure less Y times its mean curvature.
 
     Raises
     ------
@@ -108,6 +114,7 @@ class PowerLaw(_OneRatio):
     c0: float
     k: float
     nu: float
+    surface_tension: float = 0.0
 
     @property
     def modulus(self) -> PowerLawModulus:
@@ -117,7 +124,7 @@ class PowerLaw(_OneRatio):
 
 @dataclass(frozen=True, slots=True)
 class Homogeneous(_OneRatio):
-    """One modulus E and one Poisson ratio at every depth.
+    """One modulus E and one Poisson ratio at every depth; `surface_tension` as for `PowerLaw`.
 
     Examples
     --------
@@ -127,10 +134,12 @@ class Homogeneous(_OneRatio):
 
     E: float
     nu: float
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
         check_positive("modulus E", self.E)
         _check_one_ratio(self.nu)
+        check_tension(self.surface_tension)
 
     @property
     def modulus(self) -> PowerLawModulus:
@@ -144,7 +153,7 @@ class OffsetPowerLaw(_OneRatio):
 
     Parameters
     ----------
-    E0, c0, k, nu : float
+    E0, c0, k, nu, surface_tension : float
         As for `PowerLaw`.
     z_s : float
         Offset of the depth, > 0.
@@ -160,6 +169,7 @@ class OffsetPowerLaw(_OneRatio):
     k: float
     z_s: float
     nu: float
+    surface_tension: float = 0.0
 
     @property
     def modulus(self) -> OffsetPowerLawModulus:
@@ -179,6 +189,8 @@ class Exponential(_OneRatio):
         Depth over which the modulus changes, > 0.
     nu : float
         Poisson's ratio in [0, 0.5).
+    surface_tension : float
+        As for `PowerLaw`.
 
     Examples
     --------
@@ -190,6 +202,7 @@ class Exponential(_OneRatio):
     E_depth: float
     length: float
     nu: float
+    surface_tension: float = 0.0
 
     @property
     def modulus(self) -> ExponentialModulus:
@@ -213,6 +226,8 @@ class Coating:
         Poisson's ratio of the coating, in [0, 0.5).
     nu_substrate : float, optional
         That of the substrate, joined in the same way; that of the coating by default.
+    surface_tension : float
+        As for `PowerLaw`.
 
     Examples
     --------
@@ -227,8 +242,10 @@ class Coating:
     transition: float
     nu_coating: float
     nu_substrate: float | None = None
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
+        check_tension(self.surface_tension)
         _check_one_ratio(self.nu_coating)
         if self.nu_substrate is not None:
             _check_one_ratio(self.nu_substrate)
@@ -259,6 +276,8 @@ class Layers:
         Poisson's ratios in the same order, in [0, 0.5).
     thickness : sequence of float, shape (N,)
         Thicknesses of the layers from the surface downwards, > 0.
+    surface_tension : float
+        As for `PowerLaw`.
 
     Raises
     ------
@@ -275,8 +294,10 @@ class Layers:
     E: Sequence[float]
     nu: Sequence[float]
     thickness: Sequence[float]
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
+        check_tension(self.surface_tension)
         for name in ("E", "nu", "thickness"):
             values = getattr(self, name)
             if isinstance(values, str) or not np.iterable(values):
@@ -320,6 +341,8 @@ class TabulatedModulus:
         Positive.
     nu : float or sequence of float, shape (N,)
         Poisson's ratio in [0, 0.5), one number or one for each depth.
+    surface_tension : float
+        As for `PowerLaw`.
 
     Raises
     ------
@@ -336,10 +359,12 @@ class TabulatedModulus:
     depths: Sequence[float]
     moduli: Sequence[float]
     nu: float | Sequence[float]
+    surface_tension: float = 0.0
     modulus: TableModulus = field(init=False, compare=False)
     poisson: float | TablePoisson = field(init=False, compare=False)
 
     def __post_init__(self) -> None:
+        check_tension(self.surface_tension)
         modulus = TableModulus(self.depths, self.moduli)
         poisson: float | TablePoisson
         if isinstance(self.nu, Sequence | np.ndarray):
@@ -374,6 +399,8 @@ class CustomSolid:
         Those that are not declared are searched for by sampling, which can miss a layer thinner than 1/30 of its depth.
     surface_exponent, depth_exponent : float
         Exponents of E ~ z^m as z -> 0 and z -> infinity, in [0, 1).
+    surface_tension : float
+        As for `PowerLaw`.
 
     Raises
     ------
@@ -393,8 +420,10 @@ class CustomSolid:
     interfaces: Sequence[float | Interface] = ()
     surface_exponent: float = 0.0
     depth_exponent: float = 0.0
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
+        check_tension(self.surface_tension)
         ends = (
             interface if isinstance(interface, Interface) else Interface(float(interface))
             for interface in self.interfaces

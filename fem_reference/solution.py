@@ -13,6 +13,7 @@ from functools import partial
 from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
 from fem_reference._contact.events import JUMP_IN
+from fem_reference._contact.friction import FrictionName, with_friction
 from fem_reference._contact.mesh_choice import MeshChoice, chosen, path_over_meshes
 from fem_reference._contact.mesh_lengths import scales
 from fem_reference._contact.path import edge_is_resolved
@@ -49,6 +50,7 @@ def solve(
     quantity: str,
     accuracy: float | str = "default",
     *,
+    friction: FrictionName = "none",
     interaction: InteractionName | None = None,
 ) -> Solution:
     """Compute one quantity with a bound on its numerical error.
@@ -64,6 +66,9 @@ def solve(
         actual error.  Finer meshes are used where the path cannot be traced.  A value at an accuracy finer than
         "default" that misses it is also computed at "default", and the one with the smaller `u_num` is returned.  If
         the bound exceeds a requested number, an `AccuracyWarning` says so.
+    friction : {"none", "bonded"}
+        "bonded": no point of the surface changes its radius, inside and outside the contact.  This is at least as stiff
+        as any bond of the part in contact.
     interaction : str, optional
         In place of that of the problem: "derjaguin", "body" or "auto" (see `Problem`).
 
@@ -74,7 +79,8 @@ def solve(
     Raises
     ------
     ValueError
-        For an unknown quantity, accuracy or interaction, or an interaction that is not known for this punch and law.
+        For an unknown quantity, accuracy, friction or interaction, an interaction that is not known for this punch and
+        law, an elastic punch that is bonded, or the critical modulus of two bodies or of a solid with surface tension.
     NoSuchEvent
         If the path has no such point.
     NotConverged
@@ -89,7 +95,7 @@ def solve(
     >>> round(solution.value, 3), solution.u_num < 1e-5  # Bradley's 2 pi for a rigid solid
     (6.226, True)
     """
-    result = solve_together(problem, (quantity,), accuracy, interaction=interaction)[quantity]
+    result = solve_together(problem, (quantity,), accuracy, friction=friction, interaction=interaction)[quantity]
     if isinstance(result, NoSuchEvent):
         raise result
     return result
@@ -100,13 +106,14 @@ def solve_together(
     quantities: Iterable[str] = QUANTITIES,
     accuracy: float | str = "default",
     *,
+    friction: FrictionName = "none",
     interaction: InteractionName | None = None,
 ) -> dict[str, Solution | NoSuchEvent]:
     """Compute several quantities on the same meshes, tracing each path once.
 
     Parameters
     ----------
-    problem, accuracy, interaction
+    problem, accuracy, friction, interaction
         As for `solve`.
     quantities : iterable of str
         Of `QUANTITIES`, `LOSSES` and `CRITICAL_MODULUS`; all of `QUANTITIES` by default.  The mesh is made for the
@@ -138,7 +145,7 @@ def solve_together(
         raise ValueError(f"quantities = {quantities!r} is one name: give several as a list, or call solve for one")
     if not isinstance(problem, Problem):
         raise ValueError(f"problem = {problem!r} is no Problem: write Problem(solid, punch, law)")
-    problem = problem.under(interaction)
+    problem = with_friction(problem.under(interaction), friction)
     rows = {name: quantity_named(name) for name in quantities}
     if not rows:
         raise ValueError(f"no quantity is named; choose at least one of {', '.join(TABLE)}")

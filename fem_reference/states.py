@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference._contact.events import EVENTS
+from fem_reference._contact.friction import FrictionName, with_friction
 from fem_reference._contact.mesh_choice import MeshChoice, chosen, whole_path
 from fem_reference._contact.path import Point
 from fem_reference._contact.turning import turning_slowly
@@ -57,7 +58,8 @@ class RadialField(Columns):
     radius : ndarray
         Radii.
     gap, pressure, deformation : ndarray
-        Gap, pressure (compression positive) and displacement of the solid at those radii.
+        Gap, pressure (compression positive) and displacement of the solid at those radii; of two elastic bodies their
+        displacements together.
     displacement, load : float
         Approach delta and load P (tension negative) of the point.
     """
@@ -77,6 +79,7 @@ def trace(
     accuracy: float | str = "default",
     largest_turn: float | None = None,
     *,
+    friction: FrictionName = "none",
     interaction: InteractionName | None = None,
 ) -> EquilibriumPath:
     """Trace the equilibrium path from far away until the load is compressive.
@@ -85,7 +88,7 @@ def trace(
 
     Parameters
     ----------
-    problem, accuracy
+    problem, accuracy, friction
         As for `fem_reference.solve`.
     largest_turn : float, optional
         Angle in degrees, in (0, 180]: points are inserted until the plotted curve of load over displacement turns by
@@ -101,7 +104,7 @@ def trace(
     Raises
     ------
     ValueError
-        For an unknown accuracy, or an angle outside its range.
+        For an unknown accuracy or friction, or an angle outside its range.
     NotConverged
         If the path cannot be followed.
 
@@ -116,7 +119,7 @@ def trace(
     if largest_turn is not None and not 0.0 < largest_turn <= 180.0:
         raise ValueError(f"largest_turn = {largest_turn} is outside (0, 180]: it is an angle in degrees")
     with one_thread:
-        path = whole_path(problem if interaction is None else problem.under(interaction), accuracy)
+        path = whole_path(with_friction(problem.under(interaction), friction), accuracy)
         points = path.points if largest_turn is None else turning_slowly(path, largest_turn)
         return EquilibriumPath(
             np.array([p.state.displacement for p in points]),
@@ -126,12 +129,14 @@ def trace(
         )
 
 
-def event_state(problem: Problem, event: str = "pull_off", accuracy: float | str = "default") -> tuple[MeshSpec, Point]:
+def event_state(
+    problem: Problem, event: str = "pull_off", accuracy: float | str = "default", friction: FrictionName = "none"
+) -> tuple[MeshSpec, Point]:
     """Return the equilibrium at an event, with the mesh.
 
     Parameters
     ----------
-    problem, accuracy
+    problem, accuracy, friction
         As for `fem_reference.solve`.
     event : str
         One of `EVENTS`.
@@ -163,18 +168,22 @@ def event_state(problem: Problem, event: str = "pull_off", accuracy: float | str
     if event not in EVENTS:
         raise ValueError(f"event {event!r} is unknown; choose one of {', '.join(EVENTS)}")
     with one_thread:
-        choice, spec, size = chosen(problem, (event,), accuracy, _traced)
+        choice, spec, size = chosen(with_friction(problem, friction), (event,), accuracy, _traced)
         return spec, uncondensed_events(choice, spec, size).at(event)
 
 
 def profile(
-    problem: Problem, event: str = "pull_off", accuracy: float | str = "default", radii: Array | None = None
+    problem: Problem,
+    event: str = "pull_off",
+    accuracy: float | str = "default",
+    radii: Array | None = None,
+    friction: FrictionName = "none",
 ) -> RadialField:
     """Return gap, pressure and deformation of the surface at an event.
 
     Parameters
     ----------
-    problem, accuracy
+    problem, accuracy, friction
         As for `fem_reference.solve`.
     event : str
         One of `EVENTS`.
@@ -203,7 +212,7 @@ def profile(
     True
     """
     with one_thread:
-        _, point = event_state(problem, event, accuracy)
+        _, point = event_state(problem, event, accuracy, friction)
         mesh = point.branch.contact.compliance.trace
         y = point.state.y
         s = mesh.s if radii is None else np.asarray(radii, float) / y[-1]

@@ -14,9 +14,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fem_reference._contact.bodies import condition_of
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import cusp_from, slowest
 from fem_reference._contact.events import CUSP
+from fem_reference._contact.friction import BondedSolid
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.path import Point
 from fem_reference._contact.tracing import traced
@@ -99,13 +101,24 @@ def stiffer_than_critical(problem: Problem, accuracy: float | str) -> NearCritic
     NotConverged
         If a path cannot be traced, or the cusp is not found.
     """
-    solid = problem.solid
+    bonded = problem.solid if isinstance(problem.solid, BondedSolid) else None
+    solid = problem.solid if bonded is None else bonded.solid
     if not isinstance(solid, PowerLaw | OffsetPowerLaw):
         raise ValueError(
             f"solid = {solid!r} has no reference modulus E0, which the critical modulus is a value of; take a PowerLaw"
         )
+    if len(problem.solids) > 1 or condition_of(solid).tension:
+        raise ValueError(
+            "the critical modulus is known for one solid without surface tension, whose whole stiffness is in "
+            "proportion to E0; leave out punch_solid and surface_tension"
+        )
+
+    def with_modulus(E0: float) -> Problem:
+        changed = replace(solid, E0=E0)
+        return replace(problem, solid=changed if bonded is None else BondedSolid(changed))
+
     E0 = _estimate(problem, solid)
-    estimate = replace(problem, solid=replace(solid, E0=E0))
+    estimate = with_modulus(E0)
     choice, spec, size = chosen(estimate, (CUSP,), accuracy)
     contact = choice.contact(spec, size)
 
@@ -114,7 +127,7 @@ def stiffer_than_critical(problem: Problem, accuracy: float | str) -> NearCritic
         return _Trial(log_ratio, slowest(traced(stiffer)))
 
     E0 *= MARGIN * _stiffness(_cusp_between(*_bracket(trial), trial).branch.contact)
-    return NearCritical(replace(problem, solid=replace(solid, E0=E0)), E0, (spec, size))
+    return NearCritical(with_modulus(E0), E0, (spec, size))
 
 
 def _estimate(problem: Problem, solid: PowerLaw | OffsetPowerLaw) -> float:

@@ -188,5 +188,6 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
 
 def _with_tail(contact: Contact, choice: MeshChoice) -> Contact:
     """The contact with the displacement beyond the mesh."""
-    depth_exponent = choice.problem.solid.modulus.depth_exponent
+    # Far away the body moves most whose displacement falls most slowly.
+    depth_exponent = min(solid.modulus.depth_exponent for solid in choice.problem.solids)
     return TailContact(contact.force, contact.compliance, depth_exponent)

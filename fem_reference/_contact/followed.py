@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Protocol
 
+from fem_reference._contact.bodies import are_one_power_law
 from fem_reference._contact.completeness import complete_path, displacement_range
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.edge_states import EdgeStates
@@ -25,7 +26,6 @@ from fem_reference._contact.multimesh_events import MultimeshEvents
 from fem_reference._contact.multimesh_path import FARTHER, multimesh_path
 from fem_reference._contact.path import WIDTH_SHARE, Point, edge_width, equilibrium_points
 from fem_reference._contact.tracing import beginning
-from fem_reference._elastic.compliance import is_scaling
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import SEARCH_DEGREE, Level
 from fem_reference.problem import Problem
@@ -122,8 +122,7 @@ class FollowedPath:
     def _whole(self) -> MultimeshEvents:
         problem, turn = self._choice.problem, self._last_turn()
         # Edges beyond reach are refused here, and not after minutes.
-        scaling = is_scaling(problem.solid.modulus, problem.solid.poisson, kinks_within(problem))
-        ratio = EDGE_PER_BALANCE / FARTHER if scaling else WIDEST_EDGE
+        ratio = EDGE_PER_BALANCE / FARTHER if are_one_power_law(problem, kinks_within(problem)) else WIDEST_EDGE
         check_width(ratio * WIDTH_SHARE * spot_length(problem, self._first[1]) / turn)
         approach, contact_start = self._approach
         states = EdgeStates(self._choice, contact_start, self._degree, self._choice.level.density)

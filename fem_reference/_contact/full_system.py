@@ -2,18 +2,21 @@
 
 On a mesh in units of the size c the equations are K u / factor(c) = F(u, delta, c), with K the stiffness and the load
 vector assembled by scikit-fem on the surface facets at the gap H = -delta + f(c s) + u_z.  Functions inside an element
-carry no load: they are eliminated from K, and u has zeros in their rows.
+carry no load: they are eliminated from K, and u has zeros in their rows.  An elastic punch has the same equations on
+its own mesh, and u_z in the gap is the sum of both.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from skfem import FacetBasis, LinearForm
 from skfem.mapping import MappingIsoparametric
 
+from fem_reference._contact.bodies import MeshedBody
 from fem_reference._elastic.assembly import HalfSpace
 from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._linear.linear_solver import LinearResult, relative_residual
@@ -46,7 +49,7 @@ class _RectangleMapping(MappingIsoparametric):
 
 
 class FullSystem:
-    """Surface force of a punch and the whole meshed half-space.
+    """Surface force of a punch and the whole meshed half-space, or both of two bodies.
 
     Parameters
     ----------
@@ -56,6 +59,13 @@ class FullSystem:
         Surface force.
     preconditioner : ElasticPreconditioner, optional
         Of this half-space; built when absent.
+    others : sequence of MeshedBody
+        Bodies whose displacement is added, on meshes with the same radial nodes.
+
+    Attributes
+    ----------
+    bodies : tuple of MeshedBody
+        All, the half-space first.
     """
 
     def __init__(
@@ -63,9 +73,11 @@ class FullSystem:
         half_space: HalfSpace,
         force: Interaction,
         preconditioner: ElasticPreconditioner | None = None,
+        others: Sequence[MeshedBody] = (),
     ) -> None:
         self.half_space, self.force = half_space, force
         self.preconditioner = ElasticPreconditioner(half_space) if preconditioner is None else preconditioner
+        self.bodies = (MeshedBody(half_space, self.preconditioner), *others)
         dofs = half_space.dofs
         mesh = dofs.topo
         straight = mesh.mapping()
@@ -108,16 +120,47 @@ class FullSystem:
         rise = rise - rate[-2] + rate[-1] * self.s * self.force.punch.slope(r)
         return self.vector(by_gap * rise + rate[-1] * self.s * by_radius)
 
-    def residuals(self, result: LinearResult, loads: Array, deltas: Array, sizes: Array, factors: Array) -> Array:
-        """Residuals of whole nonlinear systems, one for each of the first loads of `result`, relative to those loads.
+    def on_body(self, load: Array, body: MeshedBody) -> Array:
+        """Return loads on the surface of the half-space, shape (2 N, q), as those on the surface of a body."""
+        if body.half_space is self.half_space:
+            return load
+        on_body = np.zeros((body.half_space.elements.size, load.shape[1]))
+        on_body[body.half_space.surface] = load[self.half_space.surface]
+        return on_body
+
+    def residuals(self, results: Sequence[LinearResult], loads: Array, w: Array, deltas: Array, sizes: Array) -> Array:
+        """Residuals of whole nonlinear systems, one for each displacement, relative to their loads.
 
         The displacement leaves a residual of the load it was solved under, and makes another load.
+
+        Parameters
+        ----------
+        results : sequence of LinearResult
+            Of each body under `loads`.
+        loads : ndarray, shape (2 N, q)
+        w : ndarray, shape (m, e)
+            Displacement of the surface, of all bodies together, for each of the first loads.
+        deltas, sizes : ndarray, shape (e,)
+
+        Returns
+        -------
+        ndarray, shape (e,)
+            The largest of all bodies.
         """
-        columns = zip(result.solution.T, deltas, sizes, factors, strict=False)
-        made = [self.vector(self.pressure(factor * u, delta, c)) for u, delta, c, factor in columns]
+        columns = zip(w.T, deltas, sizes, strict=True)
+        made = [self.vector(self.pressure(self.on_surface(u), delta, c)) for u, delta, c in columns]
         count = deltas.size
-        left = np.stack(made, axis=1) - loads[:, :count] + result.remainder[:, :count]
-        return relative_residual(self.half_space, left, result.norm[:count], self.preconditioner)
+        change = np.stack(made, axis=1) - loads[:, :count]
+        relative = [
+            relative_residual(
+                body.half_space,
+                self.on_body(change, body) + result.remainder[:, :count],
+                result.norm[:count],
+                body.preconditioner,
+            )
+            for body, result in zip(self.bodies, results, strict=True)
+        ]
+        return np.asarray(np.max(relative, axis=0))
 
     def steepness(self, u: Array, delta: float, c: float) -> float:
         """Size of the slope of the traction relative to the traction, per length, in the norm of `residuals`."""

@@ -13,6 +13,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from fem_reference._contact.bodies import compliance_of
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.events import CUSP, PathEvents
 from fem_reference._contact.followed import FollowedPath
@@ -21,7 +22,6 @@ from fem_reference._contact.one_mesh import OneMesh
 from fem_reference._contact.path import EDGE_RISE
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tracing import traced
-from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import VariantSpec
 from fem_reference.accuracy import SEARCH_DEGREE, Level, finer_levels
@@ -55,11 +55,9 @@ class MeshChoice:
 
     def contact(self, spec: MeshSpec, size: float) -> Contact:
         """Discretise the problem on a mesh with its edge at the radius `size`."""
-        solid = self.problem.solid
         # The whole system is solved on meshes of the accuracy itself, not on those that differ in one thing.
         whole = spec.order == self.level.order and not isinstance(spec, VariantSpec)
-        compliance = compliance_for(solid.modulus, solid.poisson, spec, size, self.scaling, whole)
-        return Contact(self.problem.force, compliance)
+        return Contact(self.problem.force, compliance_of(self.problem, spec, size, self.scaling, whole))
 
     def lower_contact(self, spec: MeshSpec, size: float) -> Contact:
         """Discretise the problem with the degree below.

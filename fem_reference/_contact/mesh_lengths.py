@@ -7,15 +7,22 @@ from functools import lru_cache
 
 import numpy as np
 
-from fem_reference._elastic.compliance import is_power_law, is_scaling, scaled_modulus, scaled_poisson
+from fem_reference._contact.bodies import (
+    all_power_laws,
+    are_one_power_law,
+    condition_of,
+    plane_strain_modulus,
+    stiffness_at,
+)
+from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
 from fem_reference._elastic.depth_scales import depth_scales
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import Level
 from fem_reference.errors import NotConverged
-from fem_reference.poisson import poisson_at
 from fem_reference.problem import Problem
 from fem_reference.punch import Punch, kinks_of, radius_at_height
+from fem_reference.solids import Solid
 
 __all__ = [
     "EDGE_PER_BALANCE",
@@ -93,6 +100,14 @@ EXTERIOR_ERROR = 5e-8
 #: Steps to the length of balance: each leaves (1 + k) / 2 of the logarithm, 1e-8 of it at k = 0.9.
 BALANCE_STEPS = 400
 
+#: Relative error of the displacement under a tension of the length l, in (l/R)^3 or (l/R)^2 a/R, from the part beyond
+#: the extent R (measured on meshes of 64 to 1024 for l = 1.8 to 180 a: up to 0.25, and 0.05 to 0.15 where it is small).
+TENSION_SHARE = 0.3
+
+#: Octaves of lengths below the extent in which that of the surface tension is searched for: below, the part of the
+#: exterior is less than the rounding.
+OCTAVES_OF_TENSION = 50
+
 #: Depth, relative to the one resolved under the surface, from which on changes of the modulus are searched for.
 FINEST_SCALE = 1e-3
 
@@ -123,28 +138,56 @@ def mesh_spec(
     apex : float
         Radius of the spot on which contact begins, if it is so small that the apex has to be finer for it.
     """
-    modulus, nu, law = problem.solid.modulus, problem.solid.poisson, problem.law
-    k = modulus.surface_exponent
+    law, solids = problem.law, problem.solids
     width = 2.0 ** math.floor(math.log2(min(max(width, NARROWEST), WIDEST)))
-    depth = LAYER_DEPTH * width * min(1.0, 5.0 * k) if k > 0 else 0.3 * width
-    if math.isfinite(modulus.surface_depth):
-        depth = min(depth, 0.2 * modulus.surface_depth / size)
+    depth = min(_layer_depth(solid, width, size) for solid in solids)
     C, m = law.decay
     height = FAR_HEIGHT ** max(1.0, 3.0 / m) if C != 0.0 else FAR_HEIGHT
     far = radius_at_height(problem.punch, height * law.z0)
     extent = 2.0 ** math.ceil(math.log2(min(max(far / smallest, 50.0), LARGEST_EXTENT)))
-    scaled = scaled_modulus(modulus, size), scaled_poisson(nu, size)
-    while exterior_error(scaled[0], extent, scaled[1]) > EXTERIOR_ERROR and extent < LARGEST_EXTENT:
+    while max(_far_error(solid, extent, size) for solid in solids) > EXTERIOR_ERROR and extent < LARGEST_EXTENT:
         extent *= 2.0
-    scales = depth_scales(modulus, FINEST_SCALE * depth * size, extent * size, nu).scaled(size)
+    scales, *of_punch = [
+        depth_scales(solid.modulus, FINEST_SCALE * depth * size, extent * size, solid.poisson).scaled(size)
+        for solid in solids
+    ]
     density, order = level.density, level.order
     kinks = tuple(r / size for r in kinks_within(problem))
     apex = max(apex / size, SMALLEST_APEX)
-    if is_power_law(modulus, nu) and math.isfinite(apex):
+    if all_power_laws(problem) and math.isfinite(apex):
         # Meshes at neighbouring radii share a compliance.
         apex = 2.0 ** math.floor(math.log2(apex))
     apex_width = min(_apex_width(problem.punch, size), apex)
-    return MeshSpec(width, depth, extent, density, order, apex_width, scales, far_share, kinks)
+    punch_scales = of_punch[0] if of_punch else None
+    return MeshSpec(width, depth, extent, density, order, apex_width, scales, far_share, kinks, punch_scales)
+
+
+def _layer_depth(solid: Solid, width: float, size: float) -> float:
+    """Depth to resolve under the surface of a solid."""
+    modulus, k = solid.modulus, solid.modulus.surface_exponent
+    depth = LAYER_DEPTH * width * min(1.0, 5.0 * k) if k > 0 else 0.3 * width
+    return min(depth, 0.2 * modulus.surface_depth / size) if math.isfinite(modulus.surface_depth) else depth
+
+
+def _far_error(solid: Solid, extent: float, size: float) -> float:
+    """Relative error of the displacement from what is taken for the solid and its surface beyond the mesh.
+
+    The tension there is that of the field of a load in the centre.  It moves the contact by P l / R^2, and what is left
+    out is smaller by the length l of the tension over the extent R; the displacement itself is P / a or P / l.
+    """
+    error = exterior_error(scaled_modulus(solid.modulus, size), extent, scaled_poisson(solid.poisson, size))
+    reach = _tension_length(solid, extent * size) / (extent * size)
+    return error + TENSION_SHARE * reach**2 * max(reach, 1.0 / extent)
+
+
+def _tension_length(solid: Solid, longest: float) -> float:
+    """Longest wave length, up to one, whose stiffness by the surface tension exceeds that of the solid."""
+    tension = condition_of(solid).tension
+    if not tension:
+        return 0.0
+    lengths = longest * 2.0 ** -np.arange(0.0, OCTAVES_OF_TENSION, 0.25)
+    tense = lengths[np.asarray(solid.modulus(lengths)) * lengths <= 2.0 * tension]
+    return float(tense[0]) if tense.size else 0.0
 
 
 def _apex_width(punch: Punch, size: float) -> float:
@@ -183,12 +226,12 @@ def kinks_within(problem: Problem) -> tuple[float, ...]:
 
 def balance_length(problem: Problem, radius: float) -> float:
     """Return the length over which traction and stiffness balance, searched for from a contact of that radius."""
-    law, solid = problem.law, problem.solid
+    law = problem.law
     depth = np.array(radius)
     # E(l) length / l = traction, by a fixed point in log l; a root finder moves the last digit, and with it the
     # power of 2 to which `spec` rounds.
     for _ in range(BALANCE_STEPS):
-        E = float(solid.modulus(depth) / (1.0 - poisson_at(solid.poisson, depth) ** 2))
+        E = plane_strain_modulus(problem, depth)
         before, depth = depth, np.sqrt(depth * E * law.z0**2 / (2.0 * law.work_of_adhesion))
         if depth == before:
             break
@@ -209,12 +252,12 @@ def scales(problem: Problem) -> bool:
     >>> [scales(Problem(PowerLaw(E0, 1.0, 0.0, 0.3), sphere, law)) for E0 in (1.0, 1e-5)]  # mu is 1 and 2000
     [True, False]
     """
-    solid, punch, law = problem.solid, problem.punch, problem.law
-    if not is_scaling(solid.modulus, solid.poisson, kinks_within(problem)):
+    punch, law = problem.punch, problem.law
+    if not are_one_power_law(problem, kinks_within(problem)):
         return False
     radius = radius_at_height(punch, law.z0)
     for _ in range(BALANCE_STEPS):
-        height, E = float(punch.height(np.array(radius))), float(solid.modulus(np.array(radius)))
+        height, E = float(punch.height(np.array(radius))), stiffness_at(problem, np.array(radius))
         if height**2 * E > law.work_of_adhesion * radius:
             break
         radius *= RADIUS_STEP

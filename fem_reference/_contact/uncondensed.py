@@ -6,7 +6,8 @@ conjugate gradients preconditioned with pyamg give the displacement of the mesh 
 lacks of the displacement that made the traction is the residual of a Newton step.  Its tangent is that of the condensed
 system, its residual is not: at the end nothing is left of the condensed compliance but the number of steps.  The rates
 along the path are solved in the same way, because a fold is where one of them vanishes.  All events of a problem are
-columns of one linear system.
+columns of one linear system.  Two elastic bodies are two such systems under the same tractions, and their displacements
+of the surface add.
 
 The condensation of the same mesh, by another elimination, is the second opinion: what both differ by is a part of the
 bound.
@@ -15,13 +16,13 @@ bound.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
+from fem_reference._contact.bodies import meshed_bodies
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.event_equations import EventEquations
 from fem_reference._contact.events import Jump, PathEvents, beginning_of
@@ -29,16 +30,13 @@ from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.mesh_choice import MeshChoice
 from fem_reference._contact.path import Point
 from fem_reference._contact.resolved import ResolvedEvents
-from fem_reference._elastic.assembly import HalfSpace, half_space_of
-from fem_reference._elastic.compliance import is_power_law, scaled_modulus, scaled_poisson
+from fem_reference._elastic.assembly import HalfSpace
+from fem_reference._elastic.compliance import Addend
 from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._linear.linear_solver import LinearResult, solve_cg
-from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
-from fem_reference.modulus import PowerLawModulus
-from fem_reference.solids import Solid
 
 __all__ = ["PointsAtEvents", "UncondensedEvents", "UncondensedValue", "uncondensed_events"]
 
@@ -247,7 +245,7 @@ class _Newton:
         self._folds = [name for name, equation in equations.items() if equation.is_fold]
         self.iterations = dict.fromkeys(equations, 0)
         self._step, self._load = math.inf, self._loads()
-        self._result = self._displaced(self._load, LINEAR_TOLERANCE)
+        self._results = self._displaced([system.on_body(self._load, body) for body in system.bodies], LINEAR_TOLERANCE)
 
     def solve(self) -> None:
         """Take Newton steps until they are small.
@@ -278,31 +276,57 @@ class _Newton:
         """Take a step of every event, from the displacement under its traction; return the largest."""
         equations = self._equations
         self._controls = np.array([equation.controls for equation in equations.values()]).T
-        under = self._by_event(self._result.solution[self._system.half_space.surface])
+        under = self._by_event(self._on_surface())
         # In order, because a jump ends where it begins.
         return float(np.max([equation.step(*under[name], equations) for name, equation in equations.items()]))
 
     def _follow(self, tolerance: float) -> None:
         """Let the displacement of the mesh follow the tractions of the last step."""
-        load, before = self._loads(), self._result
+        load, before, system = self._loads(), self._results, self._system
         # What the displacement leaves of the new load: it has left that remainder of the old one.
-        change = self._displaced(load - self._load + before.remainder, tolerance, before.norm)
-        self._load, self._result = load, replace(change, solution=before.solution + change.solution)
+        changed = load - self._load
+        loads = [
+            system.on_body(changed, body) + result.remainder for body, result in zip(system.bodies, before, strict=True)
+        ]
+        changes = self._displaced(loads, tolerance, [result.norm for result in before])
+        self._load = load
+        self._results = [
+            replace(change, solution=result.solution + change.solution)
+            for change, result in zip(changes, before, strict=True)
+        ]
 
-    def _displaced(self, load: Array, tolerance: float, norm: Array | None = None) -> LinearResult:
-        """Solve for the displacement of the mesh under loads, and count the iterations."""
-        system = self._system
-        result = solve_cg(
-            system.half_space, load, system.preconditioner, tolerance, norm=norm, rounding=LINEAR_ROUNDING
-        )
-        for name, (own, of_rate) in self._by_event(result.iterations[None, :].astype(float)).items():
+    def _displaced(
+        self, loads: Sequence[Array], tolerance: float, norms: Sequence[Array] | None = None
+    ) -> list[LinearResult]:
+        """Solve for the displacement of the mesh of each body under its loads, and count the iterations."""
+        each_norm: Sequence[Array | None] = norms or [None] * len(loads)
+        results = [
+            solve_cg(body.half_space, load, body.preconditioner, tolerance, norm=norm, rounding=LINEAR_ROUNDING)
+            for body, load, norm in zip(self._system.bodies, loads, each_norm, strict=True)
+        ]
+        fewest = np.min([result.iterations for result in results], axis=0)
+        for name, (own, of_rate) in self._by_event(fewest[None, :].astype(float)).items():
             self.iterations[name] += int(max(own[0], 0.0 if of_rate is None else of_rate[0]))
-        return result
+        return results
+
+    @property
+    def _parts(self) -> tuple[Addend, ...]:
+        """The condensed bodies."""
+        return next(iter(self._equations.values())).contact.compliance.parts
+
+    def _on_surface(self) -> Array:
+        """Displacement of the surface by all bodies, per unit factor of the compliance; shape (m, q)."""
+        bodies = zip(self._parts, self._system.bodies, self._results, strict=True)
+        return np.asarray(sum(part.share * result.solution[body.half_space.surface] for part, body, result in bodies))
 
     def shifted(self) -> dict[str, EventEquations]:
         """Return the events with the displacement changed by what it lacks under its traction."""
-        matrix = next(iter(self._equations.values())).contact.compliance.matrix
-        left = self._by_event(_left(self._system.half_space, self._load, self._result.solution, matrix))
+        bodies = zip(self._parts, self._system.bodies, self._results, strict=True)
+        lacking = [
+            part.matrix @ _left(body.half_space, self._system.on_body(self._load, body), result.solution)
+            for part, body, result in bodies
+        ]
+        left = self._by_event(np.asarray(sum(lacking)))
         shifted = {name: equation.copy() for name, equation in self._equations.items()}
         for name, equation in shifted.items():
             equation.shift(*left[name], shifted, self._equations)
@@ -316,17 +340,17 @@ class _Newton:
         NotConverged
             If that is more than the steepness of the traction explains.
         """
-        system, result = self._system, self._result
+        system = self._system
         # The displacements that were solved last belong to the controls before the last step.
         deltas, sizes, factors = self._controls
-        residuals = system.residuals(result, self._load, deltas, sizes, factors)
-        solved = factors * result.solution[:, : len(self._equations)]
-        for equation, residual, u in zip(self._equations.values(), residuals, solved.T, strict=True):
+        solved = factors * self._on_surface()[:, : len(self._equations)]
+        residuals = system.residuals(self._results, self._load, solved, deltas, sizes)
+        for equation, residual, w in zip(self._equations.values(), residuals, solved.T, strict=True):
             displacement = float(np.abs(equation.y[:-2]).max()) / equation.contact.law.z0
             limit = RESIDUAL_TOLERANCE * max(1.0, displacement) * max(1.0, self._step / NEWTON_TOLERANCE)
             if not residual <= limit:
                 # A soft solid bears a pressure that is small for the law, whose slope is then large for it.
-                steepness = equation.contact.law.z0 * system.steepness(u, *equation.y[-2:])
+                steepness = equation.contact.law.z0 * system.steepness(system.on_surface(w), *equation.y[-2:])
                 limit *= max(1.0, steepness / STEEPNESS)
             if not residual <= limit:
                 raise NotConverged(
@@ -348,14 +372,14 @@ class _Newton:
         return {name: (column, rates.get(name)) for name, column in zip(self._equations, columns.T, strict=False)}
 
 
-def _left(half_space: HalfSpace, load: Array, u: Array, compliance: Array) -> Array:
-    """Displacement of the surface that a displacement of the mesh lacks under its load, shape (m, q).
+def _left(half_space: HalfSpace, load: Array, u: Array) -> Array:
+    """Load on the surface that moves it by what a displacement of the mesh lacks under its load, shape (m, q).
 
-    With U the displacement of the mesh under unit loads on its surface, it is U' (load - K u), whatever u is.
+    With U the displacement of the mesh under unit loads on its surface, that lacks U' (load - K u), whatever u is.
     """
     if not half_space.eliminations:
         surface_stiffness(half_space)
-    return np.asarray(compliance @ half_space.gathered(half_space.remainder(load, u)))
+    return half_space.gathered(half_space.remainder(load, u))
 
 
 # As many as there are paths: an entry holds surface displacements only.
@@ -378,25 +402,10 @@ def uncondensed_events(choice: MeshChoice, spec: MeshSpec, size: float) -> Uncon
     NotConverged
         If the path cannot be traced.
     """
-    solid, force = choice.problem.solid, choice.problem.force
 
     def system() -> FullSystem:
-        half_space, preconditioner = _preconditioned(*_unit(solid, size), spec)
-        return FullSystem(half_space, force, preconditioner)
+        first, *others = meshed_bodies(choice.problem, spec, size)
+        return FullSystem(first.half_space, choice.problem.force, first.preconditioner, others)
 
     path = choice.traced(spec, size)
     return UncondensedEvents(path, choice.lower_contact(spec, size), system)
-
-
-# One: its factors take some 300 MB on a mesh of 5e4 unknowns.
-@lru_cache(maxsize=1)
-def _preconditioned(modulus: Any, nu: Any, spec: MeshSpec) -> tuple[HalfSpace, ElasticPreconditioner]:
-    half_space = half_space_of(modulus, nu, spec)
-    return half_space, ElasticPreconditioner(half_space)
-
-
-def _unit(solid: Solid, size: float) -> tuple[Any, Any]:
-    """Modulus and Poisson ratio of the mesh, in units of the size; `factor` of the compliance is the rest."""
-    if is_power_law(solid.modulus, solid.poisson):
-        return PowerLawModulus(1.0, 1.0, solid.modulus.depth_exponent), solid.poisson
-    return scaled_modulus(solid.modulus, size), scaled_poisson(solid.poisson, size)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any, cast
 
@@ -19,6 +19,8 @@ from fem_reference._elastic.element_forces import ElementForces
 from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import Grid, MeshSpec
+from fem_reference._elastic.surface_condition import FREE, SurfaceCondition
+from fem_reference._elastic.surface_tension import SurfaceTension
 from fem_reference._elastic.tensor_elements import tensor_stiffness
 from fem_reference._typing import Array, Index
 from fem_reference.modulus import Modulus
@@ -44,13 +46,15 @@ class HalfSpace:
     exterior : ndarray, shape (b, b)
         Stiffness of the exterior on `boundary`.
     free : ndarray of int
-        Rows of vertex and edge functions that are not fixed by u_r = 0 on the axis.
+        Rows of vertex and edge functions that are not fixed by u_r = 0, on the axis or at a bonded surface.
     surface : ndarray of int
         Rows of u_z along the surface, in surface order.
     boundary : ndarray of int
         Rows on the square's side and bottom, coupled by the exterior.
     eliminations : list of Elimination
         What recovers the displacement of the mesh from that of its surface, once it has been condensed.
+    tension : float
+        Surface tension, relative to the unit of the modulus and of the lengths.
     """
 
     body: Body
@@ -62,6 +66,7 @@ class HalfSpace:
     surface: Index
     boundary: Index
     eliminations: list[Elimination] = field(default_factory=list)
+    tension: float = 0.0
 
     @property
     def unknowns(self) -> int:
@@ -73,7 +78,21 @@ class HalfSpace:
         """Stiffness with the exterior, shape (2 N, 2 N); rows inside the elements are empty, fixed ones are not."""
         rows, cols = np.repeat(self.boundary, self.boundary.size), np.tile(self.boundary, self.boundary.size)
         inside = self.elements.assembled()
-        return (inside + sparse.coo_array((self.exterior.ravel(), (rows, cols)), shape=inside.shape)).tocsr()
+        total = (inside + sparse.coo_array((self.exterior.ravel(), (rows, cols)), shape=inside.shape)).tocsr()
+        if not self.tension:
+            return total
+        on_surface = self.skin.matrix.tocoo()
+        places = self.surface[on_surface.row], self.surface[on_surface.col]
+        return (total + sparse.coo_array((self.tension * on_surface.data, places), shape=inside.shape)).tocsr()
+
+    @cached_property
+    def skin(self) -> SurfaceTension:
+        """The work of a surface tension of 1."""
+        return SurfaceTension(self.grid.r, self.body.order, self.body.modulus.depth_exponent)
+
+    def under_tension(self, tension: float) -> HalfSpace:
+        """Return the half-space with a surface tension, and with the same elements, exterior and eliminations."""
+        return self if tension == self.tension else replace(self, tension=tension)
 
     @cached_property
     def _forces(self) -> ElementForces:
@@ -119,6 +138,8 @@ class HalfSpace:
         elements = self.elements
         left = load - self._forces.under(self.completed(u))
         left[self.boundary] -= self.exterior @ u[self.boundary]
+        if self.tension:
+            left[self.surface] -= self.tension * self.skin.forces(u[self.surface])
         borne = np.swapaxes(elements.follow, 1, 2) @ left[elements.inside]
         for column, values in enumerate(borne.reshape(-1, left.shape[1]).T):
             left[:, column] += np.bincount(elements.sides.ravel(), values, minlength=elements.size)
@@ -128,7 +149,12 @@ class HalfSpace:
 
 
 def assemble_half_space(
-    grid: Grid, modulus: Modulus, nu: float | PoissonRatio, order: int = 4, recoverable: bool = True
+    grid: Grid,
+    modulus: Modulus,
+    nu: float | PoissonRatio,
+    order: int = 4,
+    recoverable: bool = True,
+    condition: SurfaceCondition = FREE,
 ) -> HalfSpace:
     """Assemble interior and exterior.
 
@@ -144,6 +170,8 @@ def assemble_half_space(
         Element order, at least 2.
     recoverable : bool
         Whether the displacement inside the elements is recovered later.
+    condition : SurfaceCondition
+        Of the surface.
 
     Returns
     -------
@@ -155,10 +183,13 @@ def assemble_half_space(
     dofs = Dofs(mesh, ElementQuadP(order))
     elements = condensed_elements(tensor_stiffness(grid, dofs, modulus, nu), dofs, recoverable)
     boundary, weight = square_boundary(grid, dofs, order)
-    outer = weight[:, None] * exterior_stiffness(grid, modulus, nu, order) * weight
-    free = np.setdiff1d(elements.sides, 2 * line_unknowns(dofs, 0, 0.0))
+    outer = weight[:, None] * exterior_stiffness(grid, modulus, nu, order, bonded=condition.bonded) * weight
+    fixed = 2 * line_unknowns(dofs, 0, 0.0)
+    if condition.bonded:
+        fixed = np.concatenate([fixed, 2 * line_unknowns(dofs, 1, 0.0)])
+    free = np.setdiff1d(elements.sides, fixed)
     surface = 2 * line_unknowns(dofs, 1, 0.0) + 1
-    return HalfSpace(body, grid, dofs, elements, outer, free, surface, boundary)
+    return HalfSpace(body, grid, dofs, elements, outer, free, surface, boundary, tension=condition.tension)
 
 
 def square_boundary(grid: Grid, dofs: Dofs, order: int) -> tuple[Index, Array]:
@@ -172,7 +203,9 @@ def square_boundary(grid: Grid, dofs: Dofs, order: int) -> tuple[Index, Array]:
     return both_components(square), np.repeat(signs, 2)
 
 
-def assembled(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) -> HalfSpace:
+def assembled(
+    modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec, condition: SurfaceCondition = FREE
+) -> HalfSpace:
     """Return the half-space on a mesh, whose surface alone is wanted.
 
     Parameters
@@ -183,16 +216,21 @@ def assembled(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) -> Hal
         Poisson ratio, or one of depth.
     spec : MeshSpec
         The mesh.
+    condition : SurfaceCondition
+        Of the surface.
     """
-    return assemble_half_space(spec.grid(), modulus, nu, spec.order, recoverable=False)
+    return assemble_half_space(spec.grid(), modulus, nu, spec.order, recoverable=False, condition=condition)
 
 
-def half_space_of(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) -> HalfSpace:
+def half_space_of(
+    modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec, condition: SurfaceCondition = FREE
+) -> HalfSpace:
     """Return the half-space on a mesh, kept for its whole system; modulus and Poisson ratio must be hashable."""
-    return _kept_half_space(cast(Hashable, modulus), cast(Hashable, nu), spec)
+    kept = _kept_half_space(cast(Hashable, modulus), cast(Hashable, nu), spec, condition.bonded)
+    return kept.under_tension(condition.tension)
 
 
 # Two: the mesh of the last path, whose events are solved next, and one before it; each holds some 50 MB.
 @lru_cache(maxsize=2)
-def _kept_half_space(modulus: Any, nu: Any, spec: MeshSpec) -> HalfSpace:
-    return assemble_half_space(spec.grid(), modulus, nu, spec.order)
+def _kept_half_space(modulus: Any, nu: Any, spec: MeshSpec, bonded: bool) -> HalfSpace:
+    return assemble_half_space(spec.grid(), modulus, nu, spec.order, condition=SurfaceCondition(bonded=bonded))

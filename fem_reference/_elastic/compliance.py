@@ -4,6 +4,9 @@ Radii on the surface mesh are s = r / c, with the contact edge kept at s = 1.  S
 solid E(z) into E(c s): the displacement under the load vector F = integral of p phi s ds is c X(c) F, with
 X(c) the compliance of E(c s) on the fixed mesh.  For E = E0 (z/c0)^k this is c^(1-k) c0^k / E0 times one
 matrix that depends on k, nu and the mesh only, and serves every size.
+
+A surface tension Y has a length of its own, Y / E: it adds Y / c to the stiffness of E(c s), times the integral of
+u' v' s ds.  The compliances of two bodies that touch add.
 """
 
 from __future__ import annotations
@@ -19,6 +22,8 @@ from scipy import linalg
 from fem_reference._elastic.assembly import HalfSpace, assembled, half_space_of
 from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import Grid, MeshSpec
+from fem_reference._elastic.surface_condition import FREE, SurfaceCondition
+from fem_reference._elastic.surface_tension import SurfaceTension
 from fem_reference._elastic.trace import Trace, trace_of
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
@@ -26,6 +31,7 @@ from fem_reference.modulus import Interface, Modulus, PowerLawModulus, interface
 from fem_reference.poisson import PoissonRatio
 
 __all__ = [
+    "Addend",
     "Compliance",
     "FixedCompliance",
     "ScalingCompliance",
@@ -34,7 +40,9 @@ __all__ = [
     "is_scaling",
     "scaled_modulus",
     "scaled_poisson",
+    "sum_of",
     "surface_compliance",
+    "unit_of",
 ]
 
 
@@ -65,6 +73,11 @@ class Compliance(Protocol):
         ...
 
     @property
+    def parts(self) -> tuple[Addend, ...]:
+        """The bodies, whose matrices add to `matrix`."""
+        ...
+
+    @property
     def stiffness(self) -> float:
         """Modulus relative to that of the solid that was condensed."""
         ...
@@ -75,19 +88,46 @@ class Compliance(Protocol):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Addend:
+    """One body in the compliance of several.
+
+    Attributes
+    ----------
+    share : float
+        Unit of its displacement, relative to the `factor` of the sum.
+    matrix : ndarray, shape (m, m)
+        Its compliance, times the share.
+    """
+
+    share: float
+    matrix: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class ScalingCompliance:
-    """Compliance of E = E0 (z/c0)^k: one matrix for every size."""
+    """Compliance of E = E0 (z/c0)^k: one matrix for every size.
+
+    Attributes
+    ----------
+    second : Addend, optional
+        The part of `matrix` that is the second of two bodies.
+    """
 
     trace: Trace
     matrix: Array
     modulus: PowerLawModulus
     unknowns: int
     stiffness: float = 1.0
+    second: Addend | None = None
+
+    @property
+    def parts(self) -> tuple[Addend, ...]:
+        """Both bodies, or the only one."""
+        return _parts(self.matrix, self.second)
 
     def factor(self, c: float) -> float:
         """c^(1-k) c0^k / E0, with the modulus of `stiffness`."""
-        law = self.modulus
-        return c ** (1.0 - law.k) * law.c0**law.k / (law.E0 * self.stiffness)
+        return _factor(self.modulus, c, self.stiffness)
 
     def factor_slope(self, c: float) -> float:
         """(1 - k) factor / c."""
@@ -100,7 +140,7 @@ class ScalingCompliance:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FixedCompliance:
-    """Compliance on a mesh of one size, `unit` times a matrix.
+    """Compliance on a mesh of one size, `unit` times a matrix; `second` as for `ScalingCompliance`.
 
     Raises
     ------
@@ -114,6 +154,12 @@ class FixedCompliance:
     unknowns: int
     unit: float
     stiffness: float = 1.0
+    second: Addend | None = None
+
+    @property
+    def parts(self) -> tuple[Addend, ...]:
+        """Both bodies, or the only one."""
+        return _parts(self.matrix, self.second)
 
     def factor(self, c: float) -> float:
         """Factor at c, which must be the size of the mesh: `unit`, with the modulus of `stiffness`."""
@@ -130,10 +176,69 @@ class FixedCompliance:
         return replace(self, stiffness=ratio * self.stiffness)
 
 
+def _parts(matrix: Array, second: Addend | None) -> tuple[Addend, ...]:
+    return (Addend(1.0, matrix),) if second is None else (Addend(1.0, matrix - second.matrix), second)
+
+
+def sum_of(first: Compliance, second: Compliance, size: float) -> Compliance:
+    """Return the compliance of two bodies on the same surface mesh, of that size.
+
+    Examples
+    --------
+    >>> spec = MeshSpec(0.25, 0.1, 50.0, 1.3, 4)
+    >>> alone = compliance_for(PowerLawModulus(1.0, 1.0, 0.0), 0.3, spec, 1.0)
+    >>> bool(np.all(sum_of(alone, alone, 1.0).matrix == 2.0 * alone.matrix))
+    True
+    """
+    share = second.factor(size) / first.factor(size)
+    added, unknowns = Addend(share, share * second.matrix), first.unknowns + second.unknowns
+    matrix = first.matrix + added.matrix
+    match first, second:
+        case ScalingCompliance(), ScalingCompliance() if first.modulus.k == second.modulus.k:
+            return replace(first, matrix=matrix, unknowns=unknowns, second=added)
+    return FixedCompliance(first.trace, matrix, size, unknowns, first.factor(size), second=added)
+
+
 @lru_cache(maxsize=24)
-def _unit_compliance(k: float, nu: float, spec: MeshSpec, recoverable: bool) -> tuple[Trace, Array, int]:
-    half_space = (half_space_of if recoverable else assembled)(PowerLawModulus(1.0, 1.0, k), nu, spec)
-    return trace_of(spec.grid(), spec.order), surface_compliance(half_space, recoverable), half_space.unknowns
+def _unit_compliance(k: float, nu: float, spec: MeshSpec, recoverable: bool, bonded: bool) -> tuple[Trace, Array, int]:
+    stiffness, unknowns = _unit_stiffness(k, nu, spec, recoverable, bonded)
+    half_space = _unit_half_space(k, nu, spec, SurfaceCondition(bonded=bonded)) if recoverable else None
+    return trace_of(spec.grid(), spec.order), _inverse(stiffness, half_space), unknowns
+
+
+# Without surface tension: it adds to one stiffness at every size.
+@lru_cache(maxsize=24)
+def _unit_stiffness(k: float, nu: float, spec: MeshSpec, recoverable: bool, bonded: bool) -> tuple[Array, int]:
+    condition = SurfaceCondition(bonded=bonded)
+    assembly = half_space_of if recoverable else assembled
+    half_space = assembly(PowerLawModulus(1.0, 1.0, k), nu, spec, condition)
+    return surface_stiffness(half_space, recoverable), half_space.unknowns
+
+
+def _unit_half_space(k: float, nu: float, spec: MeshSpec, condition: SurfaceCondition) -> HalfSpace:
+    """The half-space of a power law, kept for its whole system."""
+    half_space = half_space_of(PowerLawModulus(1.0, 1.0, k), nu, spec, condition)
+    if not half_space.eliminations:
+        surface_stiffness(half_space)
+    return half_space
+
+
+# The path of a solid that does not scale has a compliance for each radius; one is some 1 MB.
+@lru_cache(maxsize=8)
+def _tense_compliance(
+    law: PowerLawModulus, nu: float, spec: MeshSpec, size: float, recoverable: bool, condition: SurfaceCondition
+) -> FixedCompliance:
+    """Compliance of a power law under surface tension, which is in units of the mesh."""
+    stiffness, unknowns = _unit_stiffness(law.k, nu, spec, recoverable, condition.bonded)
+    skin = SurfaceTension(spec.grid().r, spec.order, law.k)
+    half_space = _unit_half_space(law.k, nu, spec, condition) if recoverable else None
+    matrix = _inverse(stiffness + condition.tension * skin.matrix.toarray(), half_space)
+    return FixedCompliance(trace_of(spec.grid(), spec.order), matrix, size, unknowns, _factor(law, size))
+
+
+def _factor(law: PowerLawModulus, c: float, stiffness: float = 1.0) -> float:
+    """Displacement under a unit load vector, relative to that of E = z^k at the size 1."""
+    return float(c ** (1.0 - law.k) * law.c0**law.k / (law.E0 * stiffness))
 
 
 #: Largest error of the compliance by rounding, relative to its largest entry. What rounding leaves of an event is found
@@ -162,9 +267,14 @@ def surface_compliance(half_space: HalfSpace, recoverable: bool = True) -> Array
         at the edge, where the elements are smallest.
     """
     S = surface_stiffness(half_space, recoverable)
+    return _inverse(S, half_space if recoverable else None)
+
+
+def _inverse(S: Array, half_space: HalfSpace | None) -> Array:
+    """Inverse of a surface stiffness, checked on the half-space that it is of, which has been condensed."""
     X = linalg.cho_solve(linalg.cho_factor(S), np.eye(S.shape[0]))
     X = 0.5 * (X + X.T)
-    if recoverable:
+    if half_space is not None:
         loaded = [0, int(np.argmin(np.abs(half_space.grid.r - 1.0)))]
         load = np.zeros((half_space.elements.size, len(loaded)))
         load[half_space.surface[loaded], np.arange(len(loaded))] = 1.0
@@ -248,6 +358,7 @@ def compliance_for(
     size: float,
     scaling: bool = True,
     recoverable: bool = False,
+    condition: SurfaceCondition = FREE,
 ) -> Compliance:
     """Return the surface compliance of a solid on a mesh whose edge is at the radius `size`.
 
@@ -265,6 +376,8 @@ def compliance_for(
         Whether that is made use of.
     recoverable : bool
         Whether the whole system of the mesh is solved later: the half-space is kept for it.
+    condition : SurfaceCondition
+        Of the surface; under tension no compliance serves two sizes.
 
     Returns
     -------
@@ -276,9 +389,11 @@ def compliance_for(
         If the stiffness of the mesh is not positive definite.
     """
     if not is_power_law(modulus, nu):
-        return _fixed_compliance(cast(Hashable, modulus), cast(Hashable, nu), spec, size, recoverable)
-    law = cast(PowerLawModulus, modulus)
-    trace, matrix, unknowns = _unit_compliance(law.k, cast(float, nu), spec, recoverable)
+        return _fixed_compliance(cast(Hashable, modulus), cast(Hashable, nu), spec, size, recoverable, condition)
+    law, ratio = cast(PowerLawModulus, modulus), cast(float, nu)
+    if condition.tension:
+        return _tense_compliance(law, ratio, spec, size, recoverable, unit_of(law, ratio, size, condition)[2])
+    trace, matrix, unknowns = _unit_compliance(law.k, ratio, spec, recoverable, condition.bonded)
     of_every_size = ScalingCompliance(trace, matrix, law, unknowns)
     if scaling and is_scaling(modulus, nu, spec.kinks):
         return of_every_size
@@ -287,10 +402,13 @@ def compliance_for(
 
 # The search for the width of the edge, and the mesh of it that the bounds need again; a few MB each.
 @lru_cache(maxsize=8)
-def _fixed_compliance(modulus: Any, nu: Any, spec: MeshSpec, size: float, recoverable: bool) -> FixedCompliance:
+def _fixed_compliance(
+    modulus: Any, nu: Any, spec: MeshSpec, size: float, recoverable: bool, condition: SurfaceCondition
+) -> FixedCompliance:
     grid, assembly = spec.grid(), half_space_of if recoverable else assembled
     try:
-        half_space = assembly(scaled_modulus(modulus, size), scaled_poisson(nu, size), spec)
+        scaled, ratio, in_units = unit_of(modulus, nu, size, condition)
+        half_space = assembly(scaled, ratio, spec, in_units)
         matrix = surface_compliance(half_space, recoverable)
     except NotConverged as error:
         _refuse_thin_elements(grid, size, error)
@@ -308,6 +426,25 @@ def _refuse_thin_elements(grid: Grid, size: float, error: NotConverged) -> None:
             f"{thickness[thinnest]:.1e} of that depth thick, and rounding can spoil the stiffness of those below "
             f"{SAFE_THICKNESS:g}; make the change longer, or sharp as between two layers"
         ) from error
+
+
+def unit_of(
+    modulus: Modulus, nu: float | PoissonRatio, size: float, condition: SurfaceCondition = FREE
+) -> tuple[Modulus, float | PoissonRatio, SurfaceCondition]:
+    """Return modulus, Poisson ratio and condition of the half-space on a mesh in units of the size.
+
+    `factor` of the compliance is the rest: the modulus of a power law is z^k.
+
+    Examples
+    --------
+    >>> unit_of(PowerLawModulus(8.0, 1.0, 0.0), 0.3, 2.0, SurfaceCondition(tension=4.0))[2].tension
+    0.25
+    """
+    if is_power_law(modulus, nu):
+        law = cast(PowerLawModulus, modulus)
+        # Elastic forces are those of the unit times c^2 / factor, and those of the tension do not change with c.
+        return PowerLawModulus(1.0, 1.0, law.k), nu, condition.scaled(_factor(law, size) / size**2)
+    return scaled_modulus(modulus, size), scaled_poisson(nu, size), condition.scaled(1.0 / size)
 
 
 def scaled_modulus(modulus: Modulus, size: float) -> Modulus:

@@ -57,6 +57,8 @@ def surface_stiffness(half_space: HalfSpace, recoverable: bool = True) -> Array:
         half_space.eliminations[:] = [*eliminations, Elimination(exterior_rows, surface, follow)]
     scale = scale[: surface.size]
     S = 0.5 * (S + S.T) / scale[:, None] / scale
+    if half_space.tension:
+        S = S + half_space.tension * half_space.skin.matrix.toarray()
     try:
         linalg.cholesky(S, check_finite=False)
     except linalg.LinAlgError as error:

@@ -52,7 +52,12 @@ COUPLING_TOLERANCE = 1e-15
 
 
 def exterior_stiffness(
-    grid: Grid, modulus: Modulus, nu: float | PoissonRatio, order: int, pressure_degree: int | None = None
+    grid: Grid,
+    modulus: Modulus,
+    nu: float | PoissonRatio,
+    order: int,
+    pressure_degree: int | None = None,
+    bonded: bool = False,
 ) -> Array:
     """Stiffness of the exterior of the square [0, a]^2 on its boundary.
 
@@ -69,13 +74,15 @@ def exterior_stiffness(
         Element order.
     pressure_degree : int, optional
         As for `charted_stiffness`.
+    bonded : bool
+        Whether u_r = 0 along the surface.
 
     Returns
     -------
     ndarray, shape (2 m, 2 m)
         Symmetric; unknowns are the two interleaved components in an order that runs from the surface
-        down the side and along the bottom to the axis.  No condition on the axis has been applied: the
-        last vertex keeps its radial row, which the caller removes.
+        down the side and along the bottom to the axis.  The radial rows that are fixed, those of the last vertex and,
+        if the surface is bonded, of the first, are there, and the caller removes them.
 
     Raises
     ------
@@ -100,9 +107,10 @@ def exterior_stiffness(
     elements = condensed_elements(charted_stiffness(body, dofs, touching, pressure_degree), dofs)
     inner = both_components(line_unknowns(dofs, 1, 1.0))
     outer = both_components(line_unknowns(dofs, 1, SHELL_RATIO))
-    axis = 2 * line_unknowns(dofs, 0, float(t[-1]))
-    free = np.setdiff1d(elements.sides, axis)
-    present = ~np.isin(inner, axis)
+    # u_r on the axis, and at a bonded surface.
+    fixed = 2 * np.concatenate([line_unknowns(dofs, 0, end) for end in (float(t[-1]), *([0.0] if bonded else []))])
+    free = np.setdiff1d(elements.sides, fixed)
+    present = ~np.isin(inner, fixed)
     condensed = condensed_on(np.concatenate([inner, outer])[np.tile(present, 2)], elements, element_places(mesh), free)
     condensed = 0.5 * (condensed + condensed.T)
     m = int(present.sum())

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from skfem import MeshQuad
@@ -157,6 +158,8 @@ class MeshSpec:
         contact.
     kinks : tuple of float
         Radii where the slope of the punch jumps, in units of the edge radius: the mesh then has one size only.
+    punch_scales : DepthScales, optional
+        As `scales`, of the solid of an elastic punch: both meshes have the same radial nodes.
     """
 
     edge_width: float
@@ -168,6 +171,7 @@ class MeshSpec:
     scales: DepthScales = _NO_SCALES
     far_share: float = 1.0
     kinks: tuple[float, ...] = ()
+    punch_scales: DepthScales | None = None
 
     def grid(self) -> Grid:
         """Return the grid with its edge at s = 1."""
@@ -191,4 +195,10 @@ class MeshSpec:
         >>> MeshSpec(0.1, 0.05, 100.0, 0.5, 4, kinks=(2.0,)).moved(4.0).kinks
         (0.5,)
         """
-        return replace(self, scales=self.scales.scaled(ratio), kinks=tuple(r / ratio for r in self.kinks))
+        punch_scales = None if self.punch_scales is None else self.punch_scales.scaled(ratio)
+        kinks = tuple(r / ratio for r in self.kinks)
+        return replace(self, scales=self.scales.scaled(ratio), kinks=kinks, punch_scales=punch_scales)
+
+    def of_punch(self) -> Self:
+        """Return the mesh of the punch, if it is elastic: its depth follows its own solid."""
+        return self if self.punch_scales is None else replace(self, scales=self.punch_scales, punch_scales=None)

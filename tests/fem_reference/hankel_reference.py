@@ -32,20 +32,43 @@ def _gauss(ends: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
     return (a + 0.5 * h * (x + 1)).ravel(), (0.5 * h * w).ravel()
 
 
+def _slope(a, b, d, E, nu):  # R = [[a, b], [b, d]]; R' = C - A^T R - R A - R B R, in x = xi z
+    poisson = nu / (1 - nu)
+    G, L = 0.5 / (1 + nu) * E, (1 - nu) / ((1 + nu) * (1 - 2 * nu)) * E
+    return (
+        L * (1 - poisson**2) + 2 * poisson * b - a * a / G - b * b / L,
+        -a + poisson * d - a * b / G - b * d / L,
+        -2 * b - b * b / G - d * d / L,
+    )
+
+
+def _compliance(a, b, d, bonded):
+    """W / (-S) with T = 0, or with U = 0 where the surface is bonded."""
+    return -1 / d if bonded else -a / (a * d - b * b)
+
+
+def power_law_constant(k: float, nu: float, bonded: bool = False) -> float:
+    """xi^(1-k) C(xi) of E = z^k.  The modulus vanishes at the surface; in u, x = u^(1/(1-k)), the slopes are finite."""
+
+    def rate(u, R):
+        x = u ** (1 / (1 - k))
+        return np.array(_slope(*R, x**k, nu)) * u ** (k / (1 - k)) / (1 - k)
+
+    depth = DECADES_OF_DECAY ** (1 - k)
+    done = solve_ivp(rate, (depth, 1e-14), [-1.0, 0.0, -1.0], "DOP853", rtol=1e-12, atol=1e-13)
+    return float(_compliance(*done.y[:, -1], bonded))
+
+
 def transform(
-    E: Callable, nu: float | Callable, xi: np.ndarray, sharp: Sequence[float] = (), length: float = 1.0
+    E: Callable,
+    nu: float | Callable,
+    xi: np.ndarray,
+    sharp: Sequence[float] = (),
+    length: float = 1.0,
+    bonded: bool = False,
 ) -> np.ndarray:
     """xi C(xi) of a half-space that is homogeneous at great depth; E and nu jump at the depths `sharp` only."""
     ratio = nu if callable(nu) else lambda z: nu + 0.0 * z
-
-    def slope(a, b, d, E, nu):  # R = [[a, b], [b, d]]; R' = C - A^T R - R A - R B R, in x = xi z
-        poisson = nu / (1 - nu)
-        G, L = 0.5 / (1 + nu) * E, (1 - nu) / ((1 + nu) * (1 - 2 * nu)) * E
-        return (
-            L * (1 - poisson**2) + 2 * poisson * b - a * a / G - b * b / L,
-            -a + poisson * d - a * b / G - b * d / L,
-            -2 * b - b * b / G - d * d / L,
-        )
 
     def rise(top, bottom, R, inside):
         """Integrate from the depths `bottom` up to `top`, one of each xi, with ln(z + length) as the variable."""
@@ -54,7 +77,7 @@ def transform(
         def rate(t, y):
             z = np.exp(low + t * (high - low)) - length
             factor = xi * (z + length) * (high - low)
-            return np.concatenate([factor * rate for rate in slope(*y.reshape(3, -1), E(inside(z)), ratio(inside(z)))])
+            return np.concatenate([factor * rate for rate in _slope(*y.reshape(3, -1), E(inside(z)), ratio(inside(z)))])
 
         done = solve_ivp(rate, (1.0, 0.0), R.ravel(), "DOP853", rtol=1e-11, atol=1e-12, max_step=LARGEST_STEP)
         return done.y[:, -1].reshape(3, -1)
@@ -62,7 +85,7 @@ def transform(
     start = DECADES_OF_DECAY / xi
     below_all = float(ratio(np.array(1e9 * length)))
     unit = solve_ivp(
-        lambda x, y: np.array(slope(*y, 1.0, below_all)), (40, 0), [-1.0, 0, -1.0], "DOP853", rtol=1e-13, atol=1e-14
+        lambda x, y: np.array(_slope(*y, 1.0, below_all)), (40, 0), [-1.0, 0, -1.0], "DOP853", rtol=1e-13, atol=1e-14
     )
     deep = E(np.maximum(start, 1e6 * length))
     R = unit.y[:, -1][:, None] * deep
@@ -75,8 +98,7 @@ def transform(
         below = min([s for s in sharp if s > depth], default=inside)
         R = rise(top, np.minimum(bottom, below), R, lambda z, a=depth, b=below: np.clip(z, a, np.nextafter(b, a)))
         bottom = top
-    a, b, d = R
-    return -a / (a * d - b * b)
+    return _compliance(*R, bonded)
 
 
 @dataclass
