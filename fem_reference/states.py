@@ -119,7 +119,9 @@ def trace(
     if largest_turn is not None and not 0.0 < largest_turn <= 180.0:
         raise ValueError(f"largest_turn = {largest_turn} is outside (0, 180]: it is an angle in degrees")
     with one_thread:
-        path = whole_path(with_friction(problem.under(interaction), friction), accuracy)
+        path = whole_path(
+            with_friction(problem if interaction is None else problem.under(interaction), friction), accuracy
+        )
         points = path.points if largest_turn is None else turning_slowly(path, largest_turn)
         return EquilibriumPath(
             np.array([p.state.displacement for p in points]),

@@ -209,6 +209,11 @@ def problem(package: ModuleType, seed: int, number: int, punch: str, law: str, t
     """
     rng = np.random.default_rng([seed, number])
     shape, size = PUNCHES[punch](package, rng)
-    surface, mu, nu = LAWS[law](package, rng), between(rng, *tabor), float(rng.uniform(0.0, 0.49))
+    surface = LAWS[law](package, rng)
+    # The load integral of p ~ r^(-m growth) has to converge.
+    growth = PUNCHES[punch](fscm, np.random.default_rng([seed, number]))[0].growth
+    while not surface.decay[1] * growth > 2.0:
+        surface = LAWS[law](package, rng)
+    mu, nu = between(rng, *tabor), float(rng.uniform(0.0, 0.49))
     modulus = math.sqrt(size * surface.work_of_adhesion**2 / mu**3)
     return package.Problem(package.Homogeneous(modulus * (1.0 - nu**2), nu), shape, surface)

@@ -7,11 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-import fscm
 from comparisons.model import Array, NotApplicable
 from comparisons.models.jkr_sphere import LARGEST_CONTACT
 from comparisons.problem import Problem
-from comparisons.problem.equivalent_solid import modulus_at
+from comparisons.problem.equivalent_solid import modulus_at, surface_ratio
 
 #: Kinds of punches that are spheres: the paraboloid of the tip, and the exact one.
 PARABOLOID, BALL = "sphere", "ball"
@@ -72,7 +71,7 @@ def equivalent_ball(problem: Problem, contact_radius: float | None = None) -> Eq
         return EquivalentBall((mu * z0 / radius) ** 1.5, mu, problem.solid["nu"], True)
     share = (_radius_of_jkr(problem) if contact_radius is None else contact_radius) / radius
     softness = 8.0 / (9.0 * math.pi) * share**3
-    return EquivalentBall(softness, float(np.cbrt(softness)) ** 2 * radius / z0, _surface_ratio(problem), False)
+    return EquivalentBall(softness, float(np.cbrt(softness)) ** 2 * radius / z0, surface_ratio(problem), False)
 
 
 def _radius_of_jkr(problem: Problem) -> float:
@@ -86,8 +85,3 @@ def _radius_of_jkr(problem: Problem) -> float:
         raise NotApplicable("the contact is larger than the sphere")
     last = max(int(above[0]), 1)
     return float(np.exp(np.interp(0.0, rising[last - 1 : last + 1], np.log(radii[last - 1 : last + 1]))))
-
-
-def _surface_ratio(problem: Problem) -> float:
-    """Poisson's ratio of the surface."""
-    return float(problem.build(fscm).solid.poisson(np.zeros(1))[0])

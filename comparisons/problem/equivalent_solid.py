@@ -88,10 +88,15 @@ def modulus_at(problem: Problem, wave_numbers: Array) -> Array:
     """
     if problem.posed.graded is not None:
         return np.asarray(2.0 / compliance_of(problem.posed.graded, wave_numbers * problem.units["radius"]))
-    solid: Any = problem.build(fscm).solid
+    solid: Any = problem.build(fscm).solid.power_law
     gamma = math.gamma((1.0 + solid.k) / 2.0) / math.gamma((1.0 - solid.k) / 2.0)
     at_surface = solid.E0 / (solid.response_factor * (1.0 - solid.nu**2)) * gamma
     return np.asarray(at_surface * (2.0 / (wave_numbers * solid.c0)) ** solid.k)
+
+
+def surface_ratio(problem: Problem) -> float:
+    """Return Poisson's ratio at the surface of the solid."""
+    return float(problem.build(fscm).solid.poisson(np.zeros(1))[0])
 
 
 @lru_cache(maxsize=64)

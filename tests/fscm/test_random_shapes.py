@@ -80,6 +80,10 @@ def test_the_critical_tabor_number_of_a_ball_and_of_a_law_through_points():
         judge(core, ("critical_tabor_number",))
 
 
+def test_a_smoothed_law_whose_spline_has_nearly_the_stated_error():
+    assert problem(fscm, SEED, 7, "sphere", "smoothed table", TABOR).law.work_of_adhesion > 0.0
+
+
 def test_the_joint_of_a_ball_is_an_end_of_a_panel():
     """Without it the force of this ball was wrong by 9e-8 and its jump by 5e-11; both are 1e-4 of that now."""
     posed = fscm.Problem(fscm.Homogeneous(1.0850879349546185, 0.3), fscm.Ball(34.080948685574434), fscm.LennardJones())

@@ -149,7 +149,7 @@ def _solved(package: ModuleType, problem: Any, quantities: Sequence[str], accura
 def test_every_kind_of_a_problem_file_is_drawn() -> None:
     """A new kind needs a generator in `tests/random_kinds.py` or `tests/random_solids.py`."""
     drawn = [kinds(number) for number in range(COUNT)]
-    for section in KINDS:
+    for section in Kinds._fields:
         assert set(KINDS[section]) <= {getattr(of_number, section) for of_number in drawn}
 
 

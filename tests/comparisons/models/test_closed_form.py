@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from decimal import Decimal, localcontext
 
 import numpy as np
@@ -14,11 +15,16 @@ from comparisons.domain import declared_domain
 from comparisons.model import NotApplicable
 from comparisons.models.closed_form import ClosedForm, monomial
 from comparisons.models.jkr_sphere import JKRSphere
-from comparisons.problem import Problem
+from comparisons.models.jkr_surface_tension import JKRSurfaceTension
+from comparisons.problem import Problem, Section
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES
 
 #: Every closed form of the registry, also one that is new.
 MODELS = [name for name in registry.MODELS if isinstance(create(name), ClosedForm)]
+#: Relative error of a form that is no rounding: of its series.
+ROUNDING = {"jkr-surface-tension": 2e-7}
+#: Largest contact at the start of a curve that has no limit there in closed form, relative to the largest.
+SMALLEST = {"jkr-surface-tension": 1e-4}
 WITH_CURVES = [name for name in MODELS if {"force_curve", "pull_off_force"} <= set(dir(create(name)))]
 
 
@@ -29,8 +35,13 @@ def model(request: pytest.FixtureRequest) -> ClosedForm:
 
 def problem_of(model: ClosedForm, mu: float, n: float = 2.0, k: float = 0.4) -> Problem:
     """A problem in the domain of the model, for a ball and formulas for a paraboloid with their only n and k."""
-    if isinstance(model, JKRSphere):
-        return ball_on((mu / (30.0 * n**4)) ** 1.5, mu, 0.0)
+    if isinstance(model, JKRSphere | JKRSurfaceTension):
+        ball = ball_on((mu / (30.0 * n**4)) ** 1.5, mu, 0.0)
+        if isinstance(model, JKRSphere):
+            return ball
+        # Its length 2 Y/E* is about a contact radius.
+        solid = Section(ball.solid.kind, {**ball.solid.values, "surface_tension": ball.solid["E"] ** (2.0 / 3.0)})
+        return replace(ball, solid=solid, punch=Section("sphere", {"R": 1.0}))
     return Problem.dimensionless(*((2.0, 0.0) if model.limits and "k" in model.limits else (n, k)), mu)
 
 
@@ -39,7 +50,7 @@ def test_every_quantity_has_a_value_or_a_reason(model: ClosedForm) -> None:
     for quantity in QUANTITIES:
         if hasattr(model, quantity):
             result = model.evaluate(problem, quantity)
-            assert result.u_num <= 1e-11 * max(1.0, abs(result.value))
+            assert result.u_num <= ROUNDING.get(model.name, 1e-11) * max(1.0, abs(result.value))
         else:
             with pytest.raises(NotApplicable, match=rf"^{model.name} does not define {quantity}: \w[^\n]+$"):
                 model.evaluate(problem, quantity)
@@ -70,7 +81,7 @@ def test_a_curve_passes_the_events_of_its_model(name: str, n: float, k: float, m
     assert at_zero == pytest.approx(value("zero_load_displacement"), abs=5e-3 * extent)
     if "contact_radius" in curve.columns:
         contact = curve.columns["contact_radius"]
-        assert contact[0] == 0.0
+        assert contact[0] <= SMALLEST.get(name, 0.0) * contact[-1]
         assert np.all(np.diff(contact) > 0.0)
         assert np.all(curve.columns.get("cohesive_radius", contact) >= contact)
     if hasattr(model, "jump_out_displacement") and mu > 1.0:

@@ -205,7 +205,7 @@ def test_the_json_is_the_contract(capsys):
     assert main([*command, "--format", "json"]) == 0
     content = json.loads(capsys.readouterr().out)
     keys = ["model", "quantity", "problem", "value", "u_num", "status", "unit", "seconds", "dimensionless"]
-    assert list(content) == keys
+    assert list(content) == [*keys, "assumptions"]
     assert content["unit"] == "N"
     assert content["problem"]["file"] == "graded_pad.toml"
     assert content["problem"]["solid"] == {"kind": "power-law", "E0": 2e9, "c0": 1e-6, "k": 0.4, "nu": 0.3}
