@@ -13,9 +13,12 @@ class TooMany(ValueError):
 
 
 def entries_below(
-    folder: Path, most: int, is_entered: Callable[[os.DirEntry[str]], bool] = lambda _: True
+    folder: Path,
+    most: int,
+    is_entered: Callable[[os.DirEntry[str]], bool] = lambda _: True,
+    skipped: tuple[type[OSError], ...] = (OSError,),
 ) -> Iterator[os.DirEntry[str]]:
-    """Yield what is in a folder and in the folders below, those without the right to read left out.
+    """Yield what is in a folder and in the folders below.
 
     Parameters
     ----------
@@ -24,11 +27,15 @@ def entries_below(
         Most entries that are read, of any kind.
     is_entered : callable
         Whether a folder is entered; its own entry is yielded in any case.
+    skipped : tuple of types of OSError
+        Reasons for which a folder that cannot be read is left out; any other one is raised.
 
     Raises
     ------
     TooMany
         If there are more.
+    OSError
+        If a folder cannot be read for another reason than those of `skipped`.
 
     Examples
     --------
@@ -40,7 +47,7 @@ def entries_below(
     """
     count, pending = 0, [os.fspath(folder)]
     while pending:
-        with suppress(OSError), os.scandir(pending.pop()) as entries:
+        with suppress(*skipped), os.scandir(pending.pop()) as entries:
             for entry in entries:
                 count += 1
                 if count > most:

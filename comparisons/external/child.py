@@ -35,6 +35,9 @@ _LONGEST_START = 100
 #: Most bytes and most files and folders in the scratch folder, and the seconds after which they are counted again.
 _LARGEST_SCRATCH, _MOST_SCRATCH, _COUNTED_AGAIN = 1_000_000_000, 10_000, 1.0
 
+#: A folder that was removed since it was listed.
+_GONE = (FileNotFoundError, NotADirectoryError)
+
 #: Seconds that a process may take to end after its pipe has closed; a loaded machine took more than one.
 _END_SECONDS = 10.0
 
@@ -213,11 +216,14 @@ class Child:
         """Refuse a scratch folder that is too large; a file that has no name any more is not counted."""
         size = 0
         try:
-            for entry in entries_below(self._scratch, _MOST_SCRATCH):
+            for entry in entries_below(self._scratch, _MOST_SCRATCH, skipped=_GONE):
                 with contextlib.suppress(OSError):
                     size += entry.stat(follow_symlinks=False).st_blocks * _BLOCK
         except TooMany:
             raise Overfull(f"it has more than {_MOST_SCRATCH} files in its scratch folder") from None
+        except OSError as error:
+            # What is below cannot be counted: the path is too long, or there is no right to read.
+            raise Overfull(f"it has a folder in its scratch folder that cannot be read ({error.strerror})") from None
         if size > _LARGEST_SCRATCH:
             raise Overfull(f"its files in the scratch folder have {size} bytes, more than {_LARGEST_SCRATCH}")
 

@@ -8,11 +8,14 @@ of its own, so that no code of a model can change what it does.
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import signal
+import stat
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 
 #: How the name of every scratch folder begins.
 PREFIX = "fscm-bench-"
@@ -26,18 +29,68 @@ def main() -> None:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         # They are meant for the parent; this process ends after it.
         signal.signal(number, signal.SIG_IGN)
-    scratch = tempfile.TemporaryDirectory(prefix=PREFIX, dir=sys.argv[1], ignore_cleanup_errors=True)
-    print(scratch.name, flush=True)
+    scratch = tempfile.mkdtemp(prefix=PREFIX, dir=sys.argv[1])
+    print(scratch, flush=True)
     process, *_ = sys.stdin.read().splitlines() or [""]
     if process:
         with contextlib.suppress(OSError):
             os.killpg(int(process), signal.SIGKILL)
     for _ in range(_TRIES):
         # A link in its place is not followed, and stays.
-        if os.path.islink(scratch.name) or not os.path.exists(scratch.name):
+        if os.path.islink(scratch) or not os.path.exists(scratch):
             break
-        scratch.cleanup()
+        with contextlib.suppress(OSError):
+            _remove(scratch)
         time.sleep(_PAUSE)
+
+
+def _remove(folder: str) -> None:
+    """Remove a folder, as deep as it may be: folders in its folders move up to it before they are removed."""
+    os.chmod(folder, stat.S_IRWXU)
+    top, numbers = _opened(folder), itertools.count()
+    try:
+        pending = os.listdir(top)
+        while pending:
+            name = pending.pop()
+            # What cannot be removed does not keep the rest.
+            with contextlib.suppress(OSError):
+                if _is_folder(name, top):
+                    pending.extend(_moved_up(name, top, numbers))
+                    os.rmdir(name, dir_fd=top)
+                else:
+                    os.unlink(name, dir_fd=top)
+    finally:
+        os.close(top)
+    os.rmdir(folder)
+
+
+def _moved_up(name: str, top: int, numbers: Iterator[int]) -> list[str]:
+    """Move the folders in a folder up to the one that it is in; return their new names, and remove its files."""
+    # The right to read or to write in it may have been taken away.
+    os.chmod(name, stat.S_IRWXU, dir_fd=top)
+    folder, moved = _opened(name, top), []
+    try:
+        for entry in os.listdir(folder):
+            with contextlib.suppress(OSError):
+                if _is_folder(entry, folder):
+                    os.chmod(entry, stat.S_IRWXU, dir_fd=folder)
+                    new = f"{os.getpid()}-{next(numbers)}"
+                    os.rename(entry, new, src_dir_fd=folder, dst_dir_fd=top)
+                    moved.append(new)
+                else:
+                    os.unlink(entry, dir_fd=folder)
+    finally:
+        os.close(folder)
+    return moved
+
+
+def _opened(folder: str, above: int | None = None) -> int:
+    """Open a folder; a link in its place is not followed."""
+    return os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW, dir_fd=above)
+
+
+def _is_folder(name: str, above: int) -> bool:
+    return stat.S_ISDIR(os.lstat(name, dir_fd=above).st_mode)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from comparisons.console.exit_status import full_disk
 from comparisons.console.progress import log, note
-from comparisons.data.file_names import REPORT, STORE
+from comparisons.data.file_names import LOCK, REPORT, STORE
 from comparisons.external.hidden_folders import hidden_from_models
 from comparisons.external.model_source import close_models
 from comparisons.external.text_rules import one_line
@@ -28,6 +28,7 @@ from comparisons.pipeline.tables import REFERENCE
 from comparisons.registry import create
 from comparisons.runs.atomic_files import prepare_folder, write_file
 from comparisons.runs.environment import fingerprint
+from comparisons.runs.folder_lock import locked
 from comparisons.runs.store import rows_in
 from comparisons.runs.tasks import plan
 
@@ -62,11 +63,21 @@ def make_board(submissions: Path, site: Path, jobs: int = 1) -> list[BoardEntry]
     Raises
     ------
     ValueError
-        If there is no submission, or `site` holds files that are not of a board.
+        If there is no submission, `site` holds files that are not of a board, or another process makes one in it.
     OSError
         If a file cannot be written.
     """
     folders = submission_folders(submissions)
+    prepare_folder(site)
+    if not (site / _CODE).exists() and any(path.name != LOCK for path in site.iterdir()):
+        raise ValueError(f"{site} holds files that are not of a board; choose another folder with --out")
+    # Another board in it would remove the results of this one.
+    with locked(site):
+        return _made(folders, site, jobs)
+
+
+def _made(folders: list[SubmissionFolder], site: Path, jobs: int) -> list[BoardEntry]:
+    """Judge submissions and write the pages of a site that this process has locked."""
     _prepare(site)
     entries: list[BoardEntry] = []
     for submission in folders:
@@ -80,11 +91,8 @@ def make_board(submissions: Path, site: Path, jobs: int = 1) -> list[BoardEntry]
 
 
 def _prepare(site: Path) -> None:
-    """Make the folder of a site; results of other code are removed."""
-    prepare_folder(site)
+    """Remove results of other code from a site."""
     code = site / _CODE
-    if not code.exists() and any(site.iterdir()):
-        raise ValueError(f"{site} holds files that are not of a board; choose another folder with --out")
     if not code.exists() or code.read_text(encoding="utf-8") != fingerprint():
         shutil.rmtree(site / "models", ignore_errors=True)
         write_file(code, fingerprint())

@@ -54,9 +54,10 @@ class SubmissionFolder:
 
 
 def submission_folders(root: Path) -> list[SubmissionFolder]:
-    """Return the folders of submissions: `root` if it is one, else each folder in it, or the versions in that.
+    """Return the folders of submissions: `root` if it is one, and each folder in it, or the versions in that.
 
-    A name belongs to the folder that has it, so that no other folder takes its row, whatever the order.
+    A name belongs to the folder that has it, so that no other folder takes its row, whatever the order.  A description
+    above or below that of another one is a submission of its own.
 
     Raises
     ------
@@ -64,32 +65,37 @@ def submission_folders(root: Path) -> list[SubmissionFolder]:
         If there is none.
     """
     below = list(_below(root)) if root.is_dir() else []
-    described = os.path.lexists(root / SUBMISSION)
-    if described and not any(os.path.lexists(entry.folder / SUBMISSION) for entry in below):
-        return [SubmissionFolder(root, _shown(root.name))]
+    if _is_described(root):
+        # Beside submissions its description hides none of them, and has the name of their folder or is refused.
+        beside = below if any(_is_described(entry.folder) for entry in below) else []
+        return [SubmissionFolder(root, _shown(root.name), (_name(root),) if beside else ()), *beside]
     if not below:
         raise ValueError(f"{root} has no folder with a {SUBMISSION}: a board is made of submissions")
-    return [*([_misplaced(root, SUBMISSION)] if described else []), *below]
+    return below
 
 
 def _below(root: Path) -> Iterator[SubmissionFolder]:
-    for folder in _folders_in(root):
-        versions = [] if folder.is_symlink() else _folders_in(folder)
-        if os.path.lexists(folder / SUBMISSION):
-            versions = [version for version in versions if os.path.lexists(version / SUBMISSION)]
-            if versions:
-                yield _misplaced(folder, f"{folder.name}/{SUBMISSION}")
-        for submission in versions or [folder]:
+    folders = _folders_in(root)
+    # The folders in that of one model are its versions.
+    of_root = () if any(folder.name == _name(root) for folder in folders) else (_name(root),)
+    for folder in folders:
+        versions = [] if folder.is_symlink() else [entry for entry in _folders_in(folder) if _is_described(entry)]
+        # A description beside those of versions is one more version, and costs them nothing.
+        own = [folder] if _is_described(folder) or not versions else []
+        for submission in own + versions:
             parts = submission.relative_to(root).parts
             flaw = "its folder is a symbolic link" if submission.is_symlink() else ""
             if unusual := [part for part in parts if not is_portable(part)]:
                 flaw = f"{unusual[0]!a:.80} in its path is a name that not every system can hold"
-            names = parts[0], os.path.basename(os.path.realpath(root))
-            yield SubmissionFolder(submission, _shown("/".join(parts)), names, flaw)
+            yield SubmissionFolder(submission, _shown("/".join(parts)), (parts[0], *of_root), flaw)
 
 
-def _misplaced(folder: Path, path: str) -> SubmissionFolder:
-    return SubmissionFolder(folder, _shown(path), flaw="it is beside folders of submissions and describes none of them")
+def _name(root: Path) -> str:
+    return os.path.basename(os.path.realpath(root))
+
+
+def _is_described(folder: Path) -> bool:
+    return os.path.lexists(folder / SUBMISSION)
 
 
 def _folders_in(folder: Path) -> list[Path]:
@@ -128,6 +134,8 @@ def read_submission(submission: SubmissionFolder) -> Submission:
 def check_files(folder: Path) -> None:
     """Refuse a folder that has other things than a few regular files with names that every system can hold.
 
+    Folders in it that are submissions of their own are not entered.
+
     Raises
     ------
     ValueError
@@ -155,9 +163,14 @@ def check_files(folder: Path) -> None:
         )
 
 
+def _is_other(folder: Path, entry: Path) -> bool:
+    """Whether a folder in that of a submission is one of its own."""
+    return entry.parent == folder and _is_described(entry)
+
+
 def _entries(folder: Path) -> Iterator[os.DirEntry[str]]:
     try:
-        yield from entries_below(folder, 2 * MOST_FILES)
+        yield from entries_below(folder, 2 * MOST_FILES, lambda entry: not _is_other(folder, Path(entry.path)))
     except TooMany:
         raise ValueError(f"the submission has more than {2 * MOST_FILES} files and folders") from None
 

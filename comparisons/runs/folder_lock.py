@@ -8,6 +8,7 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
+from comparisons.data.contained_paths import refuse_link
 from comparisons.data.file_names import LOCK
 
 
@@ -27,7 +28,7 @@ def locked(folder: Path, *, wait: bool = False) -> Iterator[None]:
     Raises
     ------
     ValueError
-        One sentence, if another process has the folder.
+        One sentence, if another process has the folder, or the lock is a link.
 
     Examples
     --------
@@ -36,7 +37,10 @@ def locked(folder: Path, *, wait: bool = False) -> Iterator[None]:
     ...     sorted(path.name for path in Path(folder).iterdir())
     ['.lock']
     """
-    lock = FileLock(folder.resolve() / LOCK, is_singleton=True)
+    path = folder.resolve() / LOCK
+    # Early versions of filelock would empty its target.
+    refuse_link(path)
+    lock = FileLock(path, is_singleton=True)
     try:
         lock.acquire(timeout=-1 if wait else 0)
     except Timeout:

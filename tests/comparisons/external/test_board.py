@@ -9,6 +9,7 @@ from comparisons.cli.main import main
 from comparisons.output.report.board import _regions
 from comparisons.pipeline import board as board_module
 
+from ..conftest import is_locked
 from .board_pages import BODY, board, rows_of
 from .conftest import ROWS
 
@@ -87,6 +88,21 @@ def test_a_folder_of_other_files_and_one_without_submissions_are_refused(submiss
     for folder, named in ((own, "files that are not of a board"), (tmp_path / "no", "no folder with")):
         refused(["board", folder, "--out", tmp_path / "site"], named)
     assert (tmp_path / "site" / "index.html").read_text() == "mine"
+
+
+def test_a_second_board_in_the_same_folder_is_refused(submissions, tmp_path, monkeypatch):
+    submissions("ten-percent", name="ten-percent", model="ten-percent")
+    at_work, real = [], board_module._judge
+
+    def judge(*arguments):
+        at_work.append(is_locked(tmp_path / "site"))
+        real(*arguments)
+
+    monkeypatch.setattr(board_module, "_judge", judge)
+    for _ in range(2):
+        assert board(tmp_path)[0] == 0
+    assert at_work == [True, True]
+    assert not is_locked(tmp_path / "site")
 
 
 def test_a_removed_submission_leaves_nothing_on_the_site(submissions, tmp_path):

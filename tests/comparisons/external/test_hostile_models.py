@@ -203,10 +203,14 @@ def test_a_line_of_brackets_is_no_reply():
             curve_of(line)
 
 
+#: One folder more, whose path is longer than the system takes, so that nothing in it would be counted.
+LONG = "for _ in range(3):\n    os.mkdir('b' * 250)\n    os.chdir('b' * 250)\nreturn Result(1.5, 0.0)"
+
 TOO_MUCH = [
     ("Path('flood').write_bytes(bytes(3_000_000))\nreturn Result(1.5, 0.0)", "bytes, more than 1000000"),
     ("[Path(f'{i}').touch() for i in range(30)]\nreturn Result(1.5, 0.0)", "more than 20 files"),
     ("while True:\n    Path(f'{time.time_ns()}').touch()", "more than 20 files"),
+    (f"for _ in range(15):\n    os.mkdir('a' * 250)\n    os.chdir('a' * 250)\n{LONG}", "that cannot be read"),
     (WRITES.replace("b'{}\\n'", "b'1' * 200_000"), "bytes without the end of a line"),
 ]
 
@@ -279,6 +283,12 @@ model.evaluate(Problem.dimensionless(2, 0, 1), "pull_off_force")
     ("number", "start"),
     [
         (signal.SIGINT, "os.mkdir('a', 0o700)\n    os.chmod('a', 0)\n    os.chdir({own!r})"),
+        # Deeper than Python may call itself, with a link and without the right to read.
+        (
+            signal.SIGINT,
+            "for _ in range(1200):\n        os.mkdir('a')\n        os.chdir('a')\n        os.chmod('.', 0o300)\n"
+            "    os.symlink({own!r}, 'b')",
+        ),
         (
             signal.SIGKILL,
             "os.symlink({own!r}, 'b')\n    os.mkdir('a')\n    os.chdir('a')\n    os.rmdir('../a')\n"

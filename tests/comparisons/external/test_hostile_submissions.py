@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.pipeline import board as board_module
-from comparisons.pipeline.submission import check_files, submission_folders
+from comparisons.pipeline.submission import check_files, read_submission, submission_folders
 
 from .board_pages import board, rows_of
 
@@ -87,16 +87,20 @@ def test_each_costs_itself_one_sentence_and_no_other_row_changes(submissions, tm
     submissions("ten_percent", name="ten_percent", date="2026-12-31")
     submissions("Upper", name="Upper")
     named |= {"ten_percent": "resembles", "Upper": "small letters"}
-    # Descriptions that would hide the others, a folder that is a link, and names of folders.
+    # Descriptions above and below those of others, a folder that is a link, and names of folders.
     shutil.copy(owner, tmp_path / "submissions" / "submission.toml")
     submissions("hides/1", name="hides", model="no-such-model")
     shutil.copy(owner, tmp_path / "submissions" / "hides" / "submission.toml")
+    os.mkfifo(submissions("ten-percent/inside", name="inside").parent / "pipe")
+    _piped(submissions("ten-percent/pipe", name="ten-percent", version="4"))
     (tmp_path / "submissions" / "linked").symlink_to(owner.parent)
     os.mkdir(os.fsencode(tmp_path / "submissions") + b"/bytes\xff")
     named |= {
-        "submission.toml": "beside folders",
-        "hides/submission.toml": "beside folders",
+        "submissions": "not every system can hold",
+        "hides": "the folder of the model ten-percent is ten-percent, and this one is hides",
         "hides/1": "no-such-model",
+        "ten-percent/inside": "pipe",
+        "ten-percent/pipe": "submission.toml",
     }
     named |= {"linked": "symbolic link", "bytes\\udcff": "not every system"}
     # What no rule is about.
@@ -137,6 +141,33 @@ def test_a_folder_of_a_model_and_its_versions_are_found_from_every_level(submiss
     assert [folder.path for folder in submission_folders(root / "mine")] == ["1.0", "1.1"]
     assert [folder.path for folder in submission_folders(root / "other")] == ["other"]
     assert not any(folder.flaw for folder in submission_folders(root))
+
+
+def test_a_description_above_those_of_versions_is_one_more_version(submissions, tmp_path):
+    for folder, version in (("mine", "1.0"), ("mine/1.1", "1.1")):
+        submissions(folder, version=version)
+    root = tmp_path / "submissions"
+    for start in (root, root / "mine"):
+        read = [read_submission(folder) for folder in submission_folders(start)]
+        assert [(entry.name, entry.version) for entry in read] == [("mine", "1.0"), ("mine", "1.1")]
+
+
+def test_a_description_above_those_of_others_hides_none(submissions, tmp_path):
+    owner, root = submissions("owner", name="owner"), tmp_path / "submissions"
+    shutil.copy(owner, root / "submission.toml")
+    stray, found = submission_folders(root)
+    assert read_submission(found).name == "owner"
+    with pytest.raises(ValueError, match="this one is submissions"):
+        read_submission(stray)
+
+
+def test_the_name_of_the_root_belongs_to_the_folder_that_has_it(submissions, tmp_path):
+    for folder in ("aaa", "submissions"):
+        submissions(folder, name="submissions")
+    thief, owner = submission_folders(tmp_path / "submissions")
+    assert read_submission(owner).name == "submissions"
+    with pytest.raises(ValueError, match="this one is aaa"):
+        read_submission(thief)
 
 
 def test_an_ordinary_folder_is_admissible(submissions):

@@ -127,6 +127,7 @@ REFUSED = {
     "name like another": (of_submission("0wner", "0wner"), "resembles owner"),
     "name like ours": (of_submission("md_improved", "md_improved"), "resembles"),
     "version of another": (of_submission("versions/1.1", "versions", "1.1", author="B. Thief"), "none of the authors"),
+    "inside another": (of_submission("owner/2", "owner", "2", author="B. Thief"), "none of the authors"),
     "authors of another": (of_submission("owner", "owner", author="B. Thief"), "none of the authors"),
     "future": (of_submission("mine", "mine", day="9999-12-31"), "9999-12-31"),
     "future of an old one": (of_submission("owner", "owner", day="2026-11-29"), "2026-11-29"),
@@ -158,6 +159,7 @@ def moved_into_versions(clone):
     [
         (of_submission("mine", "mine", day="2026-11-28"), "mine"),
         (of_submission("versions/1.1", "versions", "1.1", day="2026-01-01"), "versions"),
+        (of_submission("owner/2", "owner", "2", day="2026-05-02"), "owner"),
         (of_a_file(b"docs/board/submissions/owner/model.py"), "owner"),
         (moved_into_versions, "owner"),
     ],

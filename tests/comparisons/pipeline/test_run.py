@@ -196,6 +196,15 @@ def test_a_lock_is_free_after_a_kill_and_for_the_same_command(tmp_path):
         pass
 
 
+def test_a_link_in_place_of_the_lock_is_refused_and_its_target_stays(tmp_path):
+    own = tmp_path / "thesis.tex"
+    own.write_text("1")
+    (tmp_path / ".lock").symlink_to(own)
+    with pytest.raises(ValueError, match="symbolic link"), locked(tmp_path):
+        pass
+    assert own.read_text() == "1"
+
+
 def test_what_a_command_writes_last_is_written_under_the_lock(toys, tmp_path, monkeypatch):
     at_end = []
 
