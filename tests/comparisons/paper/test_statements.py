@@ -133,7 +133,7 @@ def test_the_verdicts_are_those_committed(made_of, table):
 
 
 #: Tables of the numbers that the findings quote: of the statements, and of finite strain in percent and in 1e-5.
-_EVIDENCE = ("paper_statements_evidence", "finite_strain", "finite_strain_cancel")
+_EVIDENCE = ("paper_statements_evidence", "finite_strain", "finite_strain_cancel", "what_jkr_neglects")
 
 
 def test_every_statement_that_does_not_hold_is_a_finding_and_every_number_with_a_bound_is_in_the_evidence(
@@ -142,9 +142,9 @@ def test_every_statement_that_does_not_hold_is_a_finding_and_every_number_with_a
     lines = re.findall(r"^Statements: (.*)\.$", FINDINGS, re.MULTILINE)
     listed = [id for line in lines for id in re.findall("`(.+?)`", line)]
     assert sorted(listed) == sorted(table["id"][table["verdict"] != "true"])
-    evidence, strain, zero = (committed(name) for name in _EVIDENCE)
+    evidence, strain, zero, neglected = (committed(name) for name in _EVIDENCE)
     pairs = [evidence[[name, f"u_{name}"]] for name in ("value", "limit")]
-    pairs += [100.0 * strain[["kappa", "u_kappa"]].abs()]
+    pairs += [100.0 * strain[["kappa", "u_kappa"]].abs(), 100.0 * neglected[["total", "u_total"]].abs()]
     ends = zero[["lowest", "highest"]] * 1e5
     pairs += [pd.concat([ends.mean(axis=1), (ends["highest"] - ends["lowest"]) / 2.0], axis=1)]
     texts = {value_text(*row) for pair in pairs for row in pair.dropna().to_numpy()}
