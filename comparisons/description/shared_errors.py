@@ -137,8 +137,12 @@ def _friction(problem: Problem) -> Json:
         return error_of((0.0, 0.0))
     if problem.punch_solid is not None:
         return error_of(None, reason="there is no formula for two elastic bodies")
+    if problem.solid.kind == "homogeneous" and problem.solid["nu"] == 0.5:
+        return error_of((0.0, 0.0))
     if not problem.is_of_the_paper("solid") or problem.posed.k != 0.0:
-        return error_of(None, reason=f"there is no formula for the {problem.solid.kind} solid")
+        return error_of(
+            None, reason=f"there is no formula for the {problem.parts.partition(',')[0].removeprefix('a ')}"
+        )
     nu = problem.solid["nu"]
     compliance = (3.0 - 4.0 * nu) / (4.0 * (1.0 - nu) ** 2)
     if compliance == 1.0:

@@ -125,8 +125,9 @@ def test_without_slip_a_rigid_or_a_very_soft_sphere_has_the_same_force(mu):
     assert friction["error"] == pytest.approx(0.0, abs=1e-12)
 
 
-def test_an_incompressible_solid_does_not_slip():
-    friction = estimates(on_solid("homogeneous", {"E": 1e9, "nu": 0.5}))["friction"]
+@pytest.mark.parametrize("surface", [{}, {"surface_tension": 0.02}])
+def test_an_incompressible_solid_does_not_slip(surface):
+    friction = estimates(on_solid("homogeneous", {"E": 1e9, "nu": 0.5} | surface))["friction"]
     assert (friction["error"], friction["u_num"], friction["basis"]) == (0.0, 0.0, "bound")
 
 
