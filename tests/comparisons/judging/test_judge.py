@@ -133,6 +133,15 @@ def test_a_limit_of_an_uncertainty_is_in_the_unit_of_the_metric(metric, u):
             for bad in (math.nan, math.inf)
         ),
         (results(fscm=0.5, jkr=1.7e308), GATE, "ERROR"),
+        # A refusal is an error, also where enough cases are left, unless the gate leaves it out.
+        *(
+            (
+                results({}, {"jkr": ("not-applicable", 1)}, fscm=2.0, jkr=2.0),
+                gate.replace("min_cases = 4", "min_cases = 1"),
+                outcome,
+            )
+            for gate, outcome in ((GATE, "ERROR"), (LEAVE_OUT, "PASS"))
+        ),
         # Rows that are missing or there twice.
         *((RIGHT.drop(index=index), GATE, "ERROR") for index in (1, 5)),
         (pd.concat([RIGHT, RIGHT.iloc[-1:]]), GATE, "ERROR"),
