@@ -71,6 +71,7 @@ def test_commands_take_the_examples(tmp_path, capsys):
     assert "of a homogeneous solid" in text
     # The errors of the shape are those of one sphere on a plane.
     assert "a paraboloid for the sphere  unknown" in text
+    assert "--large-strain" not in text
     assert main(["solve", "--model", "fscm", "--quantity", "pull_off_force", *spheres]) == 0
     curve = ["curve", "--model", "jkr-surface-tension", *bead, "--csv", str(tmp_path / "curve.csv")]
     assert main(curve) == 0
