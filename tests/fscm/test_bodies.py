@@ -25,6 +25,7 @@ from fscm._adaptivity import initial_mesh
 from fscm._equilibrium import Discretisation
 from fscm._meshes import Mesh, Meshes
 from fscm._panels import PanelMesh
+from fscm.bodies import scaled, tension_length
 from fscm.graded.body import compliance_of
 from fscm.graded.kernel import GradedKernel
 from tests.marks import heavy
@@ -314,3 +315,15 @@ def test_bad_input() -> None:
     refused(r"k = 1 is outside \[0, 1\)", Problem, gibson, SPHERE, LAW, LAYERS)
     refused(r"k = 1 is outside \[0, 1\)", Problem, PowerLaw(1.0, 1.0, 1.0, 0.5, 1.0), SPHERE, LAW)
     refused(r"outside \[1e-20, 1e\+20\]", Problem, Homogeneous(1.0, 0.3, 1e-30), SPHERE, LAW)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.5])
+def test_the_length_of_surface_tension_is_a_length(k):
+    """In a unit of 4 it is a quarter, and there the tension is as stiff as the solid."""
+    solid = PowerLaw(E0=2.0, c0=3.0, k=k, nu=0.3, surface_tension=0.7)
+    length = tension_length(solid)
+    assert tension_length(scaled(solid, 4.0)) == pytest.approx(length / 4.0, rel=1e-14)
+    elastic, tense = (
+        compliance_of(body, np.array([1.0 / length])) for body in (PowerLaw(E0=2.0, c0=3.0, k=k, nu=0.3), solid)
+    )
+    assert elastic / tense == pytest.approx(2.0, rel=1e-12)
