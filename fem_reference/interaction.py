@@ -27,10 +27,11 @@ from typing import Literal, Protocol
 import numpy as np
 from scipy.optimize import brentq
 
+from fem_reference._body_of_revolution import BodyOfRevolution
 from fem_reference._typing import Array
 from fem_reference.laws import LennardJones, Mie, SurfaceLaw
 from fem_reference.profiles import Ball
-from fem_reference.punch import Punch
+from fem_reference.punch import PowerPunch, Punch
 
 __all__ = ["INTERACTIONS", "Body", "Derjaguin", "Interaction", "InteractionName", "interaction_of"]
 
@@ -52,6 +53,9 @@ _RATIO, _FARTHEST = 2.0, 1e5
 
 #: The distance of the largest tension is a length of the law, up to this factor.
 _WIDEST = 10.0
+
+#: Exponents of the laws whose potential of a paraboloid is known.
+_ODD = range(3, 22, 2)
 
 #: Distance in radii beyond which a ball is a point to 1e-6.
 _POINT = 1e3
@@ -297,9 +301,16 @@ def interaction_of(punch: Punch, law: SurfaceLaw, name: InteractionName) -> Inte
         raise ValueError(f"interaction {name!r} is unknown; choose one of {', '.join(INTERACTIONS)}")
     if name != "derjaguin" and isinstance(punch, Ball) and isinstance(law, LennardJones | Mie):
         return Body(punch, law)
-    if name == "body":
+    if name != "body":
+        return Derjaguin(punch, law)
+    if type(punch) is not PowerPunch or punch.n != 2.0 or not isinstance(law, LennardJones | Mie):
         raise ValueError(
-            f"interaction 'body' is known for a Ball under LennardJones or Mie, not for {type(punch).__name__} under "
+            f"interaction 'body' is known for a Ball or a paraboloid under LennardJones or Mie, not for {punch!r} under "
             f"{type(law).__name__}: take 'derjaguin'"
         )
-    return Derjaguin(punch, law)
+    if not all(m in _ODD for _, m in law.powers):
+        raise ValueError(
+            f"interaction 'body' of a paraboloid is known for odd exponents from {_ODD[0]} to {_ODD[-1]}, not for "
+            f"{law!r}: take a Ball or 'derjaguin'"
+        )
+    return BodyOfRevolution(punch, law)

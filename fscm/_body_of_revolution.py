@@ -32,7 +32,7 @@ __all__ = ["BodyOfRevolution", "powers_of_body"]
 
 #: Scale near the axis in the radius of the nearest point of the surface: a far point sees the tip of the punch.
 _TIP = 0.02
-#: Distance from the nearest radius to which the surface is integrated, in the scale there: what is beyond is below
+#: Distance from the nearest radius to which the surface is integrated, in that of the point: what is beyond is below
 #: 1e-17 of the whole for m >= 3.
 _FARTHEST = 3e4
 #: Nodes of a piece: _NODES, and _PER_LENGTH for each unit of its length in the variable of the quadrature.  Measured
@@ -191,11 +191,11 @@ def _evaluated(
     """Powers of the repulsion and of the attraction: traction, slope and drift are asked for one after the other."""
     radius, gap = (np.frombuffer(values).reshape(shape) for values in (r, H))
     z0 = body.law.z0
-    return tuple(powers_of_body(body.punch, body.aspect, body.exponents, radius, z0 + gap, z0))
+    return tuple(powers_of_body(body.punch, body.aspect, body._tip_radius, body.exponents, radius, z0 + gap, z0))
 
 
 def powers_of_body(
-    punch: PunchShape, aspect: float, exponents: tuple[int, ...], r: Array, v: Array, z0: float
+    punch: PunchShape, aspect: float, tip: float, exponents: tuple[int, ...], r: Array, v: Array, z0: float
 ) -> list[tuple[Array, Array, Array]]:
     """p_m, dp_m/dv at a fixed radius, and r dp_m/dr at a fixed v, of each exponent.
 
@@ -204,6 +204,8 @@ def powers_of_body(
     punch : PunchShape
     aspect : float
         Unit of radii over that of heights.
+    tip : float
+        Radius over which the tip is blunt, in the unit of heights: the surface is not smooth over longer distances.
     exponents : tuple of int
         Odd m >= 3.
     r, v : ndarray
@@ -216,11 +218,13 @@ def powers_of_body(
     below = np.flatnonzero(v.ravel() > 0.0)
     for start in range(0, below.size, _BLOCK):
         at = below[start : start + _BLOCK]
-        values[:, :, at] = _block(punch, aspect, exponents, r.ravel()[at], v.ravel()[at] / z0, z0)
+        values[:, :, at] = _block(punch, aspect, tip / z0, exponents, r.ravel()[at], v.ravel()[at] / z0, z0)
     return [(p.reshape(r.shape), by_v.reshape(r.shape), by_r.reshape(r.shape)) for p, by_v, by_r in values]
 
 
-def _block(punch: PunchShape, aspect: float, exponents: tuple[int, ...], r: Array, v: Array, z0: float) -> Array:
+def _block(
+    punch: PunchShape, aspect: float, tip: float, exponents: tuple[int, ...], r: Array, v: Array, z0: float
+) -> Array:
     """The same for a few points, with lengths in z0."""
     unit = aspect / z0
     x, height, slope = unit * r, punch.height(r) / z0, punch.slope(r) / aspect
@@ -236,7 +240,9 @@ def _block(punch: PunchShape, aspect: float, exponents: tuple[int, ...], r: Arra
         outside = middle - x + h * steep > 0.0
         low, high = np.where(outside, low, middle), np.where(outside, middle, high)
     h, steep = surface(high, height, v)
-    rho, weight = _radii(high, np.hypot(high - x, h) / np.sqrt(1.0 + steep**2))
+    distance = np.hypot(high - x, h)
+    scale = np.minimum(distance / np.hypot(1.0, steep), np.hypot(high, tip))
+    rho, weight = _radii(high, scale, _FARTHEST * distance)
     x = x[:, None]
     h, steep = surface(rho, height[:, None], v[:, None])
     near, far = (rho - x) ** 2 + h**2, (rho + x) ** 2 + h**2
@@ -277,14 +283,14 @@ def _power(base: Array, exponent: int) -> Array:
     return half * half * base if exponent % 2 else half * half
 
 
-def _radii(nearest: Array, scale: Array) -> tuple[Array, Array]:
+def _radii(nearest: Array, scale: Array, farthest: Array) -> tuple[Array, Array]:
     """Radii of the surface and weights, finer at the axis and around the nearest one of each point."""
     tip = _TIP * nearest + np.finfo(float).tiny
     radii, all_weights = [], []
     for center, size, sign, extent in (
         (np.zeros_like(nearest), tip, 1.0, 0.5 * nearest),
         (nearest, scale, -1.0, 0.5 * nearest),
-        (nearest, scale, 1.0, _FARTHEST * scale),
+        (nearest, scale, 1.0, farthest),
     ):
         length = np.arcsinh(extent / size)
         nodes, weights = np.polynomial.legendre.leggauss(_NODES + math.ceil(_PER_LENGTH * float(length.max())))
