@@ -26,8 +26,8 @@ from fem_reference.punch import PowerPunch
 __all__ = ["BodyOfRevolution"]
 
 #: Nodes of an integral over the face, for each unit of the logarithm of distances, and in addition.  Measured on
-#: paraboloids of 5 to 1e6 lengths of the law: 1e-10 of the potential.
-_DENSITY, _LEAST = 3.0, 14
+#: paraboloids of 3 to 1e4 lengths of the law: 3e-11 of the potential.
+_DENSITY, _LEAST = 4.0, 16
 
 #: Radii are resolved to this share of the nearest one at the axis; the face is followed to this many distances.
 _INNER, _OUTER = 0.03, 1e4
@@ -40,7 +40,7 @@ _BATCH = 250
 
 #: Quadrature of the energy: nodes of a piece, over depths that grow by a ratio, to this many radii.
 _GAUSS = np.polynomial.legendre.leggauss(12)
-_RATIO, _FARTHEST = 4.0, 1e5
+_RATIO, _FARTHEST = 2.0, 1e4
 
 #: Steps of Newton's method for the largest tension, each of which leaves a tenth of the error or less; relative step of
 #: the difference for its slope.
@@ -81,7 +81,9 @@ class BodyOfRevolution:
 
     def _sum(self, rho: Array, gap: Array, part: int) -> Array:
         powers = self._powers(rho, gap)
-        return np.asarray(sum(strength * power[part] for (strength, _), power in zip(self.law.powers, powers, strict=True)))
+        return np.asarray(
+            sum(strength * power[part] for (strength, _), power in zip(self.law.powers, powers, strict=True))
+        )
 
     def _powers(self, rho: Array, gap: Array) -> Array:
         """Powers of the law, and their derivatives by radius and gap, shape (2, 3, ...)."""

@@ -15,7 +15,8 @@ of its centre, d = s - R and D = s + R,
     p_m = z0^m { d^-m - D^-m - m/((m-1) s) [d^(1-m) - D^(1-m)] },
 
 which is (z0/d)^m for R -> infinity, and [(s^2 - R^2)/(2 R z0)]^-3 for m = 3.  With c = R - f(rho), the height of the
-centre above the face of the punch, s^2 - R^2 = (z0 + H)(2 c + z0 + H) on the sphere, which does not cancel.
+centre above the face of the punch, s^2 - R^2 = (z0 + H)(2 c + z0 + H) on the sphere, which does not cancel.  That of a
+paraboloid is in `fem_reference._body_of_revolution`.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ from fem_reference.punch import PowerPunch, Punch
 
 __all__ = ["INTERACTIONS", "Body", "Derjaguin", "Interaction", "InteractionName", "interaction_of"]
 
-#: Names of the interactions; "auto" is "body" where it is known.
+#: Names of the interactions; "auto" is "body" for a ball.
 InteractionName = Literal["auto", "body", "derjaguin"]
 INTERACTIONS: tuple[InteractionName, ...] = ("auto", "body", "derjaguin")
 
@@ -285,7 +286,7 @@ def interaction_of(punch: Punch, law: SurfaceLaw, name: InteractionName) -> Inte
     punch : Punch
     law : SurfaceLaw
     name : {"auto", "body", "derjaguin"}
-        "auto" is "body" where it is known: for a `Ball` under a `LennardJones` or `Mie` law.
+        "auto" is "body" for a `Ball` under a `LennardJones` or `Mie` law.
 
     Raises
     ------
@@ -305,8 +306,8 @@ def interaction_of(punch: Punch, law: SurfaceLaw, name: InteractionName) -> Inte
         return Derjaguin(punch, law)
     if type(punch) is not PowerPunch or punch.n != 2.0 or not isinstance(law, LennardJones | Mie):
         raise ValueError(
-            f"interaction 'body' is known for a Ball or a paraboloid under LennardJones or Mie, not for {punch!r} under "
-            f"{type(law).__name__}: take 'derjaguin'"
+            f"interaction 'body' is known for a Ball or a paraboloid under LennardJones or Mie, not for {punch!r} "
+            f"under {type(law).__name__}: take 'derjaguin'"
         )
     if not all(m in _ODD for _, m in law.powers):
         raise ValueError(

@@ -1,8 +1,8 @@
-r"""Potential of the atoms that fill a punch z >= f(rho) without end, at a point below its surface.
+r"""Potential of the atoms that fill a paraboloid z >= f(rho) without end, at a point below its surface.
 
 The integral of the pair potential d^-(m+3) over the punch is one over its surface, because
-div(x d^-(m+3)) = -m d^-(m+3) for the vector x from the point; gradients are integrals of d^-(m+3) over the surface.  With
-a point at the radius r, h = f(rho) - f(r) + v the height of the surface above it, and the integrals over the azimuth
+div(x d^-(m+3)) = -m d^-(m+3) for the vector x from the point; gradients are integrals of d^-(m+3) over the surface.
+With a point at the radius r, h = f(rho) - f(r) + v the height of the surface above it, and over the azimuth
 
     J = int d^-(m+3) dphi,   K = int (1 - cos phi) d^-(m+3) dphi,   d^2 = C - D cos phi,
 
@@ -12,8 +12,8 @@ the power (z0/v)^m of the law over a half-space becomes, with c = m (m+1) z0^m/(
     dp_m/dv = -c int J rho drho,   dp_m/dr at a fixed height of the point = -c int f' (J - K) rho drho.
 
 By tan(phi/2) = sqrt((C-D)/(C+D)) tan(psi/2), d^2 = (C^2 - D^2)/(C + D cos psi) and 1 - cos phi =
-(C - D) (1 - cos psi)/(C + D cos psi).  For odd m, J and K are integrals of polynomials in cos psi, for which equal angles
-are exact.
+(C - D) (1 - cos psi)/(C + D cos psi).  For odd m, J and K are integrals of polynomials in cos psi, for which equal
+angles are exact.
 """
 
 from __future__ import annotations
@@ -36,7 +36,8 @@ _TIP = 0.02
 #: 1e-17 of the whole for m >= 3.
 _FARTHEST = 3e4
 #: Nodes of a piece: _NODES, and _PER_LENGTH for each unit of its length in the variable of the quadrature.  Measured
-#: against three times as many on cones, paraboloids and rounded cones: no power changes by more than 3e-13.
+#: against three times as many on paraboloids of 5 to 1e4 lengths of the law: powers change by less than 3e-13 of
+#: themselves up to 100 radii of the tip, and by 1e-7 at 1e6 of them, where 1e-12 of the load is left.
 _NODES, _PER_LENGTH = 16, 4.0
 #: Halvings of the radius in the search of the nearest point, which only scales the quadrature.
 _HALVINGS = 25
@@ -139,9 +140,10 @@ class BodyOfRevolution:
         return self._strength * (repulsion[2] - attraction[2])
 
     def size(self, r: Array, H: Array) -> Array:
-        """Repulsion and attraction, whose difference is the traction."""
+        """Repulsion and attraction, and what the rounding of the height at the point makes of them."""
         repulsion, attraction = self._powers(r, H)
-        return self._strength * (repulsion[0] + attraction[0])
+        by_height = self.punch.height(r) * (repulsion[1] + attraction[1])
+        return np.asarray(self._strength * (repulsion[0] + attraction[0] - by_height))
 
     def peak_gap(self, r: Array) -> Array:
         """Gap of the largest tension at a radius."""

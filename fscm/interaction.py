@@ -4,7 +4,8 @@ A point of the surface at the radius r has the vertical gap H to the punch.
 
 * `Derjaguin`: the traction is the law at H, as if the facing parts were parallel.  The work of adhesion counts for the
   projected area.
-* `Body`: the traction is the potential of all atoms of the punch at the point.  It counts for the true area.
+* `Body`: the traction is the potential of all atoms of a ball at the point.  It counts for the true area.  That of a
+  paraboloid is in `fscm._body_of_revolution`.
 
 Atoms whose law over a half-space has the powers (v/z0)^-m, v = z0 + H, attract each other with pair potentials of the
 powers m + 3.  Their integral over a ball of the radius R, at the distance s of its center, d = s - R of its surface and
@@ -360,8 +361,8 @@ def interaction_of(punch: PunchShape, law: SurfaceLaw, name: str) -> Interaction
     Raises
     ------
     ValueError
-        For an unknown name, and for "body" where it is not known: for any punch but a `Ball`, and for a law that is no
-        difference of two powers.
+        For an unknown name, and for "body" where it is not known: for any punch but a `Ball` or a paraboloid, and for a law
+        that is no difference of two powers, which have to be odd for a paraboloid.
 
     Examples
     --------
@@ -376,8 +377,8 @@ def interaction_of(punch: PunchShape, law: SurfaceLaw, name: str) -> Interaction
         return Body(punch, law)  # type: ignore[arg-type]  # checked above
     if type(shape) is not PowerPunch or shape.n != 2.0 or type(law) not in (LennardJones, Mie):
         raise ValueError(
-            f"interaction 'body' is known for a Ball or a paraboloid under LennardJones or Mie, not for {shape!r} under "
-            f"{type(law).__name__}: take 'derjaguin'"
+            f"interaction 'body' is known for a Ball or a paraboloid under LennardJones or Mie, not for {shape!r} "
+            f"under {type(law).__name__}: take 'derjaguin'"
         )
     odd = isinstance(law, LennardJones) or all(m in _ODD for m in (law.m, law.n))  # type: ignore[attr-defined]
     if not odd:

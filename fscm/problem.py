@@ -70,7 +70,8 @@ class Problem:
         E(0) / (1 - nu(0)^2) of one graded solid.
     interaction : str
         Of the surface: "derjaguin", the law at the vertical gap, or "body", the potential of the punch at the place of
-        each point, which is known for a rigid `Ball` under `LennardJones` or `Mie` (see `fscm.interaction`).
+        each point, which is known for a rigid `Ball` or paraboloid under `LennardJones` or `Mie` (see
+        `fscm.interaction`).
 
     Attributes
     ----------
@@ -211,8 +212,8 @@ class Problem:
         interaction_of(punch, law, interaction)
         if interaction == "body" and isinstance(punch, PowerPunch):
             raise ValueError(
-                "interaction 'body' is not known for a dimensionless PowerPunch: the potential needs the ratio of radii to "
-                "heights; state the problem in physical units, or take 'derjaguin'"
+                "interaction 'body' is not known for a dimensionless PowerPunch: the potential needs the ratio of radii "
+                "to heights; state the problem in physical units, or take 'derjaguin'"
             )
         if k == 1.0 and interaction != "derjaguin":
             raise ValueError(
