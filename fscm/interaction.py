@@ -361,8 +361,8 @@ def interaction_of(punch: PunchShape, law: SurfaceLaw, name: str) -> Interaction
     Raises
     ------
     ValueError
-        For an unknown name, and for "body" where it is not known: for any punch but a `Ball` or a paraboloid, and for a law
-        that is no difference of two powers, which have to be odd for a paraboloid.
+        For an unknown name, and for "body" where it is not known: for any punch but a `Ball` or a paraboloid, and for
+        a law that is no difference of two powers, which have to be odd for a paraboloid.
 
     Examples
     --------

@@ -212,8 +212,8 @@ class Problem:
         interaction_of(punch, law, interaction)
         if interaction == "body" and isinstance(punch, PowerPunch):
             raise ValueError(
-                "interaction 'body' is not known for a dimensionless PowerPunch: the potential needs the ratio of radii "
-                "to heights; state the problem in physical units, or take 'derjaguin'"
+                "interaction 'body' is not known for a dimensionless PowerPunch: it needs the ratio of radii to "
+                "heights; state the problem in physical units, or take 'derjaguin'"
             )
         if k == 1.0 and interaction != "derjaguin":
             raise ValueError(

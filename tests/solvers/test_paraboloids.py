@@ -140,7 +140,7 @@ def test_what_is_not_known_is_refused(package):
     sphere = package.PowerPunch(2.0, 1e-6)
     refused("paraboloid.*n=1.0", package.Problem, solid, package.PowerPunch(1.0, 1.0), law, interaction="body")
     refused("m=12.0", package.Problem, solid, sphere, package.Mie(0.05, 1e-9, 12.0, 6.0), interaction="body")
-    gap = np.linspace(-5e-10, 3e-8, 200)
+    gap = 1e-9 * (np.geomspace(0.8, 30.0, 60) - 1.0)
     table = package.TabulatedLaw(gap, law.traction(gap), z0=1e-9)
     refused("TabulatedLaw", package.Problem, solid, sphere, table, interaction="body")
 
