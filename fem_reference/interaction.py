@@ -15,7 +15,8 @@ of its centre, d = s - R and D = s + R,
     p_m = z0^m { d^-m - D^-m - m/((m-1) s) [d^(1-m) - D^(1-m)] },
 
 which is (z0/d)^m for R -> infinity, and [(s^2 - R^2)/(2 R z0)]^-3 for m = 3.  With c = R - f(rho), the height of the
-centre above the face of the punch, s^2 - R^2 = (z0 + H)(2 c + z0 + H) on the sphere, which does not cancel.
+centre above the face of the punch, s^2 - R^2 = (z0 + H)(2 c + z0 + H) on the sphere, which does not cancel.  That of a
+paraboloid is in `fem_reference._body_of_revolution`.
 """
 
 from __future__ import annotations
@@ -27,14 +28,15 @@ from typing import Literal, Protocol
 import numpy as np
 from scipy.optimize import brentq
 
+from fem_reference._body_of_revolution import BodyOfRevolution
 from fem_reference._typing import Array
 from fem_reference.laws import LennardJones, Mie, SurfaceLaw
 from fem_reference.profiles import Ball
-from fem_reference.punch import Punch
+from fem_reference.punch import PowerPunch, Punch
 
 __all__ = ["INTERACTIONS", "Body", "Derjaguin", "Interaction", "InteractionName", "interaction_of"]
 
-#: Names of the interactions; "auto" is "body" where it is known.
+#: Names of the interactions; "auto" is "body" for a ball.
 InteractionName = Literal["auto", "body", "derjaguin"]
 INTERACTIONS: tuple[InteractionName, ...] = ("auto", "body", "derjaguin")
 
@@ -52,6 +54,9 @@ _RATIO, _FARTHEST = 2.0, 1e5
 
 #: The distance of the largest tension is a length of the law, up to this factor.
 _WIDEST = 10.0
+
+#: Exponents of the laws whose potential of a paraboloid is known.
+_ODD = range(3, 22, 2)
 
 #: Distance in radii beyond which a ball is a point to 1e-6.
 _POINT = 1e3
@@ -281,7 +286,7 @@ def interaction_of(punch: Punch, law: SurfaceLaw, name: InteractionName) -> Inte
     punch : Punch
     law : SurfaceLaw
     name : {"auto", "body", "derjaguin"}
-        "auto" is "body" where it is known: for a `Ball` under a `LennardJones` or `Mie` law.
+        "auto" is "body" for a `Ball` under a `LennardJones` or `Mie` law.
 
     Raises
     ------
@@ -297,9 +302,16 @@ def interaction_of(punch: Punch, law: SurfaceLaw, name: InteractionName) -> Inte
         raise ValueError(f"interaction {name!r} is unknown; choose one of {', '.join(INTERACTIONS)}")
     if name != "derjaguin" and isinstance(punch, Ball) and isinstance(law, LennardJones | Mie):
         return Body(punch, law)
-    if name == "body":
+    if name != "body":
+        return Derjaguin(punch, law)
+    if type(punch) is not PowerPunch or punch.n != 2.0 or not isinstance(law, LennardJones | Mie):
         raise ValueError(
-            f"interaction 'body' is known for a Ball under LennardJones or Mie, not for {type(punch).__name__} under "
-            f"{type(law).__name__}: take 'derjaguin'"
+            f"interaction 'body' is known for a Ball or a paraboloid under LennardJones or Mie, not for {punch!r} "
+            f"under {type(law).__name__}: take 'derjaguin'"
         )
-    return Derjaguin(punch, law)
+    if not all(m in _ODD for _, m in law.powers):
+        raise ValueError(
+            f"interaction 'body' of a paraboloid is known for odd exponents from {_ODD[0]} to {_ODD[-1]}, not for "
+            f"{law!r}: take a Ball or 'derjaguin'"
+        )
+    return BodyOfRevolution(punch, law)

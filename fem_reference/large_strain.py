@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from fem_reference._body_of_revolution import BodyOfRevolution
 from fem_reference._contact.bodies import condition_of
 from fem_reference._large_strain.block import Friction
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent, linear_event
@@ -66,7 +67,11 @@ def _check(problem: Problem, friction: Friction, form: Form, interaction: Intera
         raise ValueError(f"friction {friction!r} is unknown; choose 'frictionless' or 'bonded'")
     if form not in ("auto", "displacement", "mixed"):
         raise ValueError(f"form {form!r} is unknown; choose 'auto', 'displacement' or 'mixed'")
-    interaction_of(problem.punch, problem.law, interaction)
+    if isinstance(interaction_of(problem.punch, problem.law, interaction), BodyOfRevolution):
+        raise ValueError(
+            f"interaction 'body' of {problem.punch!r} is not known at finite strain, where the punch has to be a Ball; "
+            "take 'derjaguin', or `solve`"
+        )
     if problem.punch_solid is not None:
         raise ValueError(
             f"punch_solid = {problem.punch_solid!r} cannot be had at finite strain, where displacements do not add and "

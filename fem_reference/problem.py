@@ -42,8 +42,8 @@ class Problem:
         Rigid by default.
     interaction : {"derjaguin", "body", "auto"}
         Where the surface force of small strain is taken: the law at the vertical gap, or the potential of a rigid punch
-        at the place of each point, which is known for a `Ball` under `LennardJones` or `Mie`; "auto" is "body" where it
-        is known.
+        at the place of each point, which is known for a `Ball` or a paraboloid under `LennardJones` or `Mie` (of odd
+        exponents for a paraboloid); "auto" is "body" for a `Ball` under these laws.
 
     Raises
     ------

@@ -16,7 +16,7 @@ import numpy as np
 from fscm._kernel import kernel_of
 from fscm._tail_of_body import TailOfBody
 from fscm._typing import Array
-from fscm.interaction import Body
+from fscm.interaction import Derjaguin
 from fscm.problem import Problem
 
 __all__ = ["Tail", "deformation_beyond", "tail_energy", "tail_errors", "tail_of", "tail_variation"]
@@ -76,7 +76,7 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
     displacement : float
         delta, in z0; w is neglected.
     """
-    if isinstance(problem.force, Body):
+    if not isinstance(problem.force, Derjaguin):
         body = TailOfBody(problem, T, displacement)
         return Tail(body.load[0], body.lift[0], body.load[1], body.lift[1], body.load[2], body.lift[2])
     C, m = problem.law.decay
@@ -150,7 +150,7 @@ def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array,
     >>> bool(abs(computed[0]) < 1e-15), bool(remainder[0] < 1e-6 * abs(computed[0]))
     (True, True)
     """
-    if isinstance(problem.force, Body):
+    if not isinstance(problem.force, Derjaguin):
         return TailOfBody(problem, T, displacement).errors()
     C, m = problem.law.decay
     if C == 0.0 or _height(problem, T) > _ZERO:
@@ -223,7 +223,7 @@ def tail_variation(problem: Problem, T: float, displacement: float, radii: Array
     # The change falls or rises with t between two rings; beyond the last one it falls.
     largest = np.maximum(change, np.append(change[1:], change[-1:], axis=0))
     power = problem.law.decay[1] * problem.punch.growth
-    if isinstance(problem.force, Body):
+    if not isinstance(problem.force, Derjaguin):
         power = TailOfBody(problem, T, displacement).least_exponent()
     at_end = float(problem.force.traction(np.array(T), np.array(_height(problem, T) - displacement)))
     strength = abs(at_end) * T / (power - 1.0)
@@ -265,7 +265,7 @@ def tail_energy(problem: Problem, T: float, displacement: float) -> float:
     problem, T, displacement
         As for `tail_of`.
     """
-    if isinstance(problem.force, Body):
+    if not isinstance(problem.force, Derjaguin):
         return TailOfBody(problem, T, displacement).energy
     return _tail_energy(problem, T, displacement, 1)
 

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from fscm._typing import Array
-from fscm.interaction import Body
+from fscm.interaction import Body, BodyOfRevolution
 from fscm.problem import Problem
 
 __all__ = ["TailOfBody"]
@@ -22,8 +22,8 @@ __all__ = ["TailOfBody"]
 #: of the traction is half a turn away in its logarithm, and the error of a piece 1e-27.
 _RATIO = 4.0
 _GAUSS = np.polynomial.legendre.leggauss(20)
-#: The traction is a power beyond this many radii of the ball, and beyond this many of the mesh.
-_BALL_RADII, _MESH_RADII = 300.0, 16.0
+#: The traction is a power beyond this many radii of the mesh, where it is one of the punch.
+_MESH_RADII = 16.0
 #: Quadrature over distant rings of a solid that is no power law, as in `fscm._tail`: t^-a falls by at most exp(-_FALL)
 #: on a piece, and by exp(-_LEFT) on all of them; farthest ring whose response is computed in two ways.
 _FALL, _LEFT, _BEYOND_REACH = 8.0, 42.0, 100.0
@@ -48,10 +48,10 @@ class TailOfBody:
     cuts: int = 1
 
     @property
-    def force(self) -> Body:
+    def force(self) -> Body | BodyOfRevolution:
         """The interaction."""
         force = self.problem.force
-        assert isinstance(force, Body)  # the caller asked
+        assert isinstance(force, Body | BodyOfRevolution)  # the caller asked
         return force
 
     @cached_property
@@ -66,7 +66,7 @@ class TailOfBody:
     @cached_property
     def far(self) -> float:
         """Radius from which on the traction is a power."""
-        far = max(_MESH_RADII * self.T, _BALL_RADII * self.force.ball_radius / self.force.aspect)
+        far = max(_MESH_RADII * self.T, self.force.far_radius)
         if self.problem.response is not None:
             reach = max(self.T, _BEYOND_REACH * self.problem.response.distant.reach)
             far = max(far, min(reach, self.T * math.exp(_LEFT / (self.exponent - 1.0))))
@@ -108,8 +108,8 @@ class TailOfBody:
         """
         t, weights = self._rule
         values = []
-        # The derivative falls faster by two powers: it is that of the distance of a point.
-        for p, q in zip(self._tractions, (self.exponent, self.exponent + 2.0), strict=True):
+        exponents = self.exponent, self.exponent + self.force.slope_falls_by
+        for p, q in zip(self._tractions, exponents, strict=True):
             beyond = p[-1] * response[-1] * self.far / (q - 1.0 - power)
             values.append(float((weights * t * response[:-2]) @ p[:-2] + beyond))
         return values[0], -float(self._tractions[0][-2] * response[-2]) * self.T, values[1]
@@ -145,7 +145,7 @@ class TailOfBody:
         p, farther = self._tractions[0][-1], float(self.traction(np.array([_RATIO * self.far]))[0])
         relative = abs(farther / p * _RATIO**self.exponent - 1.0)
         load = 2.0 * p * self.far**2 / (self.exponent - 2.0)
-        energy = 2.0 * p * self.far**2 * (abs(self.displacement) + self.force.ball_radius + self.far)
+        energy = 2.0 * p * self.far**2 * (abs(self.displacement) + self.force.size_of_punch + self.far)
         lifted, of_lift = (finer.lift[0], 0.0) if self.problem.response is None else self._lifted_by_waves(finer)
         beyond = self.problem.compliance * abs(p) * self.far ** (1.0 - self.problem.k)
         computed = self.load[0] - finer.load[0], self.lift[0] - lifted, self.energy - finer.energy

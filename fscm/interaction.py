@@ -4,7 +4,8 @@ A point of the surface at the radius r has the vertical gap H to the punch.
 
 * `Derjaguin`: the traction is the law at H, as if the facing parts were parallel.  The work of adhesion counts for the
   projected area.
-* `Body`: the traction is the potential of all atoms of the punch at the point.  It counts for the true area.
+* `Body`: the traction is the potential of all atoms of a ball at the point.  It counts for the true area.  That of a
+  paraboloid is in `fscm._body_of_revolution`.
 
 Atoms whose law over a half-space has the powers (v/z0)^-m, v = z0 + H, attract each other with pair potentials of the
 powers m + 3.  Their integral over a ball of the radius R, at the distance s of its center, d = s - R of its surface and
@@ -28,9 +29,10 @@ from typing import Protocol
 import numpy as np
 import scipy
 
+from fscm._body_of_revolution import BodyOfRevolution
 from fscm._typing import Array
 from fscm.laws import LennardJones, Mie, SurfaceLaw
-from fscm.punch import Ball, PunchShape, ScaledPunch
+from fscm.punch import Ball, PowerPunch, PunchShape, ScaledPunch
 
 __all__ = ["INTERACTIONS", "Body", "Derjaguin", "Interaction", "check_interaction", "interaction_of"]
 
@@ -45,6 +47,10 @@ _LAST_POWER = 33
 #: begins at _FARTHEST sizes of ball and radius, beyond which the traction is a power of the distance.
 _GAUSS = np.polynomial.legendre.leggauss(20)
 _FARTHER, _FARTHEST = 4.0, 40.0
+#: Exponents of the laws whose potential of a paraboloid is known.
+_ODD = range(3, 22, 2)
+#: The traction is a power of the radius beyond this many radii of the ball.
+_BALL_RADII = 300.0
 #: Logarithm of the distance of the largest tension in lengths of the law: between these.
 _LOG_PEAK = -2.5, 2.5
 
@@ -179,6 +185,21 @@ class Body:
     def falls_as(self, r: float) -> float:
         """Exponent of p ~ r^-q far away, at which the ball is a point."""
         return self.exponents[1] + 3.0
+
+    @property
+    def slope_falls_by(self) -> float:
+        """Exponent by which dp/dH falls faster: p depends on the distance of a point."""
+        return 2.0
+
+    @property
+    def far_radius(self) -> float:
+        """Radius beyond which the traction is nearly a power."""
+        return _BALL_RADII * self.ball_radius / self.aspect
+
+    @property
+    def size_of_punch(self) -> float:
+        """Its radius in the unit of heights."""
+        return self.ball_radius
 
     def _distances(self, r: Array, H: Array) -> _Distances:
         R, v = self.ball_radius, self.law.z0 + np.asarray(H, float)
@@ -340,8 +361,8 @@ def interaction_of(punch: PunchShape, law: SurfaceLaw, name: str) -> Interaction
     Raises
     ------
     ValueError
-        For an unknown name, and for "body" where it is not known: for any punch but a `Ball`, and for a law that is no
-        difference of two powers.
+        For an unknown name, and for "body" where it is not known: for any punch but a `Ball` or a paraboloid, and for
+        a law that is no difference of two powers, which have to be odd for a paraboloid.
 
     Examples
     --------
@@ -354,7 +375,15 @@ def interaction_of(punch: PunchShape, law: SurfaceLaw, name: str) -> Interaction
     shape = punch.punch if isinstance(punch, ScaledPunch) else punch
     if isinstance(shape, Ball) and type(law) in (LennardJones, Mie):
         return Body(punch, law)  # type: ignore[arg-type]  # checked above
-    raise ValueError(
-        f"interaction 'body' is known for a Ball under LennardJones or Mie, not for {type(shape).__name__} under "
-        f"{type(law).__name__}: take 'derjaguin'"
-    )
+    if type(shape) is not PowerPunch or shape.n != 2.0 or type(law) not in (LennardJones, Mie):
+        raise ValueError(
+            f"interaction 'body' is known for a Ball or a paraboloid under LennardJones or Mie, not for {shape!r} "
+            f"under {type(law).__name__}: take 'derjaguin'"
+        )
+    odd = isinstance(law, LennardJones) or all(m in _ODD for m in (law.m, law.n))  # type: ignore[attr-defined]
+    if not odd:
+        raise ValueError(
+            f"interaction 'body' of a paraboloid is known for odd exponents from {_ODD[0]} to {_ODD[-1]}, not for "
+            f"{law!r}: take a Ball or 'derjaguin'"
+        )
+    return BodyOfRevolution(punch, law)  # type: ignore[arg-type]  # checked above

@@ -17,7 +17,7 @@ from fscm._validation import real_number
 from fscm.bodies import Bodies, ScaledSolid, power_law_of, scaled, tension_length, tension_of
 from fscm.interaction import Interaction, interaction_of
 from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law
-from fscm.punch import PowerPunch, PunchShape, scaled_punch, unit_of_radii
+from fscm.punch import PowerPunch, PunchShape, ScaledPunch, scaled_punch, unit_of_radii
 from fscm.solids import GradedHalfSpace, PowerLaw, Solid
 
 __all__ = ["Problem"]
@@ -70,7 +70,8 @@ class Problem:
         E(0) / (1 - nu(0)^2) of one graded solid.
     interaction : str
         Of the surface: "derjaguin", the law at the vertical gap, or "body", the potential of the punch at the place of
-        each point, which is known for a rigid `Ball` under `LennardJones` or `Mie` (see `fscm.interaction`).
+        each point, which is known for a rigid `Ball` or paraboloid under `LennardJones` or `Mie` (see
+        `fscm.interaction`).
 
     Attributes
     ----------
@@ -209,6 +210,11 @@ class Problem:
             )
         law = dimensionless_law(law)
         interaction_of(punch, law, interaction)
+        if interaction == "body" and isinstance(punch, PowerPunch):
+            raise ValueError(
+                "interaction 'body' is not known for a dimensionless PowerPunch: it needs the ratio of radii to "
+                "heights; state the problem in physical units, or take 'derjaguin'"
+            )
         if k == 1.0 and interaction != "derjaguin":
             raise ValueError(
                 f"interaction {interaction!r} is not known for k = 1: the Gibson solid is solved for a traction that "
@@ -237,7 +243,9 @@ class Problem:
         k = power_law.k
         _check_exponents(n, k, punch, law)
         mu = number_from_log("Tabor number", log_tabor_number(power_law, n, Q, w, z0))
-        shape = PowerPunch(n) if type(punch) is PowerPunch else scaled_punch(punch, units["radius"], z0)
+        shape: PunchShape = ScaledPunch(punch, units["radius"], z0)
+        if interaction == "derjaguin":
+            shape = PowerPunch(n) if type(punch) is PowerPunch else scaled_punch(punch, units["radius"], z0)
         if punch_solid is not None and interaction != "derjaguin":
             raise ValueError(
                 f"interaction {interaction!r} is not known with a punch_solid: the potential is that of a rigid punch; "

@@ -53,7 +53,7 @@ LAYERS = {
     "fscm": (
         ("errors", "_typing", "_threads", "_validation", "_presentation", "_response_factor", "_law_curve"),
         ("laws", "tabulated_law", "punch", "custom_punch", "measured_punch"),
-        ("interaction", "solids", "layers", "tabulated_modulus", "custom_solid"),
+        ("_body_of_revolution", "interaction", "solids", "layers", "tabulated_modulus", "custom_solid"),
         ("bodies", "_units"),
         ("_meshes", "_kernel", "_azimuthal_kernel", "_panels", "_samples", "_response_store", "_deformation"),
         ("graded",),
@@ -71,7 +71,7 @@ LAYERS = {
     "fem_reference": (
         ("_typing", "_threads", "_validation", "_presentation", "errors", "_law_between_points"),
         ("modulus", "coating", "poisson", "depth_profiles", "modulus_checks", "layers", "solids", "neo_hookean"),
-        ("punch", "profiles", "laws", "tabulated_law", "interaction", "problem", "accuracy"),
+        ("punch", "profiles", "laws", "tabulated_law", "_body_of_revolution", "interaction", "problem", "accuracy"),
         ("_elastic",),
         ("_linear",),
         ("_contact",),

@@ -142,5 +142,4 @@ def test_the_name_of_the_interaction_is_an_argument_and_a_part_of_the_problem():
     named = fem_reference.solve(vertical, "pull_off_force", "quick", interaction="body").value
     assert stated == named != of_gaps
     for package in (fscm, fem_reference):
-        refused("PowerPunch", package.solve, ball(package, 1e-3, 1.0, shape=""), "pull_off_force", interaction="body")
         refused("unknown", package.trace, ball(package, 1e-3, 1.0), interaction="vertical")
