@@ -145,6 +145,14 @@ def test_what_is_not_known_is_refused(package):
     refused("TabulatedLaw", package.Problem, solid, sphere, table, interaction="body")
 
 
+@pytest.mark.parametrize(
+    "solid", [fscm.Coating(10.0, 1.0, 0.2, 0.0, 0.2, 0.45), fscm.Homogeneous(1.0, 0.3, surface_tension=0.1)]
+)
+def test_only_power_laws_without_tension_have_its_tail(solid):
+    parts = solid, fscm.PowerPunch(2.0, 1.0), fscm.LennardJones(0.02, 0.02)
+    refused("without surface tension", fscm.Problem, *parts, interaction="body")
+
+
 def test_the_aspect_has_to_be_known():
     refused("ratio of radii to heights", fscm.Problem, 2.0, 0.0, 1.0, interaction="body")
 
