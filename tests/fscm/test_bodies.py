@@ -25,9 +25,10 @@ from fscm._adaptivity import initial_mesh
 from fscm._equilibrium import Discretisation
 from fscm._meshes import Mesh, Meshes
 from fscm._panels import PanelMesh
-from fscm.bodies import scaled, tension_length
+from fscm.bodies import Bodies, scaled, tension_length
 from fscm.graded.body import compliance_of
 from fscm.graded.kernel import GradedKernel
+from fscm.graded.response import SurfaceResponse
 from tests.marks import heavy
 from tests.refusals import refused
 from tests.solvers.layered_jkr import Stack
@@ -327,3 +328,22 @@ def test_the_length_of_surface_tension_is_a_length(k):
         compliance_of(body, np.array([1.0 / length])) for body in (PowerLaw(E0=2.0, c0=3.0, k=k, nu=0.3), solid)
     )
     assert elastic / tense == pytest.approx(2.0, rel=1e-12)
+
+
+def test_the_bound_of_the_kernel_is_that_of_its_waves(monkeypatch):
+    """An error e(xi) of the compliance moves the axis by int e d(xi) int p r dr under a pressure on a small spot."""
+    solids, _ = CASES["power and layers"]
+    response = _problem(solids).dimensionless.response
+    wave, c = 1e-3, 1.3
+    monkeypatch.setattr(type(response.kernel.images), "error", lambda images, xi: 1e-3 * np.exp(-xi / wave))
+    mesh = PanelMesh(BREAKS, 16)
+    pressure = np.where(mesh.nodes < 1.0, 1.0, 0.0)
+    _, axis = response.error(mesh, c, pressure)
+    moved = 1e-3 * wave * float((pressure * mesh.nodes) @ mesh.weights)
+    assert axis == pytest.approx(response.weight * c ** (1.0 + response.k) * moved, rel=1e-2)
+
+
+def test_power_laws_of_one_exponent_add():
+    """A problem merges them before; the response of both does not depend on that."""
+    soft, stiff = PowerLaw(1.0, 2.0, 0.4, 0.3), PowerLaw(3.0, 2.0, 0.4, 0.3)
+    assert SurfaceResponse(Bodies((soft, stiff))).power_laws == {0.4: pytest.approx(1.0, rel=1e-14)}
