@@ -99,9 +99,26 @@ def test_damage_never_changes_an_entry(folder, capsys):
     assert lost > 0
 
 
-def test_the_code_that_computed_an_entry_cannot_be_changed(folder):
+def changed(folder, command):
     with closing(sqlite3.connect(folder / STORE)) as database, database:
-        database.execute("UPDATE environments SET content = replace(content, '\"x\"', '\"y\"')")
+        database.execute(command)
+
+
+def test_a_damaged_store_is_written_again(folder, capsys):
+    changed(folder, "UPDATE items SET seconds = seconds + 1 WHERE key = '1'")
+    for damaged in (True, False):
+        assert len(stored(folder)) == len(ENTRIES) - 1
+        assert ("is damaged" in capsys.readouterr().err) == damaged
+
+
+def test_an_entry_of_another_form_is_not_taken(folder):
+    changed(folder, "UPDATE items SET form = 'calls'")
+    with Store(folder, Form("calls", lambda entry: entry["id"], dict, dict), "x") as store:
+        assert store.items == []
+
+
+def test_the_code_that_computed_an_entry_cannot_be_changed(folder):
+    changed(folder, "UPDATE environments SET content = replace(content, '\"x\"', '\"y\"')")
     assert stored(folder) == []
 
 
