@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from fscm._event_adjoint import Adjoint, AtExtreme, parameter
-from fscm._meshes import Accuracy, Meshes
+from fscm._bound.adjoint import Adjoint, AtExtreme, parameter
 from fscm._threads import one_thread
 from fscm._typing import Array
+from fscm.accuracy import Accuracy, Meshes
 from fscm.analysis import EXTREMAL, Analysis
 from fscm.gibson import GibsonSolid
 from fscm.problem import Problem
@@ -182,7 +182,7 @@ class ValueSensitivity:
         """
         p = self.problem.dimensionless
         gradient = {"mu": self.derivative(lambda mu: replace(p, mu=mu), p.mu, p.mu)}
-        if p.response is None and p.k < 1.0:
+        if p.graded is None and p.k < 1.0:
             gradient["k"] = self.derivative(lambda k: replace(p, k=k), p.k, 1.0, low=0.0, high=1.0)
         if isinstance(p.punch, PowerPunch):
             gradient["n"] = self.derivative(

@@ -9,18 +9,18 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property, partial
 
-from fscm import _events as events
-from fscm._arc_length import Point
-from fscm._bounds import EventErrors, bounds, energy_of_jump
-from fscm._completeness import completed, least_loads
-from fscm._defect import Errors
-from fscm._events import Bracket, Condition
-from fscm._jumps import Branch, jumps_between
-from fscm._meshes import Accuracy, Mesh, Meshes
-from fscm._pull_off_path import pull_off_path
-from fscm._surface_rings import RingsForm
+from fscm._bound.defect import Errors
+from fscm._bound.parts import EventErrors, bounds, energy_of_jump
+from fscm._path import events
+from fscm._path.arc_length import Point
+from fscm._path.completeness import completed, least_loads
+from fscm._path.events import Bracket, Condition
+from fscm._path.jumps import Branch, jumps_between
+from fscm._path.pull_off_path import pull_off_path
+from fscm._path.surface_rings import RingsForm
+from fscm._path.whole_path import bracketing_path
 from fscm._threads import one_thread
-from fscm._whole_path import bracketing_path
+from fscm.accuracy import Accuracy, Mesh, Meshes
 from fscm.errors import AccuracyWarning, NoSuchEvent, NotConverged
 from fscm.folds import Fold, edge_radius, folds_of
 from fscm.problem import Problem

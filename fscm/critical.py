@@ -12,15 +12,15 @@ from dataclasses import replace
 
 import scipy
 
-from fscm._arc_length import parameter_control, parameter_of, rates_of
-from fscm._bounds import EventErrors, bounds
-from fscm._continuation import moved
-from fscm._equilibrium import Discretisation, State
-from fscm._events import refined, slowest
-from fscm._meshes import Accuracy, Meshes
-from fscm._newton import newton
+from fscm._bound.parts import EventErrors, bounds
+from fscm._path.arc_length import parameter_control, parameter_of, rates_of
+from fscm._path.continuation import moved
+from fscm._path.events import refined, slowest
+from fscm._path.whole_path import path_end, path_until
+from fscm._surface.equilibrium import Discretisation, State
+from fscm._surface.newton import newton
 from fscm._threads import one_thread
-from fscm._whole_path import path_end, path_until
+from fscm.accuracy import Accuracy, Meshes
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.problem import Problem
 from fscm.solution import Parts, Solution

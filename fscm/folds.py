@@ -10,9 +10,9 @@ from itertools import pairwise
 import numpy as np
 import scipy
 
-from fscm import _events as events
-from fscm._arc_length import Point, parameter_of
-from fscm._equilibrium import State
+from fscm._path import events
+from fscm._path.arc_length import Point, parameter_of
+from fscm._surface.equilibrium import State
 from fscm.punch import PowerPunch
 
 __all__ = ["Fold", "edge_radius", "fold_at", "folds_between", "folds_of"]
@@ -104,5 +104,5 @@ def folds_between(a: Point, b: Point) -> list[tuple[State, str, bool]]:
 
 
 def folds_of(points: Sequence[Point]) -> tuple[Fold, ...]:
-    """The folds of a path that is complete (see `fscm._completeness`)."""
+    """The folds of a path that is complete (see `fscm._path.completeness`)."""
     return tuple(fold_at(*fold) for a, b in pairwise(points) for fold in folds_between(a, b))

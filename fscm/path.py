@@ -11,17 +11,18 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from fscm import _events as events
-from fscm._arc_length import Point, parameter_of
-from fscm._bounds import EventErrors
-from fscm._curve_density import turning_slowly
-from fscm._equilibrium import State
-from fscm._meshes import Accuracy, Meshes
+from fscm._bound.parts import EventErrors
+from fscm._path import events
+from fscm._path.arc_length import Point, parameter_of
+from fscm._path.curve_density import turning_slowly
+from fscm._path.whole_path import path_by_any_mesh, path_end
 from fscm._presentation import Columns
+from fscm._surface.equilibrium import State
+from fscm._surface.response import largest_mu
 from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm._validation import real_number
-from fscm._whole_path import path_by_any_mesh, path_end
+from fscm.accuracy import Accuracy, Meshes
 from fscm.folds import Fold, edge_radius, fold_at, folds_between
 from fscm.problem import Problem
 from fscm.punch import check_reach
@@ -153,7 +154,7 @@ def trace(
     largest_turn = real_number(
         "largest_turn", largest_turn, low=0.0, high=180.0, closed_high=True, reason="it is an angle"
     )
-    start = 10.0 + 5.0 * problem.largest_mu if start_gap is None else start_gap
+    start = 10.0 + 5.0 * largest_mu(problem) if start_gap is None else start_gap
 
     def ending() -> Callable[[State], bool]:
         end, lowest = path_end(problem, meshes.end_height), 0.0

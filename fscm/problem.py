@@ -367,22 +367,6 @@ class Problem:
         return self.mu * response_factor_per_rest(self.k, nu) ** (-self.n / (2.0 * self.n + self.k - 1.0))
 
     @property
-    def response(self) -> Any:
-        """`fscm.graded.SurfaceResponse` of bodies that are not one power law; None for a power law."""
-        if self.graded is None:
-            return None
-        # Imported here: a power law does not need it.
-        from fscm.graded import response_of
-
-        return response_of(self.graded)
-
-    @property
-    def largest_mu(self) -> float:
-        """The Tabor number of the softest part of the bodies: that of a power law is the only one."""
-        response = self.response
-        return self.mu if response is None else float(response.largest_mu(self.mu, self.n))
-
-    @property
     def compliance(self) -> float:
         """M = 2 mu^((2n+k-1)/n), the factor of the surface deformation in Eq. 28, of a dimensionless problem.
 

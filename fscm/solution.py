@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from fscm._equilibrium import State
 from fscm._presentation import with_bound
+from fscm._surface.equilibrium import State
 
 if TYPE_CHECKING:
     from uncertainties import UFloat

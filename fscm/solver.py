@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
+from fscm.accuracy import Accuracy, Meshes
 from fscm.analysis import Analysis
 from fscm.errors import NoSuchEvent
 from fscm.gibson import GibsonSolid

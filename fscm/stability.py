@@ -1,7 +1,7 @@
 r"""Stability of an equilibrium state under prescribed displacement and under prescribed load.
 
 The surface may move by v(r) cos(m theta) and, under prescribed load, the punch by e along its axis; the punch cannot
-tilt or shift.  With the elastic stiffness K_m^{-1} (K_m: the ring response of `fscm._azimuthal_kernel`) the second
+tilt or shift.  With the elastic stiffness K_m^{-1} (K_m: the ring response of `_surface.azimuthal_kernel`) the second
 variation of the energy is
 
     int v K_m^{-1} v  -  int p'(H) (v - e)^2,        e = 0 unless m = 0 and the load is prescribed.
@@ -27,10 +27,10 @@ import numpy as np
 from scipy.linalg import LinAlgError, lu_factor, lu_solve
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigs
 
-from fscm._arc_length import Point, rates_of
-from fscm._azimuthal_kernel import azimuthal_kernel
-from fscm._deformation import response_matrix
-from fscm._equilibrium import State
+from fscm._path.arc_length import Point, rates_of
+from fscm._surface.azimuthal_kernel import azimuthal_kernel
+from fscm._surface.deformation import response_matrix
+from fscm._surface.equilibrium import State
 from fscm._typing import Array
 from fscm.errors import NotConverged
 
@@ -98,7 +98,7 @@ def margins(state: State, m: int, count: int = 1) -> Array:
     d = state.disc
     slope = d.problem.force.slope(state.radius, state.gap)
     attracted = slope > 0.0
-    if m > 0 and d.problem.response is not None:
+    if m > 0 and d.problem.graded is not None:
         raise NotConverged(f"the stability against cos({m} theta) is known for a power-law modulus only")
     response = d.response(state.scale) if m == 0 else response_matrix(azimuthal_kernel(d.problem.k, m), d.mesh)
     K = d.stiffness_scale(state.scale) * response

@@ -8,15 +8,15 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 
-from fscm import _events as events
-from fscm._arc_length import Point, parameter_of, rates_of
-from fscm._bounds import EventErrors
-from fscm._equilibrium import State
-from fscm._meshes import Accuracy, Meshes
+from fscm._bound.parts import EventErrors
+from fscm._path import events
+from fscm._path.arc_length import Point, parameter_of, rates_of
+from fscm._path.whole_path import path_by_any_mesh, path_end
 from fscm._presentation import Columns
+from fscm._surface.equilibrium import State
 from fscm._threads import one_thread
 from fscm._typing import Array
-from fscm._whole_path import path_by_any_mesh, path_end
+from fscm.accuracy import Accuracy, Meshes
 from fscm.analysis import Analysis
 from fscm.folds import edge_radius
 from fscm.problem import Problem

@@ -27,7 +27,7 @@ import scipy
 import fscm
 from comparisons.model import Array, NotApplicable, translated
 from comparisons.problem.problem import Problem, Section
-from fscm.graded.body import compliance_of
+from fscm._surface.response.body import compliance_of
 from fscm.solids import PowerLaw
 
 #: Wave numbers beside the inverse of the mean radius of the load, and points for each decade.  The shares fall as xi

@@ -48,7 +48,7 @@ def modules(package: str) -> list[str]:
 
     Examples
     --------
-    >>> "fscm.experiment" in modules("fscm"), "fscm._kernel" in modules("fscm")
+    >>> "fscm.experiment" in modules("fscm"), "fscm._surface.kernel" in modules("fscm")
     (True, False)
     >>> "comparisons.start_entry" in modules("comparisons")
     False

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from fscm.interpolation.building import build, layouts, write
-from fscm.interpolation.design import critical_nodes, lower_nodes, sweep_text, upper_nodes
+from fscm.interpolation.builder.building import build, layouts, write
+from fscm.interpolation.builder.design import critical_nodes, lower_nodes, sweep_text, upper_nodes
 
 __all__ = ["collect", "main", "nodes_in"]
 

@@ -15,7 +15,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 import scipy
 
-from fscm._kernel import Psi
+from fscm._surface.kernel import Psi
 from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm._validation import real_number

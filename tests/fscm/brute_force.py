@@ -23,9 +23,9 @@ from scipy.interpolate import CubicHermiteSpline
 from scipy.linalg import lu_factor, lu_solve
 
 from fscm import Problem
-from fscm._deformation import response_matrix
-from fscm._kernel import kernel_of
-from fscm._panels import PanelMesh
+from fscm._surface.deformation import response_matrix
+from fscm._surface.kernel import kernel_of
+from fscm._surface.mesh import PanelMesh
 
 # Nodes a panel, nodes of the mesh at most, and the height of the punch where it ends.
 _ORDER, _MOST, _HEIGHT = 6, 1000, 3e3

@@ -6,12 +6,12 @@ from functools import cache, cached_property
 import numpy as np
 
 from fscm import Analysis, Problem
-from fscm._arc_length import parameter_of, rates_of
-from fscm._continuation import moved
-from fscm._defect import Defect, finer
-from fscm._equilibrium import Rates, State
-from fscm._meshes import Mesh, Meshes
+from fscm._bound.defect import Defect, finer
+from fscm._path.arc_length import parameter_of, rates_of
+from fscm._path.continuation import moved
+from fscm._surface.equilibrium import Rates, State
 from fscm._typing import Array
+from fscm.accuracy import Mesh, Meshes
 
 FUNCTIONALS = ("load", "displacement", "central_gap", "energy")
 #: Meshes of references: other panels on another coarse path, and an end that is ten times farther out.

@@ -15,12 +15,12 @@ from typing import NamedTuple
 import numpy as np
 
 from fscm import QUANTITIES, Analysis, NoSuchEvent, NotConverged, Problem
-from fscm import _continuation as continuation
-from fscm._arc_length import Point
-from fscm._completeness import completed
-from fscm._equilibrium import State
+from fscm._path import continuation as continuation
+from fscm._path.arc_length import Point
+from fscm._path.completeness import completed
+from fscm._path.whole_path import path_end
+from fscm._surface.equilibrium import State
 from fscm._threads import one_thread
-from fscm._whole_path import path_end
 from tests.fscm.equilibria_on_finer_meshes import FINER
 from tests.random_tables import complete, stored
 

@@ -21,14 +21,14 @@ from fscm import (
     TabulatedModulus,
     solve,
 )
-from fscm._adaptivity import initial_mesh
-from fscm._equilibrium import Discretisation
-from fscm._meshes import Mesh, Meshes
-from fscm._panels import PanelMesh
+from fscm._surface.adaptivity import initial_mesh
+from fscm._surface.equilibrium import Discretisation
+from fscm._surface.mesh import PanelMesh
+from fscm._surface.response.body import compliance_of
+from fscm._surface.response.kernel import GradedKernel
+from fscm._surface.response.response import SurfaceResponse, response_of
+from fscm.accuracy import Mesh, Meshes
 from fscm.bodies import Bodies, scaled, tension_length
-from fscm.graded.body import compliance_of
-from fscm.graded.kernel import GradedKernel
-from fscm.graded.response import SurfaceResponse
 from tests.marks import heavy
 from tests.refusals import refused
 from tests.solvers.layered_jkr import Stack
@@ -125,7 +125,7 @@ def test_the_displacement_under_a_known_pressure(name: str, width: float) -> Non
     exact = _exact(compliance, width, np.append(0.0, c * mesh.nodes[inside]))
     factor = disc.stiffness_scale(c)
     displaced = factor * np.append(disc.axis_response(c) @ pressure, (disc.response(c) @ pressure)[inside])
-    nodes, axis = core.response.error(mesh, c, pressure)
+    nodes, axis = response_of(core.graded).error(mesh, c, pressure)
     bound = factor * np.append(axis, nodes[inside])
     assert np.all(np.abs(displaced - exact) <= bound + QUADRATURE * exact)
     # Measured worst 8e-9; on the axis the bound is coarse.
@@ -333,7 +333,7 @@ def test_the_length_of_surface_tension_is_a_length(k):
 def test_the_bound_of_the_kernel_is_that_of_its_waves(monkeypatch):
     """An error e(xi) of the compliance moves the axis by int e d(xi) int p r dr under a pressure on a small spot."""
     solids, _ = CASES["power and layers"]
-    response = _problem(solids).dimensionless.response
+    response = response_of(_problem(solids).dimensionless.graded)
     wave, c = 1e-3, 1.3
     monkeypatch.setattr(type(response.kernel.images), "error", lambda images, xi: 1e-3 * np.exp(-xi / wave))
     mesh = PanelMesh(BREAKS, 16)

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from fscm import Analysis, Problem, equilibria, solve
-from fscm._bounds import EventErrors
-from fscm._meshes import Mesh, Meshes
-from fscm._tail import tail_energy, tail_errors, tail_of
+from fscm._bound.parts import EventErrors
+from fscm._surface.tail import tail_energy, tail_errors, tail_of
+from fscm.accuracy import Mesh, Meshes
 from fscm.critical import critical_tabor_number
 from fscm.laws import Mie
 from fscm.measured_punch import MeasuredPunch

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from fscm import Analysis, NotConverged, Problem, displacement_cycle, equilibria, trace
-from fscm import _events as events
-from fscm._completeness import completed, may_hide
-from fscm._path_end import LeastLoad, beyond_layers, displacement_of_compression
+from fscm._path import events
+from fscm._path.completeness import completed, may_hide
+from fscm._path.ends import LeastLoad, beyond_layers, displacement_of_compression
 from fscm.custom_punch import CustomPunch
 from fscm.experiment import load_controlled_retreat
 from fscm.path import EquilibriumPath

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from fscm import Analysis, Problem, _defect, _equilibrium
-from fscm._defect import Defect
-from fscm._kernel import kernel_of
-from fscm._meshes import Mesh, Meshes
-from fscm._tail import tail_of
+from fscm._bound.defect import Defect
+from fscm._surface.kernel import kernel_of
+from fscm._surface.tail import tail_of
+from fscm.accuracy import Mesh, Meshes
 from tests.fscm.equilibria_on_finer_meshes import FUNCTIONALS, Pair, pair
 
 #: The errors are computed to first order.  Measured worst 1.3e-4 (gap at zero load, n = 1.2), and 0.03 of a load at its

@@ -5,11 +5,11 @@ import pytest
 from scipy.special import gamma, hyp1f1
 
 from fscm import Problem
-from fscm import _response_store as store
-from fscm._deformation import axis_row, response_matrix
-from fscm._equilibrium import Discretisation
-from fscm._kernel import Kernel
-from fscm._panels import PanelMesh
+from fscm._surface import response_store as store
+from fscm._surface.deformation import axis_row, response_matrix
+from fscm._surface.equilibrium import Discretisation
+from fscm._surface.kernel import Kernel
+from fscm._surface.mesh import PanelMesh
 
 # Relative to the largest displacement; measured worst 7.0e-13 (k = 0.8).
 CLOSED_FORM = 5e-12

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fscm import CustomSolid, Layers, OffsetPowerLaw, PowerLaw
-from fscm._kernel import ring_response
-from fscm.graded import response_of
+from fscm._surface.kernel import ring_response
+from fscm._surface.response import response_of
 from tests.fscm.distant_stack import Stiff, response_at_center
 from tests.marks import heavy
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from fscm import Coating, LennardJones, Mie, NotConverged, PowerPunch, Problem, solve
-from fscm._arc_length import parameter_control, parameter_of
-from fscm._continuation import equilibrium_path
-from fscm._equilibrium import Control, State
-from fscm._newton import _least_clearance, newton
+from fscm._path.arc_length import parameter_control, parameter_of
+from fscm._path.continuation import equilibrium_path
+from fscm._surface.equilibrium import Control, State
+from fscm._surface.newton import _least_clearance, newton
 from tests.marks import heavy
 
 # The deformation is the unknown under the last punch.
@@ -47,7 +47,7 @@ def test_rates_are_the_derivatives_of_solved_states(state: State) -> None:
 
 def test_newton_converges_quadratically(state: State, monkeypatch: pytest.MonkeyPatch) -> None:
     """With new factors in every iteration."""
-    monkeypatch.setattr("fscm._newton._CHORD", 0.0)
+    monkeypatch.setattr("fscm._surface.newton._CHORD", 0.0)
     state.disc.factor = None
     moved = replace(state, gap=state.gap * (1 + 1e-3), displacement=state.displacement + 1e-3)
     solved = newton(moved, parameter_control(state, parameter_of(state)))

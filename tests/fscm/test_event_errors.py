@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from fscm import Analysis, CustomPunch, Problem, RoundedCone, _bounds
-from fscm._arc_length import parameter_of, rates_of
-from fscm._bounds import EventErrors, bounds, energy_of_jump, root_shift
-from fscm._continuation import moved
-from fscm._defect import Errors
-from fscm._events import MISSED_EXTREME
-from fscm._meshes import Meshes
+from fscm._bound.defect import Errors
+from fscm._bound.parts import EventErrors, bounds, energy_of_jump, root_shift
+from fscm._path.arc_length import parameter_of, rates_of
+from fscm._path.continuation import moved
+from fscm._path.events import MISSED_EXTREME
+from fscm.accuracy import Meshes
 from fscm.solution import Parts
 from tests.fscm.equilibria_on_finer_meshes import pair
 from tests.marks import heavy

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from fscm import Analysis, NoSuchEvent, Problem, Solution, profile, solve, solve_together, trace
-from fscm import _pull_off_path as short
-from fscm._meshes import Meshes
+from fscm._path import pull_off_path as short
 from fscm._threads import one_thread
+from fscm.accuracy import Meshes
 from fscm.folds import folds_between
 from fscm.quantities import TABLE
 from tests.fscm.random_problems import problems

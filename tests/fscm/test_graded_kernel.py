@@ -17,10 +17,10 @@ from fscm import (
     TabulatedModulus,
     ring_response,
 )
-from fscm._bounds import _KERNEL_RATE
-from fscm.graded import GradedKernel
-from fscm.graded.compliance import compliance
-from fscm.graded.patches import ImageTable
+from fscm._bound.parts import _KERNEL_RATE
+from fscm._surface.response import GradedKernel
+from fscm._surface.response.compliance import compliance
+from fscm._surface.response.patches import ImageTable
 from fscm.solids import contact_modulus
 from tests.fscm import graded_digits
 from tests.marks import heavy

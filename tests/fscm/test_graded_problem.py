@@ -12,14 +12,14 @@ from fscm import (
     TabulatedLaw,
     solve,
 )
-from fscm._arc_length import parameter_of, rates_of
-from fscm._continuation import moved
-from fscm._meshes import Meshes
-from fscm._panels import PanelMesh
-from fscm._pull_off_path import pull_off_path
+from fscm._path.arc_length import parameter_of, rates_of
+from fscm._path.continuation import moved
+from fscm._path.pull_off_path import pull_off_path
+from fscm._surface.mesh import PanelMesh
+from fscm._surface.response import response_of
+from fscm._surface.response.panels import remainder
+from fscm.accuracy import Meshes
 from fscm.analysis import Analysis
-from fscm.graded import response_of
-from fscm.graded.panels import remainder
 from fscm.stability import margins
 from tests.fscm.solved_once import analysis_of
 from tests.refusals import refused

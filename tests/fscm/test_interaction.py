@@ -9,10 +9,10 @@ import pytest
 
 import fscm
 from fscm import Ball, Homogeneous, LennardJones, Mie, PowerPunch, Problem, RoundedCone, solve
-from fscm._defect import Defect, finer
-from fscm._equilibrium import Control, Linearisation
-from fscm._tail import tail_errors, tail_of
-from fscm._tail_of_body import TailOfBody
+from fscm._bound.defect import Defect, finer
+from fscm._surface.equilibrium import Control, Linearisation
+from fscm._surface.tail import tail_errors, tail_of
+from fscm._surface.tail_of_body import TailOfBody
 from fscm.interaction import Body, Derjaguin, interaction_of
 from fscm.punch import ScaledPunch
 from fscm.stieltjes import StieltjesScheme
@@ -130,8 +130,8 @@ def test_the_tangent_is_exact(state):
     assert numeric[near] == pytest.approx(np.array(exact)[near], rel=1e-5, abs=1e-6)
     rates, h = state.rates(), 1e-5
     ahead, behind = (
-        fscm._newton.newton(
-            fscm._newton.shifted(state, rates.gap, rates.displacement, rates.log_scale, sign * h),
+        fscm._surface.newton.newton(
+            fscm._surface.newton.shifted(state, rates.gap, rates.displacement, rates.log_scale, sign * h),
             Control(math.log(state.scale) + sign * h, log_scale=1.0),
             1e-12,
         )

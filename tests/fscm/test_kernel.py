@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from fscm._kernel import Kernel, Phi, Psi, ring_response
+from fscm._surface.kernel import Kernel, Phi, Psi, ring_response
 
 # The first one above zero is below the rounding of one.
 EXPONENTS = [0.0, 1e-22, 1e-12, 1e-3, 0.05, 0.4, 0.8, 0.95]

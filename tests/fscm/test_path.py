@@ -20,9 +20,9 @@ from fscm import (
     solve_together,
     trace,
 )
-from fscm._arc_length import parameter_of, rates_of
-from fscm._continuation import equilibrium_path, moved
-from fscm._jumps import Branch, jumps_between
+from fscm._path.arc_length import parameter_of, rates_of
+from fscm._path.continuation import equilibrium_path, moved
+from fscm._path.jumps import Branch, jumps_between
 from fscm.stability import margins
 from tests.fscm.solved_once import analysis_of, path_of, stiff_on_soft
 from tests.marks import heavy

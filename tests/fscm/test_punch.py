@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from fscm._continuation import equilibrium_path
-from fscm._newton import shifted
+from fscm._path.continuation import equilibrium_path
+from fscm._surface.newton import shifted
 from fscm.custom_punch import CustomPunch
 from fscm.measured_punch import MeasuredPunch
 from fscm.problem import Problem

@@ -22,8 +22,8 @@ from fscm import (
     TabulatedModulus,
     solve_together,
 )
-from fscm._meshes import Mesh, Meshes
-from fscm.graded import images, panels, patches, response
+from fscm._surface.response import images, panels, patches, response
+from fscm.accuracy import Mesh, Meshes
 
 COUNT, COUNT_OF_BODIES = 40, 30
 #: Of the light tests: n = 3 on an offset power law.

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from fscm import ACCURACIES, Analysis, NotConverged, Problem, Solution, solve_together
-from fscm._meshes import Meshes
+from fscm.accuracy import Meshes
 from tests.fscm.random_problems import COUNT, problems, stored_values
 from tests.marks import heavy
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from fscm._panels import PanelMesh
-from fscm._samples import POINTS, Samples
+from fscm._surface.mesh import PanelMesh
+from fscm._surface.samples import POINTS, Samples
 
 MESH = PanelMesh(np.array([0.0, 1.0, 1.5, 4.0]), 12)
 SAMPLES = Samples(MESH)

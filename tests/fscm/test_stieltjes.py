@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from fscm._kernel import Psi
+from fscm._surface.kernel import Psi
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.problem import Problem
 from fscm.solver import solve_together

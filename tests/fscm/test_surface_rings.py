@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fscm import Coating, LennardJones, PowerPunch, Problem, solve
-from fscm._surface_rings import RingsForm, ring_limit
+from fscm._path.surface_rings import RingsForm, ring_limit
 from fscm.errors import NotConverged
 
 R, Z0, SUBSTRATE = 1e-6, 3e-10, 1e9

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from fscm import Analysis, Layers, Mie, PowerPunch, Problem, solve
-from fscm._meshes import Meshes
-from fscm._tail import deformation_beyond, tail_errors, tail_of, tail_variation
-from fscm.graded.distant_ring import DistantRing
+from fscm._surface.response.distant_ring import DistantRing
+from fscm._surface.response.response import response_of
+from fscm._surface.tail import deformation_beyond, tail_errors, tail_of, tail_variation
+from fscm.accuracy import Meshes
 from tests.fscm.distant_stack import Stiff, lifted_from_beyond
 
 SLOW = Problem(2.0, 0.0, 1.0, law=Mie(m=9.0, n=1.1), graded=Layers(*Stiff.solid))
@@ -30,7 +31,7 @@ def test_the_displacement_by_the_far_pressure_is_that_of_the_closed_compliance()
     assert tail.displacement == pytest.approx(exact, rel=1e-8)
     assert abs(tail.displacement - exact) <= abs(errors[1]) + remainder[1] + 1e-10 * abs(exact)
     # With the compliance at T for all of it: what was wrong.
-    at_start = float(SLOW.response.distant.by_images(np.array(T)))
+    at_start = float(response_of(SLOW.graded).distant.by_images(np.array(T)))
     assert at_start * 2.0 * T * float(SLOW.law.traction(np.array(T**2 / 2.0))) / 1.2 > 0.5 * exact
 
 
@@ -75,7 +76,7 @@ def test_an_error_of_the_response_by_images_is_seen_by_the_waves(monkeypatch: py
 def test_what_the_tail_neglects_is_bounded() -> None:
     """The change of its displacement over the mesh, and the deformation beyond by the load inside."""
     radii = T * np.array([1e-4, 0.01, 0.3, 0.9])
-    kernel = SLOW.response.kernel
+    kernel = response_of(SLOW.graded).kernel
     x, w = np.polynomial.legendre.leggauss(60)
     log_t = 0.5 * np.log(1e4) * (1.0 + x)
     t = T * np.exp(log_t)

@@ -19,7 +19,7 @@ import pytest
 import fem_reference
 import fscm
 from comparisons.problem.kinds import KINDS
-from fscm._meshes import Meshes
+from fscm.accuracy import Meshes
 from tests.random_kinds import LAWS, PUNCHES, between
 from tests.random_solids import SOLIDS
 

@@ -18,7 +18,7 @@ from comparisons.models.cohesive_models import DoubleHertz, MaugisDugdaleImprove
 from comparisons.models.cohesive_profiles import PROFILE_ROUNDING, gap, pressure
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
-from fscm._kernel import ring_response
+from fscm._surface.kernel import ring_response
 
 Printed = Callable[[mp.mpf, mp.mpf, mp.mpf, mp.mpf, mp.mpf], tuple[mp.mpf, mp.mpf, mp.mpf]]
 

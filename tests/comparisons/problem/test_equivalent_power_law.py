@@ -53,7 +53,7 @@ def coated():
 def test_a_compliance_has_the_modulus_of_its_power_law():
     problem = on_solid("offset-power-law", {"E0": 2e9, "c0": 1e-8, "k": 0.4, "z_s": 1e-12, "nu": 0.3})
     xi = np.geomspace(1e7, 1e8, 3)
-    values = fscm.graded.compliance.compliance(problem.posed.graded, xi * problem.units["radius"])
+    values = fscm._surface.response.compliance.compliance(problem.posed.graded, xi * problem.units["radius"])
     spectrum = equivalent_solid.EnergySpectrum(xi, values, np.full(3, 1.0 / 3.0))
     assert power_law_of(problem, spectrum).solid["E0"] == pytest.approx(2e9, rel=3e-3)
 

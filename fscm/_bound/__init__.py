@@ -1,0 +1,1 @@
+"""Bounds on the error of a value: defect on a finer mesh, adjoint, and parts by cause."""

@@ -1,0 +1,1 @@
+"""The path of equilibria: continuation, completeness, events, jumps and ends."""

@@ -1,0 +1,79 @@
+"""Jumps of a slow cycle of prescribed displacement, from branch to branch of the equilibrium path."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from fscm._path.events import Bracket
+from fscm.errors import NotConverged
+
+__all__ = ["Branch", "jumps_between"]
+
+
+@dataclass(frozen=True)
+class Branch:
+    """A section of the path that is stable under prescribed displacement; along it the displacement rises.
+
+    Attributes
+    ----------
+    low, high : (Point, Point), optional
+        Brackets of the folds at its ends; none at an end of the path.
+    least, largest : float
+        Displacements at its ends.
+    """
+
+    low: Bracket | None = None
+    high: Bracket | None = None
+    least: float = -math.inf
+    largest: float = math.inf
+
+
+def jumps_between(branches: Sequence[Branch], inward: bool) -> list[tuple[Bracket, Branch]]:
+    """The jumps of an approach (`inward`) or a retreat: from which fold, and to which branch.
+
+    A branch is followed to the fold at its end.  The jump lands on the next branch that contains the displacement of
+    the fold; other branches are passed over.
+
+    Parameters
+    ----------
+    branches : sequence of Branch
+        From separation into contact.
+    inward : bool
+
+    Returns
+    -------
+    list of (bracket, Branch)
+        In the order of the jumps.
+
+    Raises
+    ------
+    NotConverged
+        When no branch contains the displacement of a fold.
+
+    Examples
+    --------
+    >>> outer, middle = Branch(high="A", largest=-9.0), Branch("B", "C", -135.0, -119.0)
+    >>> inner = Branch(low="D", least=-122.0)
+    >>> jumps_between([outer, middle, inner], inward=True) == [("A", inner)]
+    True
+    >>> jumps_between([outer, middle, inner], inward=False) == [("D", middle), ("B", outer)]
+    True
+    """
+    # A retreat is an approach with the opposite sign of the displacement.
+    order = branches if inward else branches[::-1]
+    starts = [branch.least if inward else -branch.largest for branch in order]
+    ends = [branch.largest if inward else -branch.least for branch in order]
+    folds = [branch.high if inward else branch.low for branch in order]
+    jumps, index = [], 0
+    while (fold := folds[index]) is not None:
+        level, later = ends[index], range(index + 1, len(order))
+        index = next((i for i in later if starts[i] <= level < ends[i]), -1)
+        if index < 0:
+            raise NotConverged(
+                f"no other stable branch of the path has the displacement {level if inward else -level:.6g}, "
+                f"at which a jump-{'in' if inward else 'out'} begins"
+            )
+        jumps.append((fold, order[index]))
+    return jumps

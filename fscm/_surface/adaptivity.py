@@ -1,0 +1,438 @@
+"""Adaption of the panel mesh to the pressure: panels are split where it is unresolved, merged where over-resolved.
+
+A panel is resolved when the last Legendre coefficients e of the pressure on it are too small to matter: the
+load moves by 2 c^2 s h e, the work of adhesion (which fixes the edge, as in fracture) by e times the change
+of the gap over the panel, and the central gap, from the innermost panel, by M (1-k) (c h)^{1-k} e.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fscm._surface.equilibrium import STEEP, Control, Discretisation, State
+from fscm._surface.mesh import PanelMesh
+from fscm._surface.newton import STEP_TOLERANCE, newton
+from fscm._typing import Array
+from fscm.errors import NotConverged
+from fscm.problem import Problem
+from fscm.punch import joints_of, kinks_of
+
+__all__ = [
+    "at_joints",
+    "at_kinks",
+    "edge_mesh",
+    "end_radius",
+    "fit",
+    "graded",
+    "indicator",
+    "initial_mesh",
+    "newton_tolerance",
+    "off_joints",
+    "on_mesh",
+    "resolved",
+    "resolving",
+]
+
+#: A pair of panels is merged when the merged panel would still be this much below the tolerance.
+_MERGE_MARGIN = 0.02
+#: Merged panels reach at most this many times as far from the axis as they start.
+_LARGEST_RATIO = 8.0
+#: Share of a jump of the pressure between two panels that counts as a last coefficient.  On a resolved mesh a jump is
+#: about ten coefficients, and this is a fifth of one; it is large where no node of a panel samples a feature on it.
+#: (Gaps of 25 to 6e4 z0 were once on one panel, n = 2, k = 0, mu = 1e5: the pull-off force was wrong by 2e-3.)
+_JUMP = 0.02
+#: Ends of the first panels of all meshes, in units of the radius at s = 1; farther out they grow by factors of four.
+_FIRST_ENDS = np.array([0.0, 0.5, 1.0, 2.0])
+#: On a steep punch the gap rises by at most this factor over a panel of the first mesh.
+_RISE = 64.0
+#: Above this number of panels, as at a very narrow edge, merging saves more than reusing the stored response does.
+_MANY = 40
+#: On a graded mesh neighbours differ by at most this factor in length: the pressure on a longer panel is no polynomial
+#: next to a narrow edge, which its last coefficients do not show.  Without it, bounds at accuracy 1e-6 were up to 0.3
+#: of the pull-off force (n = 2.1, k = 0.85, mu = 19).
+_GRADING = 8.0
+#: A mesh is rebuilt to merge panels only if at least this share of its breaks is superfluous.
+_WORTH_MERGING = 0.2
+#: Newton error relative to the error of the mesh.
+_NEWTON_MARGIN = 0.01
+_MAX_ROUNDS = 60
+#: Rounds of splitting for known gaps between two solves; for the gaps of a guess.
+_KNOWN_ROUNDS, _GUESS_ROUNDS = 6, 2
+#: A break belongs to a kink that is closer than this share of its panels; a panel is wider than _SLIVER.
+_NEAR_KINK, _SLIVER = 0.3, 1e-7
+#: Largest distance of a kink to its break, in units of the root of the tolerance: its effect is of second order.
+_OFF_KINK = 0.1
+#: Largest distance of a joint to the nearest end of its panel, relative to its length: where the third derivative jumps
+#: the error falls with the fourth power of it, and a node of the panel is farther than this from both ends.
+_OFF_JOINT = 5e-3
+#: Joints are rounded to this number, 2^40, of steps: ends with more digits are not stored (`_surface.response_store`).
+_STORED = 2.0**40
+#: r^n at the tip of a punch is not smooth: coefficients of the innermost panel fall algebraically, so that the
+#: omitted ones together exceed the last.  Measured on n = 1.5, k = 0.6, mu = 3: by up to 10.
+_ALGEBRAIC = 30.0
+
+
+def end_radius(problem: Problem, end_height: float) -> float:
+    """A radius with f >= `end_height`, found by doubling."""
+    r = 1.0
+    while problem.punch.height(np.array([r]))[0] < end_height:
+        r *= 2.0
+        if r > 1e200:
+            raise ValueError(f"the punch does not grow: f is still below {end_height} at r = {r}")
+    while problem.punch.height(np.array([r / 2.0]))[0] > end_height:
+        r /= 2.0
+    return r
+
+
+def _extended(offsets: Array, origin: float, end: float) -> Array:
+    """Panel ends relative to the origin, truncated or extended by factors of four to reach the radius `end`."""
+    inside = offsets[offsets < end - origin]
+    outer = [origin + inside[-1] if len(inside) else 0.0]
+    while outer[-1] < end:
+        outer.append(4.0 * outer[-1])
+    return np.concatenate([inside, np.array(outer[1:]) - origin])
+
+
+def initial_mesh(problem: Problem, order: int, end_height: float) -> PanelMesh:
+    """A coarse mesh for the separated punch, scale 1, with a break at s = 1 and an end where f >= `end_height`."""
+    breaks = _extended(_FIRST_ENDS, 0.0, end_radius(problem, end_height))
+    while problem.punch.growth > STEEP:
+        f = problem.punch.height(breaks)
+        # Farther out than the end height the pressure need not be resolved.
+        bad = np.flatnonzero((f[1:] > _RISE * np.maximum(f[:-1], 1.0)) & (f[:-1] < end_height))
+        if not bad.size:
+            break
+        breaks = np.sort(np.concatenate([breaks, 0.5 * (breaks[bad] + breaks[bad + 1])]))
+    return at_kinks(problem, PanelMesh(breaks, order), 1.0, 1.0)
+
+
+def at_kinks(problem: Problem, mesh: PanelMesh, old_scale: float, new_scale: float) -> PanelMesh:
+    """Mesh with panel ends at the kinks of the punch: moved from their radii at the old scale, or inserted."""
+    kinks = np.array(kinks_of(problem.punch))
+    return _with_ends(mesh, kinks / old_scale, kinks / new_scale)
+
+
+def at_joints(problem: Problem, mesh: PanelMesh, scale: float) -> PanelMesh:
+    """Mesh with panel ends at the joints of the punch: moved from near them, or inserted.
+
+    A mesh whose scale changes leaves them behind: an end near a joint serves nearly as well as one on it.
+    """
+    joints = _joints(problem, scale)
+    if not joints.size:
+        return mesh
+    ends = np.append(np.array(kinks_of(problem.punch)) / scale, joints)
+    return _with_ends(mesh, ends, ends)
+
+
+def _joints(problem: Problem, scale: float) -> Array:
+    """Joints of the punch in the scaled radius, rounded so that the response of panels between them can be stored."""
+    mantissa, exponent = np.frexp(np.array(joints_of(problem.punch)) / scale)
+    return np.asarray(np.ldexp(np.rint(mantissa * _STORED) / _STORED, exponent))
+
+
+def off_joints(state: State) -> bool:
+    """Whether a joint inside the mesh has left its panel end."""
+    mesh = state.disc.mesh
+    joints = _joints(state.disc.problem, state.scale) - mesh.origin
+    joints = joints[joints < mesh.offsets[-1]]
+    panel = mesh.locate(joints)
+    from_end = np.minimum(joints - mesh.offsets[panel], mesh.offsets[panel + 1] - joints)
+    return bool(np.any(from_end > _OFF_JOINT * mesh.lengths[panel]))
+
+
+def _with_ends(mesh: PanelMesh, old: Array, new: Array) -> PanelMesh:
+    """Mesh with panel ends at new radii: moved from near the old ones, or inserted."""
+    if not new.size:
+        return mesh
+    ends, edge = mesh.offsets, 1.0 - mesh.origin
+    for s in old - mesh.origin:
+        i = int(np.argmin(np.abs(ends - s)))
+        if not 0 < i < len(ends) - 1 or ends[i] == edge:
+            continue
+        if abs(ends[i] - s) < _NEAR_KINK * min(ends[i] - ends[i - 1], ends[i + 1] - ends[i]):
+            ends = np.delete(ends, i)
+    new = new - mesh.origin
+    fixed = np.array([ends[0], edge, ends[-1]])
+    new = new[(new < ends[-1]) & (np.min(np.abs(new[:, None] - fixed), axis=1) > _SLIVER)]
+    # A remaining break next to a kink would make an unnecessarily narrow panel.
+    distance = np.min(np.abs(ends[:, None] - new), axis=1) if new.size else np.full(len(ends), np.inf)
+    keep = (distance > _SLIVER) | np.isin(ends, fixed)
+    return replace(mesh, offsets=np.union1d(ends[keep], new))
+
+
+def _off_kinks(state: State) -> float:
+    """Largest distance from a kink inside the mesh to the closest break."""
+    kinks = np.array(kinks_of(state.disc.problem.punch)) / state.scale
+    breaks = state.disc.mesh.breaks
+    kinks = kinks[kinks < breaks[-1]]
+    return float(np.max(np.min(np.abs(kinks[:, None] - breaks), axis=1))) if kinks.size else 0.0
+
+
+def _halves(mesh: PanelMesh) -> NDArray[np.bool_]:
+    """Whether neighbouring panels are the halves of an earlier one, whose response is stored."""
+    initial_ends = _extended(_FIRST_ENDS, 0.0, float(mesh.breaks[-1])) - mesh.origin
+    starts, lengths = mesh.offsets[:-2], mesh.lengths
+    ancestor = initial_ends[np.searchsorted(initial_ends, starts, side="right") - 1]
+    number = (starts - ancestor) / lengths[:-1]
+    siblings: NDArray[np.bool_] = (lengths[:-1] == lengths[1:]) & (number % 2.0 == 0.0)
+    return siblings
+
+
+def edge_mesh(problem: Problem, order: int, scale: float, end_height: float) -> PanelMesh:
+    """A coarse mesh with its origin at the edge, to be split there.
+
+    Its ends are the same for all problems, so that their response is stored (see `_surface.response_store`).
+    """
+    ends = _extended(np.array([-1.0, -0.5, 0.0, 1.0]), 1.0, max(end_radius(problem, end_height) / scale, 4.0))
+    return at_kinks(problem, PanelMesh(ends, order, 1.0), scale, scale)
+
+
+class _Field:
+    """Gap and pressure on a mesh at one scale, from which the indicator is computed."""
+
+    def __init__(
+        self, state: State, mesh: PanelMesh | None = None, gap: Array | None = None, scale: float | None = None
+    ) -> None:
+        self.problem, self.load = state.disc.problem, state.load
+        self.scale = state.scale if scale is None else scale
+        self.mesh = state.disc.mesh if mesh is None else mesh
+        self.gap = state.gap if gap is None else gap
+        self.stiffness = state.disc.stiffness_scale(self.scale)
+        self.pressure = state.pressure
+        if gap is not None:
+            self.pressure = self.problem.force.traction(self.scale * self.mesh.nodes, gap)
+
+
+def _weights(field: _Field, starts: Array, lengths: Array) -> Array:
+    """Largest effect of a unit pressure error on a panel (start relative to the origin, length) on the results."""
+    mesh, c = field.mesh, field.scale
+    ends = starts + lengths
+    load = 2.0 * c * c * (mesh.origin + ends) * lengths / max(1.0, abs(field.load))
+    gap = np.interp(np.append(starts, ends), mesh.node_offsets, field.gap).reshape(2, -1)
+    central = _ALGEBRAIC * field.stiffness * lengths ** (1.0 - field.problem.k)
+    central = np.where(starts == -mesh.origin, central, 0.0)
+    return np.maximum(np.maximum(load, np.abs(gap[1] - gap[0])), central)
+
+
+def _unseen(modes: Array, jump: Array) -> Array:
+    """Error of the pressure on each panel, from its last coefficients and the jumps at its ends."""
+    return np.maximum(np.max(np.abs(modes[:, -2:]), axis=1), _JUMP * jump)
+
+
+def _ends(modes: Array) -> tuple[Array, Array]:
+    """Pressure at the start and at the end of each panel."""
+    return modes @ (-1.0) ** np.arange(modes.shape[1]), modes.sum(axis=1)
+
+
+def indicator(state: State) -> Array:
+    """Estimated effect of the unresolved pressure of each panel, shape (m,), dimensionless."""
+    return _indicator(_Field(state))
+
+
+def _indicator(field: _Field, jumps_count: bool = True) -> Array:
+    mesh = field.mesh
+    modes = mesh.modes(field.pressure)
+    jump = np.zeros(len(mesh.lengths))
+    if jumps_count:
+        at_start, at_end = _ends(modes)
+        jumps = np.abs(at_start[1:] - at_end[:-1])
+        jump = np.maximum(np.append(0.0, jumps), np.append(jumps, 0.0))
+    return _unseen(modes, jump) * _weights(field, mesh.offsets[:-1], mesh.lengths)
+
+
+def resolving(
+    state: State,
+    mesh: PanelMesh,
+    tolerance: float,
+    gap_on: Callable[[PanelMesh], Array],
+    rounds: int = _KNOWN_ROUNDS,
+    scale: float | None = None,
+) -> PanelMesh:
+    """The mesh with panels split until each resolves the pressure of the given gaps; nothing is solved.
+
+    Parameters
+    ----------
+    state : State
+        Gives the load, and the scale by default.
+    mesh : PanelMesh
+    tolerance : float
+        Of the indicator, without jumps between panels: the gaps may jump where the mesh they come from is too coarse.
+    gap_on : callable
+        Mesh -> gaps at its nodes.
+    rounds : int
+        Largest number of splits of a panel: gaps that are not in equilibrium may be unresolvable.
+    scale : float, optional
+        Of the new mesh, when it differs from that of the state.
+    """
+    for _ in range(rounds):
+        field = _Field(state, mesh, gap_on(mesh), scale)
+        middles = mesh.middles[_indicator(field, jumps_count=False) > tolerance]
+        ends = np.sort(np.concatenate([mesh.offsets, middles]))
+        if not middles.size or np.any(np.diff(ends) <= 0.0):
+            break
+        mesh = replace(mesh, offsets=ends)
+    return mesh
+
+
+def graded(mesh: PanelMesh) -> PanelMesh:
+    """The mesh with panels halved until neighbours have similar lengths."""
+    while True:
+        h = mesh.lengths
+        shortest = np.minimum(np.append(h[1:], np.inf), np.append(np.inf, h[:-1]))
+        middles = mesh.middles[h > _GRADING * shortest]
+        if not middles.size:
+            return mesh
+        mesh = replace(mesh, offsets=np.sort(np.concatenate([mesh.offsets, middles])))
+
+
+def _unresolved(state: State, tolerance: float) -> Array:
+    """Middles, relative to the origin, of the panels that have to be split."""
+    mesh = state.disc.mesh
+    bad = indicator(state) > tolerance
+    return mesh.middles[bad]
+
+
+def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
+    """Indices of breaks whose removal leaves the pressure resolved; no two are neighbours."""
+    mesh = state.disc.mesh
+    starts, lengths = mesh.offsets[:-2], mesh.lengths[:-1] + mesh.lengths[1:]
+    rule = mesh.rule
+    nodes = starts[:, None] + lengths[:, None] * rule.nodes
+    pressure = mesh.evaluate_at_offsets(state.pressure, nodes.ravel()).reshape(nodes.shape)
+    modes = pressure @ rule.to_modes.T
+    (at_start, at_end), (new_start, new_end) = _ends(mesh.modes(state.pressure)), _ends(modes)
+    jump = np.maximum(np.abs(new_start - at_start[:-1]), np.abs(new_end - at_end[1:]))
+    effect = _unseen(modes, jump) * _weights(_Field(state), starts, lengths)
+    keeps_edge = mesh.offsets[1:-1] != 1.0 - mesh.origin
+    keeps_joint = ~np.isin(mesh.offsets[1:-1], _joints(state.disc.problem, state.scale) - mesh.origin)
+    not_too_long = lengths <= (_LARGEST_RATIO - 1.0) * mesh.starts[:-1]
+    removable = (effect < _MERGE_MARGIN * tolerance) & keeps_edge & keeps_joint & not_too_long
+    if len(mesh.lengths) < _MANY and not kinks_of(state.disc.problem.punch):
+        removable &= _halves(mesh)
+    indices: list[int] = []
+    for i in np.flatnonzero(removable) + 1:
+        if not indices or i > indices[-1] + 1:
+            indices.append(int(i))
+    return np.array(indices, np.intp)
+
+
+def _unknowns_on(state: State, mesh: PanelMesh) -> Array:
+    """The unknowns of a state on another mesh at the same scale: gaps, or deformations of a steep punch.
+
+    Where the polynomial falls below the singular gap, linear interpolation between the nodes replaces it.
+    """
+    old, problem = state.disc.mesh, state.disc.problem
+    if state.lift is not None:
+        unknowns = old.transfer(state.lift, mesh)
+        gap = _lifted_gap(state, mesh, unknowns)
+    elif kinks_of(problem.punch):  # the deformation is smooth where the shape is not resolved
+        shape = problem.punch.height
+        gap = unknowns = old.transfer(state.gap - shape(state.radius), mesh) + shape(state.scale * mesh.nodes)
+    else:
+        gap = unknowns = old.transfer(state.gap, mesh)
+    below = gap <= problem.law.singular_gap
+    if np.any(below):
+        unknowns = np.where(below, unknowns + np.interp(mesh.nodes, old.nodes, state.gap) - gap, unknowns)
+    return unknowns
+
+
+def _lifted_gap(state: State, mesh: PanelMesh, lift: Array) -> Array:
+    return state.disc.height(state.scale * mesh.nodes) - state.displacement + lift
+
+
+def _gap_on(state: State, mesh: PanelMesh) -> Array:
+    unknowns = _unknowns_on(state, mesh)
+    return unknowns if state.lift is None else _lifted_gap(state, mesh, unknowns)
+
+
+def on_mesh(state: State, mesh: PanelMesh) -> State:
+    """The state interpolated to another mesh at the same scale: a guess, not an equilibrium."""
+    disc = Discretisation(state.disc.problem, mesh, state.disc)
+    state.disc.factor = None  # rarely used again, and as large as the response
+    unknowns = _unknowns_on(state, mesh)
+    if state.lift is not None:
+        arguments = state.scale, unknowns, state.displacement, state.follows_edge, state.edge_gap, state.turned
+        return State.lifted(disc, *arguments)
+    return replace(state, disc=disc, gap=unknowns, iterations=0, residual=0.0)
+
+
+def lengthened(state: State, end_height: float) -> State:
+    """The state on a mesh extended to the end height: a guess, for which no response is computed.
+
+    Beyond the old end the deformation decays like that of a load at the center, r^-(1 + k).
+    """
+    mesh, problem = state.disc.mesh, state.disc.problem
+    end = end_radius(problem, end_height) / state.scale
+    if state.lift is not None or mesh.breaks[-1] >= end:
+        return state
+    longer = replace(mesh, offsets=_extended(mesh.offsets, mesh.origin, end))
+    added = longer.nodes[mesh.size :]
+    w = state.gap[-1] + state.displacement - state.disc.height(state.radius[-1:])[0]
+    behind = w * (mesh.nodes[-1] / added) ** (1.0 + problem.k)
+    gap = state.disc.height(state.scale * added) - state.displacement + behind
+    return replace(state, disc=Discretisation(problem, longer, state.disc), gap=np.concatenate([state.gap, gap]))
+
+
+def newton_tolerance(tolerance: float) -> float:
+    """Tolerance of Newton's method whose error is negligible relative to that of the mesh."""
+    return max(STEP_TOLERANCE, _NEWTON_MARGIN * tolerance)
+
+
+def resolved(guess: State, tolerance: float) -> State:
+    """The guess on a mesh that resolves its pressure, split as by `fit`; nothing is solved."""
+    mesh = resolving(guess, guess.disc.mesh, tolerance, partial(_gap_on, guess), _GUESS_ROUNDS)
+    return guess if mesh is guess.disc.mesh else on_mesh(guess, mesh)
+
+
+def fit(
+    state: State,
+    control: Control,
+    tolerance: float,
+    coarsen: bool = False,
+    step_tolerance: float | None = None,
+) -> State:
+    """Solve on meshes refined until every panel is resolved to `tolerance`.
+
+    Parameters
+    ----------
+    state : State
+        In equilibrium on its own mesh.
+    control : Control
+        The same on all meshes.
+    tolerance : float
+        Of the indicator, dimensionless.
+    coarsen : bool
+        Merge superfluous panels in the first round.
+    step_tolerance : float, optional
+        Of Newton's method; by default its error is negligible relative to that of the mesh.
+
+    Raises
+    ------
+    NotConverged
+        When the refinement does not end.
+    """
+    iterations = state.iterations
+    if step_tolerance is None:
+        step_tolerance = newton_tolerance(tolerance)
+    for attempt in range(_MAX_ROUNDS):
+        mesh, middles = state.disc.mesh, _unresolved(state, tolerance)
+        drop = _superfluous(state, tolerance) if coarsen and attempt == 0 else np.empty(0, np.intp)
+        # A new mesh costs a solve: worth it for missing panels, or for many superfluous ones.
+        moved = _off_kinks(state) > _OFF_KINK * tolerance**0.5
+        if not (middles.size or moved) and drop.size < _WORTH_MERGING * len(mesh.offsets):
+            return replace(state, iterations=iterations)
+        ends = np.sort(np.concatenate([np.delete(mesh.offsets, drop), middles]))
+        if np.any(np.diff(ends) <= 0.0):
+            raise NotConverged(
+                "the contact edge is narrower than the rounding of its radius: no panel resolves the pressure there"
+            )
+        mesh = at_kinks(state.disc.problem, replace(mesh, offsets=ends), state.scale, state.scale)
+        mesh = resolving(state, mesh, tolerance, partial(_gap_on, state))
+        state = newton(on_mesh(state, mesh), control, step_tolerance)
+        iterations += state.iterations
+    raise NotConverged(f"the mesh was refined {_MAX_ROUNDS} times without resolving the pressure to {tolerance:.0e}")

@@ -1,0 +1,1 @@
+"""How the data of the atlas were made: nodes, fit of the series, bounds."""
