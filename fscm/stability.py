@@ -1,21 +1,21 @@
 r"""Stability of an equilibrium state under prescribed displacement and under prescribed load.
 
-The surface may move by v(r) cos(m theta) and, under prescribed load, the punch by e along its axis; the punch cannot
-tilt or shift.  With the elastic stiffness K_m^{-1} (K_m: the ring response of `_surface.azimuthal_kernel`) the second
-variation of the energy is
+The surface may move by v(r, theta) and, under prescribed load, the punch by e along its axis; the punch cannot tilt or
+shift.  With the elastic stiffness K^{-1} the second variation of the energy is
 
-    int v K_m^{-1} v  -  int p'(H) (v - e)^2,        e = 0 unless m = 0 and the load is prescribed.
+    int v K^{-1} v  -  int p'(H) (v - e)^2,        e = 0 unless the load is prescribed.
 
 *Prescribed displacement.*  p' > 0 beyond the gap of largest tension, where the attraction grows as the gap closes: only
 there the second variation is reduced, at most by the share of the other terms that is the largest eigenvalue of
-(1 + K_m p'_-)^{-1} K_m p'_+ , p' = p'_+ - p'_-.  The margin is 1 minus this share, positive for a stable state.
+(1 + K p'_-)^{-1} K p'_+ , p' = p'_+ - p'_-.  The margin is 1 minus this share, positive for a stable state.
 
 *Prescribed load.*  With the surface in equilibrium the energy is U(delta) - P delta, so that the load adds one unstable
 direction if dP/d(delta) < 0.  A state is stable if it is so under prescribed displacement and dP/d(delta) > 0.
 
-*m > 0.*  K_m^{-1} is the fractional power (1-k)/2 of the Laplacian, whose heat kernel in the sector m is positive and
-decreases with m.  By Trotter's formula so does that of K_m^{-1} - p'(H(r)): the margin increases with m, and no state
-that is stable for m = 0 is unstable for another m, whatever the law, the punch and the gradient.
+*Axisymmetric motions decide.*  On a power law K^{-1} is the power (1-k)/2 of the Laplacian, whose heat kernel
+for v cos(m theta) is positive and decreases with m.  By Trotter's formula so does that of K^{-1} - p'(H(r)): the margin
+increases with m, and no state that is stable for m = 0 is unstable for another m, whatever the law, the punch and the
+gradient.
 """
 
 from __future__ import annotations
@@ -28,16 +28,12 @@ from scipy.linalg import LinAlgError, lu_factor, lu_solve
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigs
 
 from fscm._path.arc_length import Point, rates_of
-from fscm._surface.azimuthal_kernel import azimuthal_kernel
-from fscm._surface.deformation import response_matrix
 from fscm._surface.equilibrium import State
 from fscm._typing import Array
 from fscm.errors import NotConverged
 
 __all__ = ["Stability", "margins", "stability_of", "stable_sections"]
 
-#: Modes cos(m theta) of a state.
-MODES = (0, 1, 2, 3, 4)
 #: Largest number of unstable directions that is counted at the initial state of a path.
 _MOST = 6
 #: Distance of two folds, relative to 1 + abs(delta), whose order is that of rounding: the tolerance of the path.  Folds
@@ -51,9 +47,9 @@ class Stability:
 
     Attributes
     ----------
-    margins : tuple of float
-        For m = 0, ..., 4 the smallest second variation of the energy under prescribed displacement, relative to its
-        stiffening terms: at most 1, 0 at a fold of the displacement, negative for an unstable state.
+    margin : float
+        Smallest second variation of the energy under prescribed displacement, relative to its stiffening terms: at
+        most 1, 0 at a fold of the displacement, negative for an unstable state.
     stiffness : float
         dP/d(delta) along the path, in the units of the problem.
 
@@ -66,7 +62,7 @@ class Stability:
     -0.07 True True
     """
 
-    margins: tuple[float, ...]
+    margin: float
     stiffness: float
 
     @property
@@ -80,14 +76,12 @@ class Stability:
         return self.under_displacement and self.stiffness > 0.0
 
 
-def margins(state: State, m: int, count: int = 1) -> Array:
-    """The `count` smallest margins of a state for cos(m theta), ascending.
+def margins(state: State, count: int = 1) -> Array:
+    """The `count` smallest margins of a state, ascending.
 
     Parameters
     ----------
     state : State
-    m : int
-        Number of waves around the axis, >= 0.
     count : int
 
     Raises
@@ -98,10 +92,7 @@ def margins(state: State, m: int, count: int = 1) -> Array:
     d = state.disc
     slope = d.problem.force.slope(state.radius, state.gap)
     attracted = slope > 0.0
-    if m > 0 and d.problem.graded is not None:
-        raise NotConverged(f"the stability against cos({m} theta) is known for a power-law modulus only")
-    response = d.response(state.scale) if m == 0 else response_matrix(azimuthal_kernel(d.problem.k, m), d.mesh)
-    K = d.stiffness_scale(state.scale) * response
+    K = d.stiffness_scale(state.scale) * d.response(state.scale)
     size = int(np.count_nonzero(attracted))
     try:
         stiffened = np.eye(len(slope)) + K * np.maximum(-slope, 0.0)
@@ -119,7 +110,7 @@ def margins(state: State, m: int, count: int = 1) -> Array:
 
 
 def stability_of(state: State) -> Stability:
-    """Stability of an equilibrium state against cos(m theta), m = 0, ..., 4.
+    """Stability of an equilibrium state.
 
     Parameters
     ----------
@@ -131,7 +122,7 @@ def stability_of(state: State) -> Stability:
     """
     rates = rates_of(state)
     stiffness = rates.load / rates.displacement if rates.displacement else np.inf
-    return Stability(tuple(float(margins(state, m)[0]) for m in MODES), float(stiffness))
+    return Stability(float(margins(state)[0]), float(stiffness))
 
 
 def stable_sections(start: Point, end: Point, folds: Sequence[tuple[str, float]]) -> list[tuple[bool, bool]]:
@@ -174,7 +165,7 @@ def stable_sections(start: Point, end: Point, folds: Sequence[tuple[str, float]]
 
 def _sections(origin: Point, folds: Sequence[str]) -> list[tuple[bool, bool]]:
     """Stability of the sections from one end of the path to the other."""
-    unstable = int(np.count_nonzero(margins(origin.state, 0, _MOST) <= 0.0))
+    unstable = int(np.count_nonzero(margins(origin.state, _MOST) <= 0.0))
     rising = origin.rates.load * origin.rates.displacement > 0.0
     sections = [(unstable == 0, unstable == 0 and rising)]
     for fold in folds:

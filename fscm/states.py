@@ -117,7 +117,7 @@ class EquilibriumState:
     @cached_property
     @one_thread()
     def stability(self) -> Stability:
-        """Stability against cos(m theta), m = 0, ..., 4, computed on demand."""
+        """Stability, computed on demand."""
         stability = stability_of(self._state)
         return replace(stability, stiffness=stability.stiffness * self._units["stiffness"])
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from fscm import ATLAS_QUANTITIES, NoSuchEvent, OutsideAtlas, atlas
-from fscm.interpolation import fitting
 from fscm.interpolation.__main__ import main, nodes_in
+from fscm.interpolation.builder import fitting
 from fscm.interpolation.builder.building import FACTOR, build, layouts, tail_bound
 from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, RELATIVE
 from fscm.interpolation.coordinates import BOX

@@ -5,8 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fscm import Analysis, Problem, _defect, _equilibrium
+from fscm import Analysis, Problem
+from fscm._bound import defect
 from fscm._bound.defect import Defect
+from fscm._surface import equilibrium
 from fscm._surface.kernel import kernel_of
 from fscm._surface.tail import tail_of
 from fscm.accuracy import Mesh, Meshes
@@ -101,7 +103,7 @@ def _change_by_another_tail(event_pair: Pair, functional, monkeypatch, name):
     # The tail of a state is computed when it is needed first.
     before, start = getattr(event_pair.exact, functional), replace(event_pair.exact, iterations=0)
     with monkeypatch.context() as patch:
-        patch.setattr(_equilibrium, "tail_of", changed)
+        patch.setattr(equilibrium, "tail_of", changed)
         return getattr(event_pair.solved(start), functional) - before
 
 
@@ -113,12 +115,12 @@ def test_the_part_of_the_tail_is_the_change_that_another_tail_makes(field, name,
     expected = _change_by_another_tail(event_pair, functional, monkeypatch, name)
     known, remainder = np.zeros(3), np.zeros(3)
     known[field] = STEP
-    monkeypatch.setattr(_defect, "tail_errors", lambda *_: (known, np.zeros(3)))
+    monkeypatch.setattr(defect, "tail_errors", lambda *_: (known, np.zeros(3)))
     assert event_pair.defect.errors(functional, event_pair.parameter).tail.sum() == pytest.approx(
         expected, rel=1e-3, abs=1e-12
     )
     remainder[field] = STEP
-    monkeypatch.setattr(_defect, "tail_errors", lambda *_: (np.zeros(3), remainder))
+    monkeypatch.setattr(defect, "tail_errors", lambda *_: (np.zeros(3), remainder))
     size = abs(event_pair.defect.errors(functional, event_pair.parameter).tail).sum()
     assert size == pytest.approx(abs(expected), rel=1e-3, abs=1e-12)
 
@@ -127,7 +129,7 @@ def test_an_error_of_the_energy_of_the_tail_is_one_of_the_energy(monkeypatch):
     event_pair = pair(*NEAR)
     for known, remainder in ((STEP, 0.0), (0.0, STEP)):
         errors = np.array([0.0, 0.0, known]), np.array([0.0, 0.0, remainder])
-        monkeypatch.setattr(_defect, "tail_errors", lambda *_, errors=errors: errors)
+        monkeypatch.setattr(defect, "tail_errors", lambda *_, errors=errors: errors)
         assert abs(event_pair.defect.errors("energy", event_pair.parameter).tail).sum() == pytest.approx(
             STEP, rel=1e-12
         )

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fscm import Analysis, CustomPunch, Problem, RoundedCone, _bounds
+from fscm import Analysis, CustomPunch, Problem, RoundedCone
 from fscm._bound.defect import Errors
 from fscm._bound.parts import EventErrors, bounds, energy_of_jump, root_shift
 from fscm._path.arc_length import parameter_of, rates_of
@@ -149,7 +149,7 @@ def landing_errors(monkeypatch):
         def of_landing(state):
             return SimpleNamespace(controlled=lambda *names: called.append((state, *names)) or errors)
 
-        monkeypatch.setattr(_bounds, "EventErrors", of_landing)
+        monkeypatch.setattr("fscm._bound.parts.EventErrors", of_landing)
         return called
 
     return use
