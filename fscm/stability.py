@@ -15,7 +15,7 @@ direction if dP/d(delta) < 0.  A state is stable if it is so under prescribed di
 *Axisymmetric motions decide.*  On a power law K^{-1} is the power (1-k)/2 of the Laplacian, whose heat kernel
 for v cos(m theta) is positive and decreases with m.  By Trotter's formula so does that of K^{-1} - p'(H(r)): the margin
 increases with m, and no state that is stable for m = 0 is unstable for another m, whatever the law, the punch and the
-gradient.
+gradient.  On other solids the margin is that of axisymmetric motions; other motions are not examined.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class Stability:
     @property
     def under_displacement(self) -> bool:
         """Whether the state is stable under prescribed displacement."""
-        return min(self.margins) > 0.0
+        return self.margin > 0.0
 
     @property
     def under_load(self) -> bool:
