@@ -17,8 +17,9 @@ from fscm._path.arc_length import parameter_control, parameter_of, rates_of
 from fscm._path.continuation import moved
 from fscm._path.events import refined, slowest
 from fscm._path.whole_path import path_end, path_until
-from fscm._surface.equilibrium import Discretisation, State
+from fscm._surface.discretisation import Discretisation
 from fscm._surface.newton import newton
+from fscm._surface.state import State
 from fscm._threads import one_thread
 from fscm.accuracy import Accuracy, Meshes
 from fscm.errors import NoSuchEvent, NotConverged

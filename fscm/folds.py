@@ -12,7 +12,7 @@ import scipy
 
 from fscm._path import events
 from fscm._path.arc_length import Point, parameter_of
-from fscm._surface.equilibrium import State
+from fscm._surface.state import State
 from fscm.punch import PowerPunch
 
 __all__ = ["Fold", "edge_radius", "fold_at", "folds_between", "folds_of"]
@@ -68,7 +68,7 @@ def fold_at(state: State, quantity: str, maximum: bool) -> Fold:
 def edge_radius(state: State) -> float:
     """Outermost radius at which the gap is that of the largest tension; nan before contact."""
     problem, mesh = state.disc.problem, state.disc.mesh
-    if state.follows_edge:
+    if state.anchor.in_contact:
         return float(state.scale)
     force = problem.force
     inside = np.flatnonzero(state.gap < force.peak_gap(state.radius))

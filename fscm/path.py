@@ -17,8 +17,8 @@ from fscm._path.arc_length import Point, parameter_of
 from fscm._path.curve_density import turning_slowly
 from fscm._path.whole_path import path_by_any_mesh, path_end
 from fscm._presentation import Columns
-from fscm._surface.equilibrium import State
 from fscm._surface.response import largest_mu
+from fscm._surface.state import State
 from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm._validation import real_number

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fscm._presentation import with_bound
-from fscm._surface.equilibrium import State
+from fscm._surface.state import State
 
 if TYPE_CHECKING:
     from uncertainties import UFloat

@@ -28,7 +28,7 @@ from scipy.linalg import LinAlgError, lu_factor, lu_solve
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigs
 
 from fscm._path.arc_length import Point, rates_of
-from fscm._surface.equilibrium import State
+from fscm._surface.state import State
 from fscm._typing import Array
 from fscm.errors import NotConverged
 

@@ -13,7 +13,7 @@ from fscm._path import events
 from fscm._path.arc_length import Point, parameter_of, rates_of
 from fscm._path.whole_path import path_by_any_mesh, path_end
 from fscm._presentation import Columns
-from fscm._surface.equilibrium import State
+from fscm._surface.state import State
 from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm.accuracy import Accuracy, Meshes

@@ -13,14 +13,15 @@ also changes with the location s of the extreme, by J_s ds = -J_s d(L_s)/L_ss wi
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import scipy
 
 from fscm._path.arc_length import parameter_of, rates_of
 from fscm._path.continuation import moved
-from fscm._surface.equilibrium import Control, Discretisation, Linearisation, State
+from fscm._surface.discretisation import Discretisation
+from fscm._surface.linearisation import Linearisation, linearised
+from fscm._surface.state import Control, State
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
@@ -45,7 +46,7 @@ class Adjoint:
 
     def __init__(self, state: State, functional: str, control: str) -> None:
         self._state, self._functional, self._control = state, functional, control
-        system = Linearisation(state)
+        system = linearised(state)
         matrix = system.bordered()
         matrix[-1] = system.row(_unit(control))
         lu, pivots, info = scipy.linalg.lapack.dgetrf(matrix, overwrite_a=1)
@@ -62,7 +63,7 @@ class Adjoint:
         """The change from the problem of the state to another one, on the same mesh."""
         disc = self._state.disc
         state = _at_fixed_unknowns(self._state, Discretisation(problem, disc.mesh, disc))
-        left = self._left_sides(state, Linearisation(state))
+        left = self._left_sides(state, linearised(state))
         return float(getattr(state, self._functional) - self._value - self._adjoint @ (left - self._left))
 
 
@@ -77,14 +78,7 @@ def _at_fixed_unknowns(state: State, disc: Discretisation) -> State:
     """
     old_kinks, new_kinks = kinks_of(state.disc.problem.punch), kinks_of(disc.problem.punch)
     scale = state.scale * new_kinks[0] / old_kinks[0] if old_kinks and len(new_kinks) == len(old_kinks) else state.scale
-    if state.lift is not None:
-        return State.lifted(
-            disc, scale, state.lift, state.displacement, state.follows_edge, state.edge_gap, state.turned
-        )
-    if scale == state.scale:
-        return replace(state, disc=disc)
-    gap = state.gap + (disc.height(scale * disc.mesh.nodes) - state.disc.height(state.radius))
-    return replace(state, disc=disc, scale=scale, gap=gap)
+    return state.of_problem(disc, scale)
 
 
 class AtExtreme:

@@ -15,16 +15,18 @@ and they may bend between the nodes of any mesh: its error, and the surface ener
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 import scipy
 
-from fscm._surface.equilibrium import Discretisation, Linearisation, State
+from fscm._surface.discretisation import Discretisation
+from fscm._surface.linearisation import linearised
 from fscm._surface.mesh import PanelMesh
 from fscm._surface.response import response_of
 from fscm._surface.samples import POINTS, Samples
+from fscm._surface.state import State
 from fscm._surface.tail import deformation_beyond, tail_energy, tail_errors, tail_variation
 from fscm._typing import Array
 
@@ -104,13 +106,6 @@ def _uneven(mesh: PanelMesh) -> Iterator[tuple[float, float, float, float]]:
             yield float(end), float(min(left, right)), float(max(left, right)), 1.0 if right > left else -1.0
 
 
-def _from_gap(
-    disc: Discretisation, scale: float, lift: Array, displacement: float, follows_edge: bool, edge_gap: float | None
-) -> State:
-    gap = disc.height(scale * disc.mesh.nodes) - displacement + lift
-    return State(disc, scale, gap, displacement, follows_edge, edge_gap=edge_gap)
-
-
 class Defect:
     """Residual of a state on a finer mesh, and the adjoint solutions there.
 
@@ -125,13 +120,10 @@ class Defect:
     def __init__(self, state: State, fine: Discretisation) -> None:
         self.coarse = state
         coarse, mesh = state.disc.mesh, fine.mesh
-        height = fine.height(state.scale * mesh.nodes)
         # The deformation is smoother than the gap.
-        nodal = state.gap - fine.height(state.radius) + state.displacement if state.lift is None else state.lift
-        lift = coarse.transfer(nodal, mesh)
-        unknowns = state.scale, lift, state.displacement, state.follows_edge, state.edge_gap
-        self.fine = f = State.lifted(fine, *unknowns) if fine.steep else _from_gap(fine, *unknowns)
-        self._system = Linearisation(f)
+        nodal = state.nodal_deformation
+        self.fine = f = replace(state, disc=fine).with_deformation(coarse.transfer(nodal, mesh))
+        self._system = linearised(f)
         self._stiffness = fine.stiffness_scale(state.scale)
         self._area = 2.0 * state.scale**2 * mesh.weights * mesh.nodes
         polynomial = coarse.transfer(state.pressure, mesh)
@@ -144,7 +136,7 @@ class Defect:
         self._pressure = polynomial + self._pressure_error
         self._sampled = samples, radii, gap
         deformation = self._stiffness * (fine.response(state.scale) @ polynomial) + f.tail.displacement
-        self._gap_error = lift - deformation if fine.steep else f.gap + state.displacement - height - deformation
+        self._gap_error = f.mismatch(deformation)
         axis = (d.axis_response(state.scale) @ p for d, p in ((fine, polynomial), (state.disc, state.pressure)))
         self._axis_error = self._stiffness * float(next(axis) - next(axis))
         self._owner = np.repeat(coarse.locate(mesh.middles), mesh.order)
@@ -166,8 +158,7 @@ class Defect:
         adjoint, anchor, border = y[:N], float(y[N]), float(y[N + 1])
         mesh = self._by_panel(adjoint * self._gap_error - self._backwards(adjoint) * self._pressure_error)
         mesh += border * self._difference(control) - self._difference(functional)
-        if self.fine.follows_edge:
-            mesh[self._edge] += anchor * self._system.anchor
+        mesh[self._edge] += anchor * self._system.anchor
         tail, domain = self._behind(adjoint, border, functional, control)
         rounding = self._rounding(adjoint, border, functional, control) + abs(border * missed)
         return Errors(mesh, tail, domain, rounding, self._kernel(adjoint, border, functional, control))
@@ -225,10 +216,7 @@ class Defect:
         by_scale += (behind(_STEP, 0.0) - behind(-_STEP, 0.0)) / (2.0 * _STEP)
         if self._system.drift is not None:
             by_scale += self._drift_of_energy(weighed, self._system.drift)
-        if f.lift is not None:  # the gap follows from it, H = f(c s) - delta + w
-            by_displacement -= float(row.sum())
-            by_scale += float(row @ f.disc.rise(f.radius))
-        return np.concatenate([row, [by_displacement, by_scale]])
+        return self._system.by_unknowns(row, by_displacement, by_scale)
 
     def _drift_of_energy(self, weighed: Array, drift: Array) -> float:
         """Derivative of the energy by log c by that of the pressure at a fixed gap."""
@@ -318,12 +306,8 @@ class Defect:
         backwards = np.abs(self._backwards(row))
         force = f.disc.problem.force
         product = float(backwards @ force.size(f.radius, f.gap))
-        size = abs(f.displacement) + f.disc.height(f.radius) + np.abs(f.disc.rise(f.radius))
-        if f.lift is None:
-            size = size + np.abs(f.gap)
-        else:  # the height is rounded in the gap, not in the equation
-            product += float(backwards @ np.abs(force.slope(f.radius, f.gap) * size)) / _ENTRY
-            size = np.abs(f.lift)
+        size, of_gap = self._system.sizes()
+        product += float(backwards @ np.abs(force.slope(f.radius, f.gap) * of_gap)) / _ENTRY
         functionals = self._functional_rounding(functional) + abs(border) * self._functional_rounding(control)
         return _ROUNDOFF * (float(row @ size) + _ENTRY * product + functionals)
 

@@ -19,7 +19,8 @@ from fscm._bound.defect import Defect, Errors, finer
 from fscm._path.arc_length import parameter_of, rates_of
 from fscm._path.continuation import moved
 from fscm._path.events import MISSED_EXTREME
-from fscm._surface.equilibrium import Discretisation, Rates, State
+from fscm._surface.discretisation import Discretisation
+from fscm._surface.state import Rates, State
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.punch import kinks_of

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from fscm._surface.equilibrium import Control, Rates, State
+from fscm._surface.anchors import AtEdge
+from fscm._surface.linearisation import rates_by
 from fscm._surface.response import largest_mu
+from fscm._surface.state import Control, Rates, State
 from fscm.problem import Problem
 
 __all__ = ["ArcLength", "Point", "parameter_control", "parameter_of", "rate_of", "rates_of"]
@@ -47,7 +49,7 @@ class ArcLength:
 
     def parameter_unit(self, state: State) -> float:
         """Unit of the continuation parameter: 1 for log c, the distance to the singular gap for the central gap."""
-        return 1.0 if state.follows_edge else state.central_gap - state.disc.problem.law.singular_gap
+        return 1.0 if state.anchor.in_contact else state.central_gap - state.disc.problem.law.singular_gap
 
     def displacement_unit(self, state: State) -> float:
         """Unit of the displacement: larger far apart and far in contact, where the path is nearly straight."""
@@ -59,9 +61,10 @@ class ArcLength:
 
     def units(self, state: State) -> dict[str, float]:
         """Units of all quantities that enter the arc length, by name."""
-        units = {"log_scale" if state.follows_edge else "gap": self.parameter_unit(state)}
+        units = {state.anchor.parameter: self.parameter_unit(state)}
         units |= {"displacement": self.displacement_unit(state), "load": self.load_unit(state)}
-        if state.follows_edge and state.central_gap > state.gap_at_edge:
+        anchor = state.anchor
+        if isinstance(anchor, AtEdge) and state.central_gap > anchor.gap_at(state.disc.problem, state.scale):
             # In contact on a ring, the surface inside the ring may move fast while the edge does not.
             units["gap"] = state.central_gap - state.disc.problem.law.singular_gap
         return units
@@ -100,7 +103,7 @@ def parameter_control(state: State, value: float) -> Control:
 
 def rates_of(state: State) -> Rates:
     """Exact derivatives per unit of the continuation parameter."""
-    return state.rates(state.parameter)
+    return rates_by(state, state.parameter)
 
 
 def rate_of(rates: Rates, parameter: str) -> float:

@@ -10,12 +10,13 @@ import scipy
 
 from fscm._path.arc_length import ArcLength, Point
 from fscm._surface.adaptivity import at_kinks, edge_mesh, on_mesh, resolving
-from fscm._surface.equilibrium import Discretisation, Rates, State
+from fscm._surface.anchors import AtEdge
+from fscm._surface.discretisation import Discretisation
 from fscm._surface.mesh import PanelMesh
-from fscm._surface.newton import shifted
+from fscm._surface.state import Rates, State
 from fscm._typing import Array
 from fscm.errors import NotConverged
-from fscm.punch import PowerPunch, kinks_of
+from fscm.punch import PowerPunch
 
 __all__ = ["LARGEST_DEVIATION", "checked_orientation", "edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
 
@@ -30,10 +31,11 @@ _HAND_OVER_ROUNDS = 80
 def predicted(state: State, rates: Rates, step: float) -> State:
     """The state after a step along the tangent, on a mesh with its breaks where the kinks are at the new scale."""
     problem, old = state.disc.problem, state.disc.mesh
-    moved = shifted(state, rates.gap, rates.displacement, rates.log_scale, step)
-    if step * rates.log_scale == 0.0 or not kinks_of(problem.punch):
+    moved = state.shifted(rates.unknowns, rates.displacement, rates.log_scale, step)
+    if moved.scale == state.scale:
         return moved
-    return on_mesh(moved, at_kinks(problem, old, state.scale, moved.scale))
+    mesh = at_kinks(problem, old, state.scale, moved.scale)
+    return moved if mesh is old else on_mesh(moved, mesh)
 
 
 def follow_edge(state: State, end_height: float, tolerance: float, edge_gap: float | None = None) -> State:
@@ -53,33 +55,24 @@ def follow_edge(state: State, end_height: float, tolerance: float, edge_gap: flo
     low = -mesh.origin if outer < 0 else float(mesh.node_offsets[outer])
     offset = scipy.optimize.brentq(excess, low, mesh.node_offsets[outer + 1])
     ratio = mesh.origin + offset
-    scale, shape = state.scale * ratio, problem.punch.height
-    kinked = bool(kinks_of(problem.punch))
+    scale = state.scale * ratio
 
     def unknowns_on(new: PanelMesh) -> Array:
-        """Gaps, or deformations of a steep punch, at the nodes of a mesh that follows the edge."""
-        radii = np.minimum(new.nodes * ratio, mesh.breaks[-1])
-        if state.lift is not None:
-            return mesh.evaluate(state.lift, radii)
-        if kinked:
-            return mesh.evaluate(state.gap - shape(state.radius), radii) + shape(scale * new.nodes)
-        return mesh.evaluate(state.gap, radii) + (shape(scale * new.nodes) - shape(state.scale * radii))
+        return state.unknowns_at_scale(new, scale, np.minimum(new.nodes * ratio, mesh.breaks[-1]))
 
     def gap_on(new: PanelMesh) -> Array:
-        unknowns = unknowns_on(new)
-        return unknowns if state.lift is None else state.disc.height(scale * new.nodes) - state.displacement + unknowns
+        return state.gap_of(unknowns_on(new), scale * new.nodes)
 
     new = edge_mesh(problem, mesh.order, scale, end_height)
     new = resolving(state, new, tolerance, gap_on, _HAND_OVER_ROUNDS, scale)
     disc = Discretisation(problem, new)
-    if state.lift is not None:
-        return State.lifted(disc, scale, unknowns_on(new), state.displacement, True, edge_gap)
-    return State(disc, scale, unknowns_on(new), state.displacement, True, edge_gap=edge_gap)
+    guess = replace(state, disc=disc, scale=scale, unknowns=unknowns_on(new), anchor=AtEdge(edge_gap), turned=None)
+    return replace(guess, iterations=0, residual=0.0)
 
 
 def edge_elsewhere(state: State, hand_over: float) -> bool:
     """Whether the outermost contact edge is not the one that the mesh follows."""
-    if not state.follows_edge:
+    if not state.anchor.in_contact:
         return min(state.central_gap, float(np.min(state.gap))) < hand_over
     return float(np.min(state.gap[state.disc.mesh.nodes > 1.0])) < hand_over
 
@@ -104,7 +97,7 @@ def joined(arc: ArcLength, before: Point, state: State) -> Point:
     else:
         old, new = arc.shares(before), arc.shares(point)
         product = sum(old[name] * new[name] for name in ("displacement", "load"))
-        if not before.state.follows_edge:
+        if not before.state.anchor.in_contact:
             clearance = state.central_gap - state.disc.problem.law.singular_gap
             product += before.rates.central_gap * point.rates.central_gap / clearance**2
         same = product >= 0.0
@@ -114,14 +107,13 @@ def joined(arc: ArcLength, before: Point, state: State) -> Point:
     return Point(state, arc.tangent(state), before.segment + 1)
 
 
-def _moving(state: State) -> Array:
+def _relative(state: State) -> Array:
     """Gaps; of a steep punch without its height, which is not linear in log c within a step."""
-    return state.gap if state.lift is None else state.lift - state.displacement
+    return state.relative_to_punch(state.unknowns, state.displacement)
 
 
-def _moving_rates(point: Point) -> Array:
-    rates = point.rates
-    return rates.gap if point.state.lift is None else rates.gap - rates.displacement
+def _relative_rates(point: Point) -> Array:
+    return point.state.relative_to_punch(point.rates.unknowns, point.rates.displacement)
 
 
 def checked_orientation(a: Point, b: Point, step: float, same: bool | None, largest: float = LARGEST_DEVIATION) -> bool:
@@ -133,10 +125,10 @@ def checked_orientation(a: Point, b: Point, step: float, same: bool | None, larg
     old_mesh, new_mesh = a.state.disc.mesh, b.state.disc.mesh
     offsets = np.minimum(new_mesh.seen_from(old_mesh.origin), old_mesh.offsets[-1])
     before, rate = (
-        old_mesh.evaluate_at_offsets(_moving(a.state), offsets),
-        old_mesh.evaluate_at_offsets(_moving_rates(a), offsets),
+        old_mesh.evaluate_at_offsets(_relative(a.state), offsets),
+        old_mesh.evaluate_at_offsets(_relative_rates(a), offsets),
     )
-    after, new_rate = _moving(b.state), _moving_rates(b)
+    after, new_rate = _relative(b.state), _relative_rates(b)
     clearance = b.state.gap - a.state.disc.problem.law.singular_gap
     near_edge = new_mesh.nodes < _NEAR_EDGE
     product = new_mesh.weights * new_mesh.nodes * rate * new_rate / clearance**2

@@ -18,9 +18,10 @@ import numpy as np
 from fscm._path.arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of, rates_of
 from fscm._path.continuation import moved
 from fscm._surface.adaptivity import fit, on_mesh
-from fscm._surface.equilibrium import State
+from fscm._surface.anchors import AtEdge
 from fscm._surface.mesh import PanelMesh
 from fscm._surface.newton import STEP_TOLERANCE, newton
+from fscm._surface.state import State
 from fscm.errors import NotConverged
 from fscm.punch import kinks_of
 
@@ -226,17 +227,10 @@ def _middle(a: Point, b: Point, test: _Test) -> Point:
 
     scale = math.sqrt(a.state.scale * b.state.scale)
     displacement = middle(a.state.displacement, b.state.displacement, a.rates.displacement, b.rates.displacement)
-    if a.state.lift is None or b.state.lift is None:
-        gap = middle(a.state.gap, b.state.gap, a.rates.gap, b.rates.gap)
-        guess = replace(a.state, scale=scale, gap=gap, displacement=displacement)
-    else:
-        lift = middle(a.state.lift, b.state.lift, a.rates.gap, b.rates.gap)
-        if a.state.follows_edge:  # restores the gap at the edge, which the height at the mean log c has changed
-            disc = a.state.disc
-            edge = float(disc.height(np.array([scale]))[0] + disc.edge @ lift)
-            displacement = edge - a.state.gap_at_edge
-        anchor = a.state.follows_edge, a.state.edge_gap, a.state.turned
-        guess = State.lifted(a.state.disc, scale, lift, displacement, *anchor)
+    unknowns = middle(a.state.unknowns, b.state.unknowns, a.rates.unknowns, b.rates.unknowns)
+    guess = replace(a.state, scale=scale, unknowns=unknowns, displacement=displacement)
+    if isinstance(a.state.anchor, AtEdge):
+        guess = guess.at_anchor(a.state.anchor.gap_at(a.state.disc.problem, a.state.scale))
     parameter = 0.5 * (parameter_of(a.state) + parameter_of(b.state))
     return _point(newton(guess, parameter_control(guess, parameter), test.newton), a, test)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fscm._surface.equilibrium import Rates, State
+from fscm._surface.state import Rates, State
 
 __all__ = ["gap_at_first_contact"]
 
@@ -20,7 +20,7 @@ _FLAT_HEIGHT, _SMALL, _DEEP, _GROWING = 0.02, 0.05, 0.2, 0.3
 def gap_at_first_contact(state: State, rates: Rates) -> float | None:
     """The gap at the edge of a small growing first contact, if there is one."""
     problem, mesh = state.disc.problem, state.disc.mesh
-    if state.follows_edge or problem.k <= _NARROW:
+    if state.anchor.in_contact or problem.k <= _NARROW:
         return None
     flat = int(np.argmax(problem.punch.height(state.radius) >= _FLAT_HEIGHT)) - 1
     inner = state.central_gap
@@ -35,5 +35,6 @@ def gap_at_first_contact(state: State, rates: Rates) -> float | None:
     front = 0.5 * float(gap[i] + gap[i + 1])
     # Growth at a fixed share of the depth: the radius of a fixed gap also grows while the contact forms.
     share = (front - inner) / (float(gap[flat]) - inner)
-    change = (1.0 - share) * rates.central_gap + share * rates.gap[flat] - 0.5 * (rates.gap[i] + rates.gap[i + 1])
+    moving = state.change_of_gap(rates.unknowns, rates.displacement, rates.log_scale)
+    change = (1.0 - share) * rates.central_gap + share * moving[flat] - 0.5 * (moving[i] + moving[i + 1])
     return front if change > _GROWING * slopes[i] else None

@@ -14,8 +14,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
-
 from fscm._path.arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of
 from fscm._path.branches import (
     LARGEST_DEVIATION,
@@ -31,9 +29,10 @@ from fscm._path.edge_width import check_edge
 from fscm._path.ends import depth
 from fscm._path.surface_rings import check_rings, ring_limit
 from fscm._surface.adaptivity import end_radius, fit, initial_mesh, resolved
-from fscm._surface.equilibrium import Control, Discretisation, Rates, State
+from fscm._surface.discretisation import Discretisation
 from fscm._surface.newton import STEP_TOLERANCE, newton
 from fscm._surface.response import largest_mu
+from fscm._surface.state import Control, Rates, State, rigid_state
 from fscm.accuracy import Meshes
 from fscm.errors import NotConverged
 from fscm.problem import Problem
@@ -119,10 +118,8 @@ def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLE
 def _far_state(problem: Problem, central_gap: float, order: int, tolerance: float, end_height: float) -> State:
     """Equilibrium at a large central gap, from the rigid solution."""
     disc = Discretisation(problem, initial_mesh(problem, order, end_height))
-    gap = central_gap + disc.height(disc.mesh.nodes)
     control = Control(central_gap, gap=1.0)
-    lift = np.zeros(disc.mesh.size) if disc.steep else None
-    guess = resolved(State(disc, 1.0, gap, -central_gap, False, lift=lift), tolerance)
+    guess = resolved(rigid_state(disc, central_gap), tolerance)
     return fit(newton(guess, control), control, tolerance)
 
 
@@ -207,7 +204,7 @@ class _Tracer:
         state, shares = point.state, self._arc.shares(point)
         if not state.turned:
             return None
-        usual = _usual_parameter(state)
+        usual = state.anchor.parameter
         # With a prescribed scale no node passes a kink during an iteration.
         wanted = usual if self._kinked and abs(shares[usual]) > _GIVEN_SHARE else state.parameter
         if wanted != state.parameter:
@@ -219,7 +216,9 @@ class _Tracer:
         """The next point; steps are shortened until one is accepted."""
         state = point.state
         longest = self._longest_after(state)
-        if not state.follows_edge and abs(point.rates.displacement) < _FLAT_SHARE * self._arc.displacement_unit(state):
+        if not state.anchor.in_contact and abs(point.rates.displacement) < _FLAT_SHARE * self._arc.displacement_unit(
+            state
+        ):
             self._step = min(self._step, _FLAT_STEP)
         while True:
             try:
@@ -269,7 +268,7 @@ class _Tracer:
     def _control(self, point: Point, guess: State) -> Control:
         """The condition of a step: on its arc length, or on the continuation parameter where that is prescribed."""
         state = point.state
-        if self._prescribed and state.parameter == _usual_parameter(state):
+        if self._prescribed and state.parameter == state.anchor.parameter:
             share = self._arc.shares(point)[state.parameter]
             if abs(share) > _GIVEN_SHARE:
                 value = parameter_of(state) + self._step * rate_of(point.rates, state.parameter)
@@ -282,10 +281,6 @@ class _Tracer:
             return turn >= 0.0
         same = turn >= 0.0 if abs(turn) >= self._tracking.largest_turn else None
         return checked_orientation(point, after, self._step, same, self._tracking.largest_deviation)
-
-
-def _usual_parameter(state: State) -> str:
-    return "log_scale" if state.follows_edge else "gap"
 
 
 def equilibrium_path(

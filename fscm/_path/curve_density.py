@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from fscm._path.arc_length import Point, parameter_of
 from fscm._path.events import Between
-from fscm._surface.equilibrium import Rates, State
+from fscm._surface.state import Rates, State
 
 __all__ = ["turning_slowly"]
 

@@ -30,8 +30,8 @@ from functools import cached_property
 import numpy as np
 import scipy
 
-from fscm._surface.equilibrium import State
 from fscm._surface.response import response_of
+from fscm._surface.state import State
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
@@ -84,7 +84,7 @@ class PathEnd:
         touching = state.central_gap < state.disc.problem.law.peak_gap or np.any(
             state.gap < force.peak_gap(state.radius)
         )
-        return bool(state.follows_edge or touching) and state.load > self.load and deepest and beyond_layers(state)
+        return bool(state.anchor.in_contact or touching) and state.load > self.load and deepest and beyond_layers(state)
 
 
 def beyond_layers(state: State) -> bool:

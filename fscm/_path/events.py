@@ -26,8 +26,8 @@ from fscm._surface.adaptivity import (
     on_mesh,
     resolved,
 )
-from fscm._surface.equilibrium import Rates, State
 from fscm._surface.newton import newton
+from fscm._surface.state import Rates, State
 from fscm.errors import NotConverged
 
 __all__ = [

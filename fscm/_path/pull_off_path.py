@@ -18,7 +18,8 @@ from fscm._path.arc_length import Point, rates_of
 from fscm._path.continuation import Tracking, usual_start
 from fscm._path.events import brackets, load_fold, with_minima
 from fscm._path.whole_path import path_until
-from fscm._surface.equilibrium import STEEP, State
+from fscm._surface.discretisation import STEEP
+from fscm._surface.state import State
 from fscm._typing import Array
 from fscm.accuracy import Meshes
 from fscm.errors import NotConverged
@@ -47,7 +48,7 @@ _TRACKING = Tracking(newton=1e-3, largest_turn=0.5, prescribed=True)
 
 def _rises(state: State) -> bool:
     """Whether the center is compressed and the load rises along the path, beyond its minimum."""
-    if not state.follows_edge or float(state.disc.problem.law.traction(np.array(state.central_gap))) <= 0.0:
+    if not state.anchor.in_contact or float(state.disc.problem.law.traction(np.array(state.central_gap))) <= 0.0:
         return False
     return state.orientation * rates_of(state).load > 0.0
 

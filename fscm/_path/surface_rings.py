@@ -21,8 +21,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fscm._surface.equilibrium import State
 from fscm._surface.response import response_of
+from fscm._surface.state import State
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 

@@ -14,7 +14,7 @@ from fscm._path.edge_width import log_edge_width
 from fscm._path.ends import PathEnd, displacement_of_compression
 from fscm._path.surface_rings import RingsForm, ring_limit
 from fscm._surface.adaptivity import end_radius
-from fscm._surface.equilibrium import State
+from fscm._surface.state import State
 from fscm.accuracy import Mesh, Meshes
 from fscm.errors import NotConverged
 from fscm.problem import Problem

@@ -14,9 +14,10 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from fscm._surface.equilibrium import STEEP, Control, Discretisation, State
+from fscm._surface.discretisation import STEEP, Discretisation
 from fscm._surface.mesh import PanelMesh
 from fscm._surface.newton import STEP_TOLERANCE, newton
+from fscm._surface.state import Control, State
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
@@ -322,43 +323,28 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
 
 
 def _unknowns_on(state: State, mesh: PanelMesh) -> Array:
-    """The unknowns of a state on another mesh at the same scale: gaps, or deformations of a steep punch.
+    """The unknowns of a state on another mesh at the same scale.
 
     Where the polynomial falls below the singular gap, linear interpolation between the nodes replaces it.
     """
     old, problem = state.disc.mesh, state.disc.problem
-    if state.lift is not None:
-        unknowns = old.transfer(state.lift, mesh)
-        gap = _lifted_gap(state, mesh, unknowns)
-    elif kinks_of(problem.punch):  # the deformation is smooth where the shape is not resolved
-        shape = problem.punch.height
-        gap = unknowns = old.transfer(state.gap - shape(state.radius), mesh) + shape(state.scale * mesh.nodes)
-    else:
-        gap = unknowns = old.transfer(state.gap, mesh)
+    unknowns = state.unknowns_on(mesh)
+    gap = state.gap_of(unknowns, state.scale * mesh.nodes)
     below = gap <= problem.law.singular_gap
     if np.any(below):
         unknowns = np.where(below, unknowns + np.interp(mesh.nodes, old.nodes, state.gap) - gap, unknowns)
     return unknowns
 
 
-def _lifted_gap(state: State, mesh: PanelMesh, lift: Array) -> Array:
-    return state.disc.height(state.scale * mesh.nodes) - state.displacement + lift
-
-
 def _gap_on(state: State, mesh: PanelMesh) -> Array:
-    unknowns = _unknowns_on(state, mesh)
-    return unknowns if state.lift is None else _lifted_gap(state, mesh, unknowns)
+    return state.gap_of(_unknowns_on(state, mesh), state.scale * mesh.nodes)
 
 
 def on_mesh(state: State, mesh: PanelMesh) -> State:
     """The state interpolated to another mesh at the same scale: a guess, not an equilibrium."""
     disc = Discretisation(state.disc.problem, mesh, state.disc)
     state.disc.factor = None  # rarely used again, and as large as the response
-    unknowns = _unknowns_on(state, mesh)
-    if state.lift is not None:
-        arguments = state.scale, unknowns, state.displacement, state.follows_edge, state.edge_gap, state.turned
-        return State.lifted(disc, *arguments)
-    return replace(state, disc=disc, gap=unknowns, iterations=0, residual=0.0)
+    return replace(state, disc=disc, unknowns=_unknowns_on(state, mesh), iterations=0, residual=0.0)
 
 
 def lengthened(state: State, end_height: float) -> State:
@@ -368,14 +354,14 @@ def lengthened(state: State, end_height: float) -> State:
     """
     mesh, problem = state.disc.mesh, state.disc.problem
     end = end_radius(problem, end_height) / state.scale
-    if state.lift is not None or mesh.breaks[-1] >= end:
+    if state.disc.steep or mesh.breaks[-1] >= end:
         return state
     longer = replace(mesh, offsets=_extended(mesh.offsets, mesh.origin, end))
     added = longer.nodes[mesh.size :]
     w = state.gap[-1] + state.displacement - state.disc.height(state.radius[-1:])[0]
     behind = w * (mesh.nodes[-1] / added) ** (1.0 + problem.k)
     gap = state.disc.height(state.scale * added) - state.displacement + behind
-    return replace(state, disc=Discretisation(problem, longer, state.disc), gap=np.concatenate([state.gap, gap]))
+    return replace(state, disc=Discretisation(problem, longer, state.disc), unknowns=np.concatenate([state.gap, gap]))
 
 
 def newton_tolerance(tolerance: float) -> float:

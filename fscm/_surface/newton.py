@@ -6,16 +6,15 @@ import math
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
 from fscm._surface.bordered_factor import BorderedFactor
-from fscm._surface.equilibrium import Control, Linearisation, State
+from fscm._surface.linearisation import linearised
+from fscm._surface.state import Control, State
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.laws import SurfaceLaw
-from fscm.punch import kinks_of
 
-__all__ = ["STEP_TOLERANCE", "newton", "shifted"]
+__all__ = ["STEP_TOLERANCE", "newton"]
 
 #: Newton's method ends when a step changes no gap by more than this, relative to 1 + |H|; the next step would be at the
 #: level of rounding, since convergence is quadratic.
@@ -32,8 +31,6 @@ _SHRINK = 0.4
 _LOWEST, _STRONGEST = 0.25, 5e5
 #: Largest change of the logarithm of the scale in one iteration: a factor of two.
 _LARGEST_GROWTH = 0.7
-#: Bound on any change of log c, against overflow of iterates that Newton's method rejects.
-_LARGEST_CHANGE = 50.0
 #: Least fraction of a step.
 _SMALLEST_DAMPING = 1e-3
 #: A full step that is smaller than the one before by less than this factor, from residuals at the level of rounding, is
@@ -41,44 +38,6 @@ _SMALLEST_DAMPING = 1e-3
 _STALLED = 4.0
 #: Change of a gap by a step, relative to 1 + |H|, above which the iteration diverges.
 _DIVERGED = 1e6
-
-
-def _moved_scale(state: State, log_scale: float) -> float:
-    """The scale after a linear change of log c, or for a steep punch of log c + f(c), in which its edge is linear."""
-    if state.lift is None or kinks_of(state.disc.problem.punch):
-        return state.scale * math.exp(log_scale)
-    if log_scale == 0.0:
-        return state.scale
-    log_scale = min(max(log_scale, -_LARGEST_CHANGE), _LARGEST_CHANGE)
-
-    def beyond(log_c: float) -> float:
-        return log_c + float(state.disc.height(np.array([math.exp(log_c)]))[0]) - aim
-
-    start, aim = math.log(state.scale), 0.0
-    aim = beyond(start) + log_scale * (1.0 + float(state.disc.rise(np.array([state.scale]))[0]))
-    # f is convex in log c: the tangent overshoots upwards, and undershoots downwards.
-    high = start + log_scale
-    low = start if log_scale > 0.0 else high - beyond(high)
-    if beyond(low) >= 0.0 or beyond(high) <= 0.0:  # the same to rounding
-        return math.exp(high)
-    return math.exp(scipy.optimize.brentq(beyond, low, high, xtol=1e-15, rtol=1e-15))
-
-
-def shifted(state: State, gap: Array, displacement: float, log_scale: float, factor: float = 1.0) -> State:
-    """The state after `factor` times a change of its unknowns: gaps (deformations of a steep punch), delta, log c.
-
-    The height of a punch with kinks changes exactly, since it is not linear in log c within a step.
-    """
-    scale = _moved_scale(state, factor * log_scale)
-    displacement = state.displacement + factor * displacement
-    if state.lift is not None:
-        lift = state.lift + factor * gap
-        anchor = state.follows_edge, state.edge_gap, state.turned
-        return State.lifted(state.disc, scale, lift, displacement, *anchor)
-    moved, disc, r = state.gap + factor * gap, state.disc, state.radius
-    if log_scale != 0.0 and kinks_of(disc.problem.punch):
-        moved += disc.height(scale * disc.mesh.nodes) - disc.height(r) - disc.rise(r) * (factor * log_scale)
-    return replace(state, scale=scale, gap=moved, displacement=displacement)
 
 
 def _least_clearance(law: SurfaceLaw) -> float:
@@ -95,24 +54,23 @@ def _largest_damping(state: State, step: Array) -> float:
     floor = state.disc.problem.law.singular_gap
     clearance = state.gap - floor
     least = np.maximum(_SHRINK * clearance, _least_clearance(state.disc.problem.law))
-    dH, log_scale = step[:-2], float(step[-1])
-    largest = _LARGEST_GROWTH / max(abs(log_scale), 1e-300)
-    if state.lift is not None or (log_scale != 0.0 and kinks_of(state.disc.problem.punch)):
+    change = step[:-2], float(step[-2]), float(step[-1])
+    largest = _LARGEST_GROWTH / max(abs(change[2]), 1e-300)
+    if not state.is_linear(change[2]):
         damping = min(1.0, largest)
         while damping > _SMALLEST_DAMPING and np.any(
-            shifted(state, dH, float(step[-2]), log_scale, damping).gap - floor < np.minimum(least, clearance)
+            state.shifted(*change, damping).gap - floor < np.minimum(least, clearance)
         ):
             damping *= 0.5
         return damping
+    dH = change[0]
     with np.errstate(divide="ignore", invalid="ignore"):
         limit = np.where(dH < 0.0, (clearance - least) / -dH, np.inf)
     return min(float(min(1.0, max(limit.min(), 0.0))), largest)
 
 
 def _change_of_gap(state: State, step: Array) -> Array:
-    if state.lift is None:
-        return step[:-2]
-    return step[:-2] - step[-2] + state.disc.rise(state.radius) * step[-1]
+    return state.change_of_gap(step[:-2], step[-2], step[-1])
 
 
 def _step(state: State, factor: BorderedFactor, rhs: Array, row: Array) -> tuple[Array, float]:
@@ -147,7 +105,7 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
     state = guess
     factor, last_change, full = state.disc.factor, math.inf, math.inf
     for iteration in range(1, most + 1):
-        system = Linearisation(state)
+        system = linearised(state)
         row = system.row(control)
         rhs = np.concatenate([system.residual, [system.anchor, system.violation(control)]])
         if not np.all(np.isfinite(rhs)):
@@ -165,7 +123,7 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
         residual = float(np.max(np.abs(rhs[:-2]) / (1.0 + np.abs(state.gap))))
         dH = _change_of_gap(state, step)
         state = replace(
-            shifted(state, step[:-2], float(step[-2]), float(step[-1]), damping),
+            state.shifted(step[:-2], float(step[-2]), float(step[-1]), damping),
             iterations=iteration,
             residual=residual,
         )

@@ -9,7 +9,8 @@ from fscm import Analysis, Problem
 from fscm._bound.defect import Defect, finer
 from fscm._path.arc_length import parameter_of, rates_of
 from fscm._path.continuation import moved
-from fscm._surface.equilibrium import Rates, State
+from fscm._surface.discretisation import Discretisation
+from fscm._surface.state import Rates, State
 from fscm._typing import Array
 from fscm.accuracy import Mesh, Meshes
 
@@ -52,9 +53,8 @@ class Pair:
     def with_matrix(self, matrix: Array) -> State:
         """The equilibrium of the finer mesh with another response matrix."""
         start = self.exact
-        disc = object.__new__(type(start.disc))
-        disc.__dict__.update(start.disc.__dict__)
-        disc.matrix = matrix
+        disc = Discretisation(start.disc.problem, start.disc.mesh)
+        disc.elastic._matrix = matrix
         return self.solved(replace(start, disc=disc))
 
     def adjoint(self, functional: str) -> Array:

@@ -19,7 +19,7 @@ from fscm._path import continuation as continuation
 from fscm._path.arc_length import Point
 from fscm._path.completeness import completed
 from fscm._path.whole_path import path_end
-from fscm._surface.equilibrium import State
+from fscm._surface.state import State
 from fscm._threads import one_thread
 from tests.fscm.equilibria_on_finer_meshes import FINER
 from tests.random_tables import complete, stored

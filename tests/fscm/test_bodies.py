@@ -22,7 +22,7 @@ from fscm import (
     solve,
 )
 from fscm._surface.adaptivity import initial_mesh
-from fscm._surface.equilibrium import Discretisation
+from fscm._surface.discretisation import Discretisation
 from fscm._surface.mesh import PanelMesh
 from fscm._surface.response.body import compliance_of
 from fscm._surface.response.kernel import GradedKernel

@@ -158,7 +158,7 @@ def minima(analysis, unit):
     """Contact radii and loads of all minima of the load in contact, about."""
     pairs = events.brackets(analysis.points, events.load_fold, rising=True)
     states = [events.locate(*pair, events.load_fold) for pair in pairs]
-    return [(state.scale * unit, state.load) for state in states if state.follows_edge]
+    return [(state.scale * unit, state.load) for state in states if state.anchor.in_contact]
 
 
 def test_the_load_has_the_minima_of_jkr_and_the_deepest_is_the_pull_off():
@@ -176,7 +176,7 @@ def test_a_compressive_load_does_not_end_the_path_above_a_stiff_layer():
     """The first compressive state is inside the radius over which the layer bends."""
     analysis, unit = stiff_on_soft()
     points = analysis.points
-    compressive = [point.state for point in points if point.state.follows_edge and point.state.load > 0.0]
+    compressive = [point.state for point in points if point.state.anchor.in_contact and point.state.load > 0.0]
     assert not beyond_layers(compressive[0])
     assert beyond_layers(compressive[-1])
     # The layer bends up to 1.7 um, twice its thickness times the cube root of the contrast: the margin is above that.

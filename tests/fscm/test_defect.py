@@ -8,7 +8,8 @@ import pytest
 from fscm import Analysis, Problem
 from fscm._bound import defect
 from fscm._bound.defect import Defect
-from fscm._surface import equilibrium
+from fscm._surface import state as surface_state
+from fscm._surface.anchors import AtEdge
 from fscm._surface.kernel import kernel_of
 from fscm._surface.tail import tail_of
 from fscm.accuracy import Mesh, Meshes
@@ -74,7 +75,7 @@ def test_at_a_fixed_control_the_error_of_the_control_moves_the_state_along_the_p
 def test_an_edge_that_is_not_at_its_gap_is_an_error_too(functional):
     """The state is wrong by the place of its edge alone: the equilibrium has another gap there."""
     first = pair(2.0, 0.4, 1.0, "zero_load")
-    state = replace(first.state, edge_gap=first.state.gap_at_edge + STEP)
+    state = replace(first.state, anchor=AtEdge(AtEdge().gap_at(first.state.disc.problem, first.state.scale) + STEP))
     event_pair = Pair(state, Defect(state, first.defect.fine.disc))
     expected = getattr(state, functional) - getattr(event_pair.exact, functional)
     assert abs(expected) > 10.0 * abs(first.error(functional))
@@ -103,7 +104,7 @@ def _change_by_another_tail(event_pair: Pair, functional, monkeypatch, name):
     # The tail of a state is computed when it is needed first.
     before, start = getattr(event_pair.exact, functional), replace(event_pair.exact, iterations=0)
     with monkeypatch.context() as patch:
-        patch.setattr(equilibrium, "tail_of", changed)
+        patch.setattr(surface_state, "tail_of", changed)
         return getattr(event_pair.solved(start), functional) - before
 
 
@@ -140,7 +141,7 @@ def test_an_error_of_the_energy_of_the_tail_is_one_of_the_energy(monkeypatch):
 def test_the_part_of_the_domain_has_the_place_of_the_tails_load(functional):
     """The tail moves all nodes alike; the kernel moves those next to its end more, by its response there."""
     event_pair = pair(*NEAR)
-    state, matrix = event_pair.exact, event_pair.exact.disc.matrix
+    state, matrix = event_pair.exact, event_pair.exact.disc.response(event_pair.exact.scale)
     k = state.disc.problem.k
     T, r, stiffness = state.end, state.radius, state.disc.stiffness_scale(state.scale)
     more = (kernel_of(k).response(r, np.full_like(r, T), T - r) * T**k - 1.0) * state.tail.displacement
@@ -161,7 +162,9 @@ def test_the_part_of_rounding_covers_a_matrix_whose_entries_are_all_wrong_by_16_
     event_pair, enlarged = pair(*event), 1e4
     state = event_pair.exact
     signs = np.outer(np.sign(event_pair.adjoint(functional)), np.sign(state.pressure))
-    changed = event_pair.with_matrix(state.disc.matrix * (1.0 + 16.0 * np.finfo(float).eps * enlarged * signs))
+    changed = event_pair.with_matrix(
+        state.disc.response(state.scale) * (1.0 + 16.0 * np.finfo(float).eps * enlarged * signs)
+    )
     moved = abs(getattr(changed, functional) - getattr(state, functional)) / enlarged
     rounding = event_pair.defect.errors(functional, event_pair.parameter).rounding
     assert MATRIX_ALONE * rounding < moved < rounding

@@ -9,8 +9,9 @@ import pytest
 from fscm import Coating, LennardJones, Mie, NotConverged, PowerPunch, Problem, solve
 from fscm._path.arc_length import parameter_control, parameter_of
 from fscm._path.continuation import equilibrium_path
-from fscm._surface.equilibrium import Control, State
+from fscm._surface.linearisation import rates_by
 from fscm._surface.newton import _least_clearance, newton
+from fscm._surface.state import Control, State
 from tests.marks import heavy
 
 # The deformation is the unknown under the last punch.
@@ -20,7 +21,7 @@ PROBLEMS = [Problem(2, 0.4, 1.0), Problem(1, 0, 0.3), Problem(12, 0.7, 1.5)]
 def _state(problem: Problem, in_contact: bool, end_height: float = 1e6) -> State:
     for point in equilibrium_path(problem, 8, 1e-4, end_height=end_height):
         state = point.state
-        if state.follows_edge == in_contact and (state.central_gap < 1.0):
+        if state.anchor.in_contact == in_contact and (state.central_gap < 1.0):
             return state
     raise AssertionError
 
@@ -35,21 +36,21 @@ def state(request: pytest.FixtureRequest) -> State:
 def test_rates_are_the_derivatives_of_solved_states(state: State) -> None:
     """Central differences of fully solved neighbours, in the continuation parameter."""
     h = 1e-4
-    rates = state.rates("log_scale" if state.follows_edge else "gap")
+    rates = rates_by(state, state.anchor.parameter)
     x = parameter_of(state)
     plus, minus = (newton(state, parameter_control(state, x + s * h)) for s in (1, -1))
     for name in ("displacement", "load", "central_gap"):
         difference = (getattr(plus, name) - getattr(minus, name)) / (2 * h)
         assert getattr(rates, name) == pytest.approx(difference, rel=2e-5, abs=2e-6)
-    after, before = (moved.gap if moved.lift is None else moved.lift for moved in (plus, minus))
-    np.testing.assert_allclose(rates.gap, (after - before) / (2 * h), rtol=1e-4, atol=1e-4)
+    change = plus.unknowns - minus.unknowns
+    np.testing.assert_allclose(rates.unknowns, change / (2 * h), rtol=1e-4, atol=1e-4)
 
 
 def test_newton_converges_quadratically(state: State, monkeypatch: pytest.MonkeyPatch) -> None:
     """With new factors in every iteration."""
     monkeypatch.setattr("fscm._surface.newton._CHORD", 0.0)
     state.disc.factor = None
-    moved = replace(state, gap=state.gap * (1 + 1e-3), displacement=state.displacement + 1e-3)
+    moved = replace(state, unknowns=state.unknowns * (1 + 1e-3), displacement=state.displacement + 1e-3)
     solved = newton(moved, parameter_control(state, parameter_of(state)))
     assert solved.iterations <= 5
     assert solved.load == pytest.approx(state.load, rel=1e-9)
@@ -57,7 +58,9 @@ def test_newton_converges_quadratically(state: State, monkeypatch: pytest.Monkey
 
 def test_controls_agree(state: State) -> None:
     """The same state is found again under central-gap, displacement and load control."""
-    guess = replace(state, gap=state.gap * (1 + 1e-4), scale=state.scale * (1 + 1e-4 * state.follows_edge))
+    guess = replace(
+        state, unknowns=state.unknowns * (1 + 1e-4), scale=state.scale * (1 + 1e-4 * state.anchor.in_contact)
+    )
     for control, value in (("gap", state.central_gap), ("displacement", state.displacement), ("load", state.load)):
         solved = newton(guess, Control(value, **{control: 1.0}))
         assert solved.load == pytest.approx(state.load, rel=1e-8)
@@ -88,11 +91,11 @@ def test_factors_of_a_state_nearby_give_the_same_state_and_tangent(problem: Prob
     control = parameter_control(start, parameter_of(start) + 1e-3)
     assert start.disc.factor is not None
     by_old_factors = newton(start, control)
-    rates = by_old_factors.rates("log_scale")
+    rates = rates_by(by_old_factors, "log_scale")
     start.disc.factor = None
     fresh = newton(replace(start), control)
     fresh.disc.factor = None
-    exact = fresh.rates("log_scale")
+    exact = rates_by(fresh, "log_scale")
     assert np.max(np.abs(by_old_factors.gap - fresh.gap) / (1.0 + np.abs(fresh.gap))) < 1e-12
     # Measured worst 2e-13 (n = 1).
     assert rates.load == pytest.approx(exact.load, rel=1e-10, abs=1e-11)

@@ -77,7 +77,7 @@ def test_the_pull_off_is_that_of_the_whole_path(case: tuple[float, float, float]
 @pytest.mark.parametrize("case", [*CASES[:2], pytest.param(CASES[4], marks=pytest.mark.heavy)])
 def test_no_state_apart_carries_more_tension_than_the_rigid_solid(case: tuple[float, float, float]) -> None:
     problem = Problem(*case)
-    states = [point.state for point in analysis_of(problem).points if not point.state.follows_edge]
+    states = [point.state for point in analysis_of(problem).points if not point.state.anchor.in_contact]
     states = [state for state in states if state.central_gap > problem.law.peak_gap]
     assert states
     for state in states:

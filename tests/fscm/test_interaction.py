@@ -10,7 +10,9 @@ import pytest
 import fscm
 from fscm import Ball, Homogeneous, LennardJones, Mie, PowerPunch, Problem, RoundedCone, solve
 from fscm._bound.defect import Defect, finer
-from fscm._surface.equilibrium import Control, Linearisation
+from fscm._surface.linearisation import linearised, rates_by
+from fscm._surface.newton import newton
+from fscm._surface.state import Control
 from fscm._surface.tail import tail_errors, tail_of
 from fscm._surface.tail_of_body import TailOfBody
 from fscm.interaction import Body, Derjaguin, interaction_of
@@ -115,23 +117,23 @@ def test_the_tangent_is_exact(state):
     def left(sign):
         moved = replace(
             state,
-            gap=state.gap + sign * step * direction[:-2],
+            unknowns=state.unknowns + sign * step * direction[:-2],
             displacement=state.displacement + sign * step * direction[-2],
             scale=state.scale * math.exp(sign * step * direction[-1]),
         )
-        system = Linearisation(moved)
+        system = linearised(moved)
         return np.concatenate([system.residual, [system.anchor, moved.load, moved.central_gap]])
 
     numeric = (left(1.0) - left(-1.0)) / (2.0 * step)
-    system = Linearisation(state)
+    system = linearised(state)
     exact = [*system.times(direction), system.load_gradient @ direction, system.axis_gap_gradient @ direction]
     # The mesh ends far away, where heights are 1e6 times the gaps at the edge.
     near = np.append(state.radius < 3.0 * state.scale, [True] * 3)
     assert numeric[near] == pytest.approx(np.array(exact)[near], rel=1e-5, abs=1e-6)
-    rates, h = state.rates(), 1e-5
+    rates, h = rates_by(state, "log_scale"), 1e-5
     ahead, behind = (
-        fscm._surface.newton.newton(
-            fscm._surface.newton.shifted(state, rates.gap, rates.displacement, rates.log_scale, sign * h),
+        newton(
+            state.shifted(rates.unknowns, rates.displacement, rates.log_scale, sign * h),
             Control(math.log(state.scale) + sign * h, log_scale=1.0),
             1e-12,
         )

@@ -44,12 +44,12 @@ def test_work_equals_change_of_energy(n: float, k: float, mu: float) -> None:
     points = []
     for point in equilibrium_path(Problem(n, k, mu), 10, 1e-6, longest_step=0.2):
         points.append(point)
-        if point.state.follows_edge and point.state.load > 0:
+        if point.state.anchor.in_contact and point.state.load > 0:
             break
     nodes, weights = np.polynomial.legendre.leggauss(6)
     worst = 0.0
     for a, b in pairwise(points):
-        if a.state.follows_edge != b.state.follows_edge:
+        if a.state.anchor.in_contact != b.state.anchor.in_contact:
             continue
         x = [parameter_of(p.state) for p in (a, b)]
         work = 0.0

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from fscm._path.continuation import equilibrium_path
-from fscm._surface.newton import shifted
 from fscm.custom_punch import CustomPunch
 from fscm.measured_punch import MeasuredPunch
 from fscm.problem import Problem
@@ -93,7 +92,7 @@ def test_a_steep_profile_with_kinks_is_continuous_in_its_growth():
 def test_a_step_over_kinks_moves_the_gaps_by_the_exact_height():
     punch = MeasuredPunch([0.0, 1.0, 2.0], [0.0, 0.3, 1.6])
     state = next(iter(equilibrium_path(Problem(2, 0.2, 0.5, punch=punch), 8, 1e-4))).state
-    new = shifted(state, np.zeros_like(state.gap), 0.0, 0.1)
+    new = state.shifted(np.zeros_like(state.gap), 0.0, 0.1)
     assert new.scale == pytest.approx(state.scale * math.exp(0.1))
     change = punch.height(new.radius) - punch.height(state.radius) - 0.1 * state.radius * punch.slope(state.radius)
     inner = punch.height(new.radius) < 1e6

@@ -10,7 +10,7 @@ from scipy.fft import irfft2, rfft2
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from fscm import Analysis, Problem, equilibria, trace
-from fscm._surface.equilibrium import State
+from fscm._surface.state import State
 from fscm.stability import margins, stability_of, stable_sections
 from tests.fscm.solved_once import analysis_of, path_of
 from tests.marks import heavy
