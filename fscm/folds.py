@@ -12,8 +12,8 @@ import scipy
 
 from fscm._path import events
 from fscm._path.arc_length import Point, parameter_of
+from fscm._path.punch_rules import rules_of
 from fscm._surface.state import State
-from fscm.punch import PowerPunch
 
 __all__ = ["Fold", "edge_radius", "fold_at", "folds_between", "folds_of"]
 
@@ -73,7 +73,7 @@ def edge_radius(state: State) -> float:
     force = problem.force
     inside = np.flatnonzero(state.gap < force.peak_gap(state.radius))
     # For a power law the mesh follows the edge soon after it appears.
-    if isinstance(problem.punch, PowerPunch) or not inside.size:
+    if not (inside.size and rules_of(problem).may_hide_folds):
         return math.nan
     low, high = mesh.nodes[inside[-1] : inside[-1] + 2]
 

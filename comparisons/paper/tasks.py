@@ -297,7 +297,7 @@ def surface(n: float, k: float, mu: float) -> Json:
 def _graded_surface(n: float, k: float, mu: float) -> _Surface:
     with analysed(n, k, mu) as analysis:
         event = analysis.event("pull_off")
-    edge = event.value.scale if event.value.follows_edge else 1.0
+    edge = event.value.scale if event.value.anchor.in_contact else 1.0
     radius = np.unique(np.concatenate([np.linspace(0.0, _FARTHEST, _STEPS + 1), edge * (1.0 + _AROUND_EDGE)]))
     check, value = _sampled(event.check, radius), _sampled(event.value, radius)
     bounds = {name: bound(values - check[name], values) for name, values in value.items()}

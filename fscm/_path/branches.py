@@ -9,21 +9,16 @@ import numpy as np
 import scipy
 
 from fscm._path.arc_length import ArcLength, Point
+from fscm._path.punch_rules import rules_of
 from fscm._surface.adaptivity import at_kinks, edge_mesh, on_mesh, resolving
 from fscm._surface.anchors import AtEdge
 from fscm._surface.discretisation import Discretisation
 from fscm._surface.mesh import PanelMesh
 from fscm._surface.state import Rates, State
 from fscm._typing import Array
-from fscm.errors import NotConverged
-from fscm.punch import PowerPunch
 
-__all__ = ["LARGEST_DEVIATION", "checked_orientation", "edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
+__all__ = ["edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
 
-#: Largest deviation from the trapezoidal rule, relative to the distance of a gap to the singular gap.
-LARGEST_DEVIATION = 0.5
-#: The gaps within this multiple of the edge radius determine the orientation of the path.
-_NEAR_EDGE = 2.0
 #: Times that the panels of a new mesh are split at the edge: it may be 1e-22 of the contact radius.
 _HAND_OVER_ROUNDS = 80
 
@@ -86,55 +81,9 @@ def turned(arc: ArcLength, point: Point, name: str | None = None) -> Point:
 
 
 def joined(arc: ArcLength, before: Point, state: State) -> Point:
-    """The state that follows another edge, with the orientation of the path preserved.
-
-    It is that of load and displacement.  Where contact begins it is that of the central gap, too, and under a power-law
-    punch of that alone: the first contact may be so small that the others do not change within the error of the mesh.
-    """
+    """The state that follows another edge, with the orientation of the path preserved."""
     point = Point(state, arc.tangent(state), before.segment + 1)
-    if isinstance(state.disc.problem.punch, PowerPunch):
-        same = before.rates.central_gap * point.rates.central_gap >= 0.0
-    else:
-        old, new = arc.shares(before), arc.shares(point)
-        product = sum(old[name] * new[name] for name in ("displacement", "load"))
-        if not before.state.anchor.in_contact:
-            clearance = state.central_gap - state.disc.problem.law.singular_gap
-            product += before.rates.central_gap * point.rates.central_gap / clearance**2
-        same = product >= 0.0
-    if same:
+    if rules_of(state.disc.problem).joins(arc, before, point):
         return point
     state = replace(state, turned=("log_scale", -1.0))
     return Point(state, arc.tangent(state), before.segment + 1)
-
-
-def _relative(state: State) -> Array:
-    """Gaps; of a steep punch without its height, which is not linear in log c within a step."""
-    return state.relative_to_punch(state.unknowns, state.displacement)
-
-
-def _relative_rates(point: Point) -> Array:
-    return point.state.relative_to_punch(point.rates.unknowns, point.rates.displacement)
-
-
-def checked_orientation(a: Point, b: Point, step: float, same: bool | None, largest: float = LARGEST_DEVIATION) -> bool:
-    """Whether b has the orientation of a.  Raises NotConverged if b lies on another branch.
-
-    Near a sharp turn of the path, where load and displacement are undecided (`same` is None), it is that of the gaps
-    inside the contact.
-    """
-    old_mesh, new_mesh = a.state.disc.mesh, b.state.disc.mesh
-    offsets = np.minimum(new_mesh.seen_from(old_mesh.origin), old_mesh.offsets[-1])
-    before, rate = (
-        old_mesh.evaluate_at_offsets(_relative(a.state), offsets),
-        old_mesh.evaluate_at_offsets(_relative_rates(a), offsets),
-    )
-    after, new_rate = _relative(b.state), _relative_rates(b)
-    clearance = b.state.gap - a.state.disc.problem.law.singular_gap
-    near_edge = new_mesh.nodes < _NEAR_EDGE
-    product = new_mesh.weights * new_mesh.nodes * rate * new_rate / clearance**2
-    if same is None:
-        same = bool(np.sum(product[near_edge]) >= 0.0)
-    deviation = after - before - 0.5 * step * (rate + (1.0 if same else -1.0) * new_rate)
-    if np.max(np.abs(deviation) / clearance) > largest:
-        raise NotConverged("Newton converged to a state on another branch of the path")
-    return same

@@ -10,14 +10,10 @@ asperity, another segment begins, which follows that edge.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from fscm._path.arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of
 from fscm._path.branches import (
-    LARGEST_DEVIATION,
-    checked_orientation,
     edge_elsewhere,
     follow_edge,
     joined,
@@ -27,6 +23,7 @@ from fscm._path.branches import (
 from fscm._path.contact_initiation import gap_at_first_contact
 from fscm._path.edge_width import check_edge
 from fscm._path.ends import depth
+from fscm._path.punch_rules import Tracking, rules_of
 from fscm._path.surface_rings import check_rings, ring_limit
 from fscm._surface.adaptivity import end_radius, fit, initial_mesh, resolved
 from fscm._surface.discretisation import Discretisation
@@ -36,9 +33,8 @@ from fscm._surface.state import Control, Rates, State, rigid_state
 from fscm.accuracy import Meshes
 from fscm.errors import NotConverged
 from fscm.problem import Problem
-from fscm.punch import PowerPunch, kinks_of
 
-__all__ = ["Tracking", "equilibrium_path", "moved", "usual_start"]
+__all__ = ["equilibrium_path", "moved", "usual_start"]
 
 #: Steps of arc length: the first one, and the smallest one that is tried.
 _FIRST_STEP, _SMALLEST_STEP = 0.5, 1e-6
@@ -48,60 +44,19 @@ _EASY, _HARD = 6, 10
 _MOST_ITERATIONS = 14
 _NEWTON_MARGIN = 0.01  #: Newton error relative to the error of the mesh
 _LONGER, _SHORTER, _RETRY = 2.0, 0.7, 0.4
-#: Beyond the largest tension the path of a power-law punch is smooth: steps grow with the compression, at most to this
-#: multiple.  Measured: cubics through the points are as near to a path of small steps as without it (loads to 1000).
-_LONGER_IN_COMPRESSION = 8.0
-#: A step over which the tangent turns by more than this cosine is repeated with a shorter length: a fold pair turns the
-#: path twice and must not be stepped over.  The turn of steps below _UNCHECKED_STEP is not checked.
-_LARGEST_TURN, _UNCHECKED_STEP = 0.85, 0.02
-#: The same for any other punch than a power law: a cavity that snaps shut turns the path within 0.01 (measured).
-_UNCHECKED_STEP_OF_ASPERITIES = 0.002
 #: Before contact, where the displacement makes up less than this share of the tangent, steps have this largest length:
 #: the tangent hardly turns over several shallow folds.  Measured: n = 2, k = 0.6, mu = 3 has three folds within 0.015
 #: of displacement, and steps of 0.5 missed the first two.
 _FLAT_SHARE, _FLAT_STEP = 0.5, 0.2
-#: At a fold of its parameter the path continues in another one, as long as that makes up this share of the tangent.
-_LEAST_SHARE = 0.3
-#: If the mesh moves with kinks, the parameter is prescribed instead of the arc length above this share of the tangent.
+#: Where the parameter is prescribed, it is so instead of the arc length above this share of the tangent.
 _GIVEN_SHARE = 0.05
 #: The edge is followed once the central gap is below the gap of largest tension by this share of its distance to the
 #: singular gap: before, the edge radius is a poor variable, since it starts as a square root.
 _HAND_OVER = 0.05
-#: The edge is followed beyond this multiple of the radius of the last kink: a fixed mesh allows steps of the width of
-#: the edge only.  Measured: 800 points in place of over 1800 up to a displacement of 91 (random punch 24).
-_BEYOND_KINKS = 1.2
 #: A path whose central gap exceeds that of its first state by this much runs backwards.
 _RETURNED = 1.0
 #: Largest number of successive changes of the parameter without a step between them.
 _MOST_TURNS = 6
-
-
-@dataclass(frozen=True)
-class Tracking:
-    """Options of the continuation.
-
-    Attributes
-    ----------
-    follow : bool
-        Whether the mesh follows the contact edge; if not, its scale stays fixed.
-    largest_deviation : float
-        Largest deviation of a step from the trapezoidal rule, relative to the distance of a gap to the singular gap.
-    longest_step : float
-        Of the arc length.
-    newton : float, optional
-        Tolerance of Newton's method; by default its error is negligible relative to that of the mesh.
-    largest_turn : float
-        Cosine of the angle between two tangents below which a step is repeated with a shorter length.
-    prescribed : bool
-        Whether a step prescribes the continuation parameter instead of the arc length, unless it hardly changes.
-    """
-
-    follow: bool = True
-    largest_deviation: float = LARGEST_DEVIATION
-    longest_step: float = math.inf
-    newton: float | None = None
-    largest_turn: float = _LARGEST_TURN
-    prescribed: bool = False
 
 
 def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLERANCE) -> State:
@@ -123,12 +78,6 @@ def _far_state(problem: Problem, central_gap: float, order: int, tolerance: floa
     return fit(newton(guess, control), control, tolerance)
 
 
-def _beyond_kinks(state: State, hand_over: float) -> bool:
-    """Whether the contact edge is outside all kinks of the punch."""
-    touching = state.radius[state.gap < hand_over]
-    return bool(touching.size and touching[-1] > _BEYOND_KINKS * max(kinks_of(state.disc.problem.punch)))
-
-
 def usual_start(problem: Problem) -> float:
     """A central gap beyond the far branch at jump-out: JKR's C_out mu is at most sqrt(2 pi) mu (Eq. 55)."""
     return 3.0 + 3.0 * largest_mu(problem)
@@ -148,9 +97,9 @@ class _Tracer:
         self._turns, self._tension = 0, 0.0  # largest tension so far
         law = problem.law
         self._hand_over = law.peak_gap - _HAND_OVER * (law.peak_gap - law.singular_gap)
-        self._kinked, self._power = bool(kinks_of(problem.punch)), isinstance(problem.punch, PowerPunch)
+        self._rules = rules_of(problem)
         # The response of a graded solid is computed anew for each scale, so that it has to stay during the iterations.
-        self._prescribed = tracking.prescribed or self._kinked or problem.graded is not None
+        self._prescribed = tracking.prescribed or self._rules.prescribes or problem.graded is not None
 
     def points(self, state: State) -> Iterator[Point]:
         """All points from an initial state on."""
@@ -186,7 +135,7 @@ class _Tracer:
     def _following_edge(self, point: Point) -> Point | None:
         """The same state on a mesh that follows the outermost edge; None if the mesh does so already, or need not."""
         state, tolerance = point.state, self._tracking.newton
-        if not (self._tracking.follow or (self._kinked and _beyond_kinks(state, self._hand_over))):
+        if not self._rules.follows_edge(self._tracking, state, self._hand_over):
             return None
         edge_gap = gap_at_first_contact(state, point.rates)
         if edge_gap is None and not edge_elsewhere(state, self._hand_over):
@@ -205,12 +154,10 @@ class _Tracer:
         if not state.turned:
             return None
         usual = state.anchor.parameter
-        # With a prescribed scale no node passes a kink during an iteration.
-        wanted = usual if self._kinked and abs(shares[usual]) > _GIVEN_SHARE else state.parameter
+        wanted = usual if abs(shares[usual]) > self._rules.given_share else state.parameter
         if wanted != state.parameter:
             return turned(self._arc, point, wanted)
-        least = _GIVEN_SHARE if self._kinked else _LEAST_SHARE
-        return turned(self._arc, point) if abs(shares.get(wanted, 0.0)) < least else None
+        return turned(self._arc, point) if abs(shares.get(wanted, 0.0)) < self._rules.least_share else None
 
     def _next(self, point: Point) -> Point:
         """The next point; steps are shortened until one is accepted."""
@@ -244,8 +191,7 @@ class _Tracer:
     def _longest_after(self, state: State) -> float:
         """The longest step from a state on."""
         self._tension = max(self._tension, -state.load)
-        compression = state.load / max(1.0, self._tension) if self._power else 0.0
-        return self._longest * min(max(1.0, compression), _LONGER_IN_COMPRESSION)
+        return self._longest * self._rules.stretch(state.load, self._tension)
 
     def _attempt(self, point: Point) -> tuple[Point | None, int]:
         """The point after a step, None if the tangent turns too much over it, and the number of iterations."""
@@ -255,10 +201,9 @@ class _Tracer:
         fitted = fit(new, control, self._tolerance, True, self._tracking.newton)
         after = Point(fitted, self._arc.tangent(fitted), point.segment)
         turn = self._arc.turn(point, after)
-        shortest = _UNCHECKED_STEP if self._power else _UNCHECKED_STEP_OF_ASPERITIES
-        if (turn if self._power else abs(turn)) < self._tracking.largest_turn and self._step > shortest:
+        if self._step > self._rules.unchecked_step and self._rules.turns_too_far(turn, self._tracking):
             return None, new.iterations
-        if self._same_orientation(point, after, turn):
+        if self._rules.goes_on(point, after, self._step, turn, self._tracking):
             self._turns = 0
             return after, new.iterations
         # A fold of the parameter.
@@ -274,13 +219,6 @@ class _Tracer:
                 value = parameter_of(state) + self._step * rate_of(point.rates, state.parameter)
                 return parameter_control(guess, value)
         return self._arc.control(state, point.rates, self._step)
-
-    def _same_orientation(self, point: Point, after: Point, turn: float) -> bool:
-        """Whether `after` has the orientation of `point`.  Raises NotConverged if it lies on another branch."""
-        if self._power:
-            return turn >= 0.0
-        same = turn >= 0.0 if abs(turn) >= self._tracking.largest_turn else None
-        return checked_orientation(point, after, self._step, same, self._tracking.largest_deviation)
 
 
 def equilibrium_path(

@@ -35,7 +35,6 @@ from fscm._surface.state import State
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
-from fscm.punch import PowerPunch
 
 __all__ = ["LeastLoad", "PathEnd", "depth", "displacement_of_compression"]
 
@@ -132,8 +131,6 @@ def _radii(end: float) -> Array:
 
 def depth(problem: Problem, end: float) -> float:
     """Depth of the lowest point of the punch below its center, up to the radius `end`; 0 unless the tip is concave."""
-    if isinstance(problem.punch, PowerPunch):
-        return 0.0
     return -min(0.0, float(np.min(problem.punch.height(_radii(end)))))
 
 
@@ -157,7 +154,7 @@ def displacement_of_compression(problem: Problem, end: float) -> float:
     float
         Infinite if the bound is not positive at the largest displacement examined.
     """
-    if isinstance(problem.punch, PowerPunch) or not _has_asperities(problem, end):
+    if not _has_asperities(problem, end):
         return -math.inf
     if problem.graded is not None:
         raise NotConverged(

@@ -15,8 +15,10 @@ from __future__ import annotations
 import numpy as np
 
 from fscm._path.arc_length import Point, rates_of
-from fscm._path.continuation import Tracking, usual_start
-from fscm._path.events import brackets, load_fold, with_minima
+from fscm._path.completeness import completed, least_loads
+from fscm._path.continuation import usual_start
+from fscm._path.events import Bracket, brackets, load_fold, locate, sharpen, with_minima
+from fscm._path.punch_rules import Tracking
 from fscm._path.whole_path import path_until
 from fscm._surface.discretisation import STEEP
 from fscm._surface.state import State
@@ -27,13 +29,15 @@ from fscm.laws import LennardJones, Mie
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
-__all__ = ["pull_off_path", "rigid_tension"]
+__all__ = ["deepest_minimum", "pull_off_path", "rigid_tension"]
 
 #: Heights of the punch at which the tension is evaluated: least, largest, number.
 _LOWEST, _HIGHEST, _HEIGHTS = 1e-4, 1e6, 500
 #: Share of the tension of the rigid solid in contact above which the pull-off is expected: up to n = 2 it is at least
 #: the (3 + k)/4 of JKR, for flatter punches on soft solids less.  If it is below, the whole path is followed.
 _SHARE, _SHARE_OF_FLAT = 0.6, 0.3
+#: Minima of the load that differ by less than this, relative to 1 + |P|, are compared on the value mesh.
+_CLOSE = 1e-2
 #: Newton's method starts from the rigid solid where the deformation is at most this multiple of the gap's distance to
 #: the singular gap.  Measured over 440 states: it never fails below 1, and in 8 of 35 between 2 and 5.
 _NEAR = 1.0
@@ -137,3 +141,29 @@ def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
     least = min(point.state.load for point in points)
     minima = brackets(points, load_fold, rising=True)
     return points if minima and -least > rigid_tension(problem, start) else None
+
+
+def deepest_minimum(points: list[Point], meshes: Meshes) -> Bracket:
+    """Neighbouring points of a path between which the load has its deepest minimum.
+
+    Raises
+    ------
+    NotConverged
+        When the load has no minimum on the path.
+    """
+    # A minimum above the load of some point is not of interest.
+    below = min(point.state.load for point in points)
+    below += _CLOSE * (1.0 + abs(below))
+    points = completed(points, meshes.path.tolerance, below, ("load",))
+    minima = [pair for pair in brackets(points, load_fold, rising=True) if least_loads(*pair) < below]
+    if not minima:
+        raise NotConverged(f"no minimum of the load was found on the path of {points[0].state.disc.problem}")
+    if len(minima) == 1:
+        return minima[0]
+    located = [(locate(*pair, load_fold), pair) for pair in minima]
+    least = min(state.load for state, _ in located)
+    close = [(state, pair) for state, pair in located if state.load - least < _CLOSE * (1.0 + abs(least))]
+    if len(close) > 1:  # the coarse path does not decide which of them is the deepest
+        value = *meshes.value, meshes.end_height
+        close = [(sharpen(state, load_fold, *value), pair) for state, pair in close]
+    return min(close, key=lambda candidate: candidate[0].load)[1]

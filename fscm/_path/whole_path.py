@@ -7,31 +7,24 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from fscm._path.arc_length import Point
-from fscm._path.branches import LARGEST_DEVIATION
 from fscm._path.completeness import completed
-from fscm._path.continuation import Tracking, equilibrium_path
-from fscm._path.edge_width import log_edge_width
+from fscm._path.continuation import equilibrium_path
 from fscm._path.ends import PathEnd, displacement_of_compression
+from fscm._path.punch_rules import Tracking, rules_of
 from fscm._path.surface_rings import RingsForm, ring_limit
 from fscm._surface.adaptivity import end_radius
 from fscm._surface.state import State
 from fscm.accuracy import Mesh, Meshes
 from fscm.errors import NotConverged
 from fscm.problem import Problem
-from fscm.punch import PowerPunch, kinks_of
 
 __all__ = ["MAX_POINTS", "bracketing_path", "path_by_any_mesh", "path_end", "path_until"]
 
 #: Largest number of points of a path.  Measured: at most 120 of a bracketing path for n >= 1, but 300 to 750 at
 #: n = 0.67.  Each takes 2 MB on such meshes.
 MAX_POINTS = 1500
-#: Decimal logarithm of the width of the cohesive edge, in units of the initial radius, above which a mesh of fixed
-#: scale resolves it along the path.
-_WIDE = -1.5
 #: Mesh for a path that fails on the coarser one.  Measured: 4 of 700 problems, all with k > 0.78 and mu > 2.
 _FINER = Mesh(10, 1e-4)
-#: Measured: two of a hundred random punches, a ring and waves, need _CAREFUL, because two branches come close.
-_FIXED, _CAREFUL = Tracking(follow=False), Tracking(False, 0.1 * LARGEST_DEVIATION, 0.2)
 
 
 def path_until(
@@ -112,13 +105,10 @@ def path_by_any_mesh(
     NotConverged
         With the reason of the preferred choice on the last mesh.
     """
-    choices = [Tracking()]
-    if not isinstance(problem.punch, PowerPunch) and log_edge_width(problem) > _WIDE:
-        choices = [_FIXED, Tracking(), _CAREFUL] if kinks_of(problem.punch) else [Tracking(), _FIXED, _CAREFUL]
     for order, tolerance in meshes:
         finish = partial(completed, tolerance=tolerance) if complete is None else complete
         errors = []
-        for tracking in choices:
+        for tracking in rules_of(problem).trackings(problem):
             arguments = ended(), end, most, longest_step, start_gap, end_height, tracking
             try:
                 return finish(path_until(problem, order, tolerance, *arguments))
@@ -138,7 +128,7 @@ def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
     It is completed, except for a power-law punch, between whose points turning points may be missed.
     """
     end = partial(path_end, problem, meshes.end_height)
-    complete = list if isinstance(problem.punch, PowerPunch) else None
+    complete = None if rules_of(problem).may_hide_folds else list
     name, height = "a compressive load", meshes.end_height
     tried = [mesh for mesh in (meshes.path, _FINER) if mesh is meshes.path or mesh.tolerance < meshes.path.tolerance]
     return path_by_any_mesh(problem, tried, end, name, end_height=height, complete=complete)
