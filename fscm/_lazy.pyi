@@ -3,7 +3,7 @@
 from ._surface.kernel import Phi as Phi, Psi as Psi, ring_response as ring_response
 from .accuracy import ACCURACIES as ACCURACIES
 from ._sensitivity import SENSITIVE as SENSITIVE, ValueSensitivity as ValueSensitivity, sensitivity as sensitivity
-from .analysis import EVENTS as EVENTS, Analysis as Analysis
+from .analysis import Analysis as Analysis
 from .errors import (
     AccuracyWarning as AccuracyWarning,
     NoSuchEvent as NoSuchEvent,
@@ -18,6 +18,7 @@ from .experiment import (
 from .interpolation.atlas import ATLAS_QUANTITIES as ATLAS_QUANTITIES, AtlasValue as AtlasValue, atlas as atlas
 from .path import EquilibriumPath as EquilibriumPath, trace as trace
 from .problem import Problem as Problem
+from .quantities import EVENTS as EVENTS
 from .solution import Solution as Solution
 from .solver import QUANTITIES as QUANTITIES, solve as solve, solve_together as solve_together
 from .stability import Stability as Stability

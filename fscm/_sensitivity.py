@@ -8,21 +8,21 @@ from dataclasses import replace
 
 import numpy as np
 
-from fscm._bound.adjoint import Adjoint, AtExtreme, parameter
+from fscm._bound.adjoint import WITH_GRADIENT, Adjoint, AtExtreme, parameter
 from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm.accuracy import Accuracy, Meshes
-from fscm.analysis import EXTREMAL, Analysis
+from fscm.analysis import Analysis
 from fscm.gibson import GibsonSolid
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
-from fscm.quantities import TABLE, AtEvent, quantity_named
+from fscm.quantities import EXTREMAL, TABLE, AtEvent, quantity_named
 from fscm.solution import Solution
 
 __all__ = ["SENSITIVE", "ValueSensitivity", "sensitivity"]
 
 #: Quantities that have a sensitivity: those that are functionals of the state at one event.
-SENSITIVE = tuple(name for name, row in TABLE.items() if isinstance(row, AtEvent))
+SENSITIVE = tuple(name for name, row in TABLE.items() if isinstance(row, AtEvent) and row.functional in WITH_GRADIENT)
 
 #: Step of a parameter, relative to its unit, and points of the differences in steps.  The rule _MANY is of fourth
 #: order. A new solid needs a new kernel, for which there are two points only: their error is 1e-7 of the third
@@ -66,7 +66,7 @@ class ValueSensitivity:
 
     def __init__(self, problem: Problem, quantity: str, accuracy: Accuracy = "default") -> None:
         row = quantity_named(quantity)
-        if not isinstance(row, AtEvent):
+        if not isinstance(row, AtEvent) or quantity not in SENSITIVE:
             raise ValueError(
                 f"the quantity {quantity} is none of those with a sensitivity, {', '.join(SENSITIVE)}: "
                 "they are values at one event"
@@ -84,11 +84,11 @@ class ValueSensitivity:
         self._sign = row.sign
         self._rule: Adjoint | AtExtreme
         if extremal is None:
-            self._rule = Adjoint(state, row.attribute, "load")
-        elif extremal == row.attribute:
-            self._rule = Adjoint(state, row.attribute, parameter(state)[0])
+            self._rule = Adjoint(state, row.functional, "load")
+        elif extremal == row.functional:
+            self._rule = Adjoint(state, row.functional, parameter(state)[0])
         else:
-            self._rule = AtExtreme(state, row.attribute, extremal)
+            self._rule = AtExtreme(state, row.functional, extremal)
 
     @one_thread()
     def change(self, problem: Problem) -> float:

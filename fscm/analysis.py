@@ -7,31 +7,33 @@ import time
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import cached_property, partial, singledispatchmethod
 
 from fscm._bound.defect import Errors
 from fscm._bound.parts import EventErrors, bounds, energy_of_jump
 from fscm._path import events
 from fscm._path.arc_length import Point
-from fscm._path.completeness import completed, least_loads
+from fscm._path.completeness import completed
 from fscm._path.events import Bracket, Condition
 from fscm._path.jumps import Branch, jumps_between
-from fscm._path.pull_off_path import pull_off_path
+from fscm._path.pull_off_path import deepest_minimum, pull_off_path
+from fscm._path.punch_rules import rules_of
 from fscm._path.surface_rings import RingsForm
 from fscm._path.whole_path import bracketing_path
 from fscm._threads import one_thread
 from fscm.accuracy import Accuracy, Mesh, Meshes
+from fscm.critical import critical_tabor_number
 from fscm.errors import AccuracyWarning, NoSuchEvent, NotConverged
 from fscm.folds import Fold, edge_radius, folds_of
 from fscm.problem import Problem
-from fscm.punch import PowerPunch, check_reach
-from fscm.quantities import quantity_named
-from fscm.solution import EventPair, Parts, Solution
+from fscm.punch import check_reach
+from fscm.quantities import EXTREMAL, AtEvent, Critical, LostInJumps, Quantity, quantity_named
+from fscm.solution import EventPair, Parts, Solution, solution_of
 from fscm.stability import stable_sections
 
-__all__ = ["EVENTS", "EXTREMAL", "Analysis"]
+__all__ = ["Analysis"]
 
-#: Extremes of load or displacement that differ by less than this, relative to 1 + |f|, are compared on the value mesh.
+#: Ends of branches that differ by less than this, relative to 1 + |delta|, are compared on the value mesh.
 _NEAR = 1e-2
 #: Mesh of a second path where the usual one, which resolves 3e-3 of a load of at least 1, leads to no event.  Measured:
 #: a tall asperity with a force of 2.9e-3, which is the same to 3e-13 down to a tolerance of 1e-7.
@@ -113,7 +115,7 @@ class Analysis:
             return [(before, at)], [(at, after)]
         end = self.points[-1].state
         beyond = "below the critical Tabor number"
-        if not isinstance(self.problem.punch, PowerPunch):
+        if rules_of(self.problem).may_hide_folds:
             beyond = f"up to delta = {end.displacement:.4g}, P = {end.load:.4g}, beyond which no state carries tension"
         raise NoSuchEvent(
             f"the displacement rises monotonically along the path at mu = {self.problem.mu}: there is no jump {beyond}"
@@ -165,23 +167,7 @@ class Analysis:
         points = None if "_traced" in self.__dict__ else pull_off_path(self.problem, self.meshes)
         if points is None:
             points = events.with_minima(self._traced)
-        # A minimum above the load of some point is not of interest.
-        below = min(point.state.load for point in points)
-        below += _NEAR * (1.0 + abs(below))
-        points = completed(points, self.meshes.path.tolerance, below, ("load",))
-        minima = events.brackets(points, events.load_fold, rising=True)
-        minima = [pair for pair in minima if least_loads(*pair) < below]
-        if not minima:
-            raise NotConverged(f"no minimum of the load was found on the path of {self.problem}")
-        if len(minima) == 1:
-            return minima[0]
-        located = [(events.locate(*pair, events.load_fold), pair) for pair in minima]
-        least = min(state.load for state, _ in located)
-        close = [(state, pair) for state, pair in located if state.load - least < _NEAR * (1.0 + abs(least))]
-        if len(close) > 1:  # the coarse path does not decide which of them is the deepest
-            value = *self.meshes.value, self.meshes.end_height
-            close = [(events.sharpen(state, events.load_fold, *value), pair) for state, pair in close]
-        return min(close, key=lambda candidate: candidate[0].load)[1]
+        return deepest_minimum(points, self.meshes)
 
     def _last_zero_load(self) -> Bracket:
         return events.crossings(self.points, events.zero_load, events.load_fold)[-1]
@@ -229,7 +215,7 @@ class Analysis:
 
     @one_thread()
     def parts(self, event: str, functional: str) -> Parts:
-        """Bounds on the error of "load", "displacement" or "central_gap" at an event.
+        """Bounds on the error of one of `FUNCTIONALS` at an event.
 
         Examples
         --------
@@ -337,7 +323,7 @@ class Analysis:
         row = quantity_named(quantity)
         start = time.perf_counter()
         try:
-            solution = row.compute(self)
+            solution = self._computed(row)
         except RingsForm:
             raise
         except NotConverged:
@@ -345,7 +331,7 @@ class Analysis:
                 raise
             return self._on_finer_path.solution(quantity)
         if solution.u_num > self.meshes.recompute_above * abs(solution.value):
-            solution = row.compute(self._finer)
+            solution = self._finer._computed(row)
         if self._alternatives:
             # Uncertainty by the smoothing of a law.
             change = max(
@@ -360,6 +346,31 @@ class Analysis:
                 stacklevel=2,
             )
         return replace(solution, seconds=time.perf_counter() - start)
+
+    @singledispatchmethod
+    def _computed(self, row: Quantity) -> Solution:
+        """A quantity, without the uncertainty by the smoothing of a law and without its time."""
+        raise TypeError(f"{row!r} is of no kind that is computed")
+
+    @_computed.register
+    def _(self, row: AtEvent) -> Solution:
+        pair = self.event(row.event)
+        return solution_of(row.value(pair.value), self.parts(row.event, row.functional), [pair])
+
+    @_computed.register
+    def _(self, row: LostInJumps) -> Solution:
+        """The drops of energy at constant displacement."""
+        value, parts, pairs = 0.0, Parts(), []
+        for event in row.events:
+            for fold, landing in self.jumps(event):
+                value += fold.value.energy - landing.value.energy
+                pairs += [fold, landing]
+            parts = parts.plus(self.jump_parts(event))
+        return solution_of(value, parts, pairs)
+
+    @_computed.register
+    def _(self, row: Critical) -> Solution:
+        return critical_tabor_number(self.problem, self.meshes)
 
     @cached_property
     def _on_finer_path(self) -> Analysis:
@@ -389,10 +400,5 @@ _EVENTS: dict[str, tuple[Callable[[Analysis], Bracket], Condition]] = {
     "jump_out": (lambda analysis: jumps_between(analysis._branches, inward=False)[-1][0], events.displacement_fold),
     "zero_load": (Analysis._last_zero_load, events.zero_load),
 }
-#: The functional that is extreme at an event; None if the load is prescribed.
-EXTREMAL = {"pull_off": "load", "jump_in": "displacement", "jump_out": "displacement", "zero_load": None}
 #: Index of the event among the jumps of an approach or a retreat: the first one into contact, the last one out of it.
 _NAMED = {"jump_in": 0, "jump_out": -1}
-
-#: Named points of the equilibrium path.
-EVENTS = tuple(_EVENTS)

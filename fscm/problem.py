@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from numbers import Number
 from typing import Any, overload
 
 from fscm._response_factor import response_factor_per_rest
@@ -35,6 +36,10 @@ _LEAST_M, _LARGEST_M = 1e-30, 1e15
 #: Shortest length at which surface tension acts, in (Q z0)^(1/n), and the inverse of the longest: shorter waves than
 #: 1e-20 carry none of the pressure, and at 1e20 the surface is a rigid plane to all digits.
 _SHORTEST = 1e-20
+
+#: Arguments of the two kinds of problems, in the order of their positions.
+_PHYSICAL = ("solid", "punch", "law", "punch_solid", "interaction")
+_DIMENSIONLESS = ("n", "k", "mu", "punch", "law", "graded", "interaction")
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -134,11 +139,21 @@ class Problem:
         punch: PunchShape | None = None,
         law: SurfaceLaw | None = None,
         graded: GradedHalfSpace | Bodies | None = None,
-        solid: None = None,
-        punch_solid: None = None,
         interaction: str = "derjaguin",
     ) -> None: ...
-    def __init__(  # type: ignore[misc]  # the positions of the two have other names
+    def __init__(self, *parts: Any, **named: Any) -> None:
+        stated = {name: part for name, part in named.items() if part is not None}
+        is_physical = "solid" in stated or (bool(parts) and not isinstance(parts[0], Number))
+        names = _PHYSICAL if is_physical else _DIMENSIONLESS
+        if len(parts) > len(names) or not {*stated} <= {*names}:
+            raise ValueError(
+                f"{', '.join(sorted({*stated} - {*names}) or ['more arguments'])} and the others are no one problem: "
+                "it has a solid, a punch, a law and perhaps a punch_solid, or else n, k and mu; a physical problem is "
+                "changed by making another one of its parts"
+            )
+        (self._pose_physical if is_physical else self._pose)(*parts, **stated)
+
+    def _pose(
         self,
         n: Any = None,
         k: Any = None,
@@ -146,28 +161,8 @@ class Problem:
         punch: Any = None,
         law: Any = None,
         graded: Any = None,
-        solid: Any = None,
-        punch_solid: Any = None,
         interaction: str = "derjaguin",
     ) -> None:
-        # The four positions of a physical problem are solid, punch, law and the solid of the punch.
-        if hasattr(n, "modulus"):
-            solid, n = n, None
-            if isinstance(k, PunchShape) and punch_solid is None:
-                punch, punch_solid = None, punch
-            punch, k = (k, None) if punch is None else (punch, k)
-            law, mu = (mu, None) if law is None else (law, mu)
-        if solid is None and punch_solid is None:
-            self._pose(n, k, mu, punch, law, graded, interaction)
-        elif solid is not None and n is k is mu is graded is None:
-            self._pose_physical(solid, punch, law, punch_solid, interaction)
-        else:
-            raise ValueError(
-                "a problem has a solid, a punch, a law and perhaps a punch_solid, or else n, k and mu: a physical "
-                "problem is changed by making another one of its parts"
-            )
-
-    def _pose(self, n: Any, k: Any, mu: Any, punch: Any, law: Any, graded: Any, interaction: str) -> None:
         """Check and set the attributes of a dimensionless problem."""
         inf = math.inf
         n = real_number("shape index n", n, low=0.0, high=inf, reason="f = r^n / n must grow with r")
@@ -228,7 +223,9 @@ class Problem:
             )
         self._set(n, k, mu, punch, law, graded, None, None, interaction, None, DIMENSIONLESS)
 
-    def _pose_physical(self, solid: Any, punch: Any, law: Any, punch_solid: Any, interaction: str) -> None:
+    def _pose_physical(
+        self, solid: Any, punch: Any = None, law: Any = None, punch_solid: Any = None, interaction: str = "derjaguin"
+    ) -> None:
         """Set a physical problem, and its dimensionless one, which is checked."""
         _check_parts(punch, law)
         w, z0 = law.work_of_adhesion, law.z0
@@ -279,8 +276,8 @@ class Problem:
     def __reduce__(self) -> tuple[Any, ...]:
         """Rebuilt from its parts: units cannot be pickled."""
         if self.solid is not None:
-            return Problem, (self.solid, self.punch, self.law, self.punch_solid, *[None] * 4, self.interaction)
-        return Problem, (self.n, self.k, self.mu, self.punch, self.law, self.graded, None, None, self.interaction)
+            return Problem, (self.solid, self.punch, self.law, self.punch_solid, self.interaction)
+        return Problem, (self.n, self.k, self.mu, self.punch, self.law, self.graded, self.interaction)
 
     @property
     def dimensionless(self) -> Problem:

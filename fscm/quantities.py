@@ -1,21 +1,33 @@
-"""Table of quantities: kind, events and computation of each.
+"""Table of quantities: unit, and the state and the functional of each.
 
-A new quantity is one row of `TABLE`.
+A new quantity is one row of `TABLE`: the path is followed to its events, and its bound follows from the functional.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
-from fscm.critical import critical_tabor_number
-from fscm.solution import Parts, Solution, solution_of
+__all__ = [
+    "EVENTS",
+    "EXTREMAL",
+    "FUNCTIONALS",
+    "QUANTITIES",
+    "TABLE",
+    "AtEvent",
+    "Critical",
+    "LostInJumps",
+    "PathPoint",
+    "Quantity",
+    "quantity_named",
+]
 
-if TYPE_CHECKING:
-    from fscm.analysis import Analysis
-
-__all__ = ["QUANTITIES", "TABLE", "AtEvent", "PathPoint", "Quantity", "quantity_named"]
+#: Functional that is extreme at each named point of the equilibrium path; None where the load is prescribed.
+EXTREMAL = {"pull_off": "load", "jump_in": "displacement", "jump_out": "displacement", "zero_load": None}
+#: Named points of the equilibrium path.
+EVENTS = tuple(EXTREMAL)
+#: Numbers of a state whose error is bounded (`fscm._bound`).
+FUNCTIONALS = ("load", "displacement", "central_gap", "energy")
 
 
 class PathPoint(Protocol):
@@ -45,78 +57,77 @@ class Quantity:
     ----------
     kind : str
         "load", "displacement", "gap", "energy" or "number": its unit, see `Problem.units`.
-    needs : tuple of str
-        Events of the path that must exist.
-    compute : callable
-        Analysis -> Solution, without its time.
     """
 
     kind: str
-    needs: tuple[str, ...]
-    compute: Callable[[Analysis], Solution]
 
 
 @dataclass(frozen=True)
 class AtEvent(Quantity):
-    """A quantity that is a functional of the state at one event.
+    """A functional of the state at one event.
 
     Attributes
     ----------
-    functional : callable
-        PathPoint -> float: the attribute times the sign.
-    attribute : str
-        Of `PathPoint`.
+    event, functional : str
+        Of `EVENTS` and of `FUNCTIONALS`.
     sign : float
+        Factor of the functional.
+
+    Raises
+    ------
+    ValueError
+        For an unknown event or functional.
+
+    Examples
+    --------
+    >>> AtEvent("load", "pull_off", "force")
+    Traceback (most recent call last):
+    ValueError: functional = 'force' of a quantity is unknown; it is one of load, displacement, central_gap, energy
     """
 
-    functional: Callable[[PathPoint], float]
-    attribute: str
-    sign: float
+    event: str
+    functional: str
+    sign: float = 1.0
 
-    @classmethod
-    def of(cls, kind: str, event: str, attribute: str, sign: float = 1.0) -> AtEvent:
-        """Row for an attribute of `PathPoint`, times a sign."""
+    def __post_init__(self) -> None:
+        for name, value, known in (("event", self.event, EVENTS), ("functional", self.functional, FUNCTIONALS)):
+            if value not in known:
+                raise ValueError(f"{name} = {value!r} of a quantity is unknown; it is one of {', '.join(known)}")
 
-        def functional(point: PathPoint) -> float:
-            return sign * float(getattr(point, attribute))
-
-        def compute(analysis: Analysis) -> Solution:
-            return solution_of(
-                functional(analysis.event(event).value), analysis.parts(event, attribute), [analysis.event(event)]
-            )
-
-        return cls(kind, (event,), compute, functional, attribute, sign)
-
-    @property
-    def event(self) -> str:
-        """Name of the event."""
-        return self.needs[0]
+    def value(self, point: PathPoint) -> float:
+        """The functional times its sign."""
+        return self.sign * float(getattr(point, self.functional))
 
 
-def _hysteresis_energy(analysis: Analysis) -> Solution:
-    """Energy lost in all jumps of a cycle: the drops of energy at constant displacement."""
-    value, parts, pairs = 0.0, Parts(), []
-    for name in ("jump_in", "jump_out"):
-        for fold, landing in analysis.jumps(name):
-            value += fold.value.energy - landing.value.energy
-            pairs += [fold, landing]
-        parts = parts.plus(analysis.jump_parts(name))
-    return solution_of(value, parts, pairs)
+@dataclass(frozen=True)
+class LostInJumps(Quantity):
+    """Energy lost in jumps at constant displacement.
+
+    Attributes
+    ----------
+    events : tuple of str
+        "jump_in" for all jumps of an approach, "jump_out" for those of a retreat.
+    """
+
+    events: tuple[str, ...]
 
 
-#: Rows by name: how each quantity is computed from the equilibrium path.
+@dataclass(frozen=True)
+class Critical(Quantity):
+    """The Tabor number above which the path has jumps."""
+
+
+#: Rows by name.
 TABLE: dict[str, Quantity] = {
-    "pull_off_force": AtEvent.of("load", "pull_off", "load", -1.0),
-    "pull_off_displacement": AtEvent.of("displacement", "pull_off", "displacement"),
-    "jump_in_displacement": AtEvent.of("displacement", "jump_in", "displacement"),
-    "jump_in_gap": AtEvent.of("gap", "jump_in", "central_gap"),
-    "jump_out_displacement": AtEvent.of("displacement", "jump_out", "displacement"),
-    "jump_out_gap": AtEvent.of("gap", "jump_out", "central_gap"),
-    "zero_load_displacement": AtEvent.of("displacement", "zero_load", "displacement"),
-    "hysteresis_energy": Quantity("energy", ("jump_in", "jump_out"), _hysteresis_energy),
-    "critical_tabor_number": Quantity(
-        "number", (), lambda analysis: critical_tabor_number(analysis.problem, analysis.meshes)
-    ),
+    "pull_off_force": AtEvent("load", "pull_off", "load", -1.0),
+    "pull_off_displacement": AtEvent("displacement", "pull_off", "displacement"),
+    "jump_in_displacement": AtEvent("displacement", "jump_in", "displacement"),
+    "jump_in_gap": AtEvent("gap", "jump_in", "central_gap"),
+    "jump_out_displacement": AtEvent("displacement", "jump_out", "displacement"),
+    "jump_out_gap": AtEvent("gap", "jump_out", "central_gap"),
+    "zero_load_displacement": AtEvent("displacement", "zero_load", "displacement"),
+    "hysteresis_energy": LostInJumps("energy", ("jump_in", "jump_out")),
+    "critical_tabor_number": Critical("number"),
 }
 
 #: Names of the quantities.

@@ -39,4 +39,11 @@ REFERENCE_VALUES = (
     ReferenceValue("jump_in_gap", 2.0, 0.6, 3.0, 1.83784, 5, _ELEMENTS),
     ReferenceValue("jump_in_displacement", 5.0, 0.4, 3.0, -3.51597, 5, _ELEMENTS),
     ReferenceValue("jump_in_gap", 5.0, 0.4, 3.0, 2.07692, 5, _ELEMENTS),
+    ReferenceValue("pull_off_displacement", 2.0, 0.4, 1.5, -0.6015261, 7, _ELEMENTS),
+    ReferenceValue("jump_out_displacement", 2.0, 0.4, 1.5, -2.4202530, 7, _ELEMENTS),
+    ReferenceValue("jump_out_gap", 2.0, 0.4, 1.5, 0.0494267, 7, _ELEMENTS),
+    ReferenceValue("zero_load_displacement", 2.0, 0.4, 1.5, 3.0827028, 7, _ELEMENTS),
+    ReferenceValue("hysteresis_energy", 2.0, 0.4, 1.5, 0.2367956, 7, _ELEMENTS),
+    # The Tabor number of the problem is not used.
+    ReferenceValue("critical_tabor_number", 2.0, 0.4, 1.0, 0.7824728, 7, _ELEMENTS),
 )

@@ -2,6 +2,7 @@
 
 import ast
 from functools import cache
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -61,7 +62,8 @@ LAYERS = {
         ("_path",),
         ("solution",),
         ("_bound",),
-        ("folds", "stability", "critical", "quantities", "analysis", "path"),
+        ("folds", "stability", "critical", "quantities"),
+        ("analysis", "path"),
         ("gibson", "stieltjes", "interpolation"),
         ("experiment", "states", "solver", "_sensitivity"),
     ),
@@ -174,6 +176,35 @@ def test_a_module_imports_from_its_own_layer_or_those_before_it():
         siblings = [module for module in ours(name, path) if module.startswith(name.split(".")[0] + ".")]
         wrong += [(name, module) for module in siblings if "." in name and layer(module) > layer(name)]
     assert wrong == []
+
+
+#: Rooms of the integral equation, and what each may import of them: a state, the path of states, their bounds.
+ROOMS = {"fscm._surface": (), "fscm._path": ("fscm._surface",), "fscm._bound": ("fscm._surface", "fscm._path")}
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_rooms_import_one_way(room):
+    wrong = [
+        (name, module)
+        for name, path in modules().items()
+        if within(name, (room,))
+        for module in ours(name, path)
+        if within(module, tuple(ROOMS)) and not within(module, (room, *ROOMS[room]))
+    ]
+    assert wrong == []
+
+
+@pytest.mark.parametrize("package", ["fscm", "fem_reference"])
+def test_no_module_imports_itself_by_others(package):
+    """Imports for type checking count: a circle is one whether it runs or not."""
+    graph = {name: ours(name, path) for name, path in modules().items() if within(name, (package,))}
+    order = tuple(TopologicalSorter(graph).static_order())
+    assert {*graph} <= {*order}
+
+
+def test_a_circle_is_seen():
+    with pytest.raises(CycleError):
+        tuple(TopologicalSorter({"fscm.a": {"fscm.b"}, "fscm.b": {"fscm.a"}}).static_order())
 
 
 @pytest.mark.parametrize("package", PACKAGES)

@@ -27,7 +27,10 @@ from fscm.errors import NotConverged
 from fscm.problem import Problem
 from fscm.punch import kinks_of
 
-__all__ = ["Adjoint", "AtExtreme", "parameter"]
+__all__ = ["WITH_GRADIENT", "Adjoint", "AtExtreme", "parameter"]
+
+#: Functionals whose derivatives by the unknowns are known.
+WITH_GRADIENT = ("load", "displacement", "central_gap")
 
 #: Step of the continuation parameter for the rate of a change, relative to its unit; both states are exact to 1e-13.
 _PATH_STEP = 1e-4
@@ -41,7 +44,7 @@ class Adjoint:
     state : State
         In equilibrium.
     functional, control : str
-        Of "load", "displacement", "central_gap"; the control may also be "log_scale".
+        Of `WITH_GRADIENT`; the control may also be "log_scale".
     """
 
     def __init__(self, state: State, functional: str, control: str) -> None:

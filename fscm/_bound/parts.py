@@ -52,7 +52,7 @@ _KERNEL_RATE = 14.0
 #: the relative change of the pressure: a value of a power law of the gap, and its derivatives, change by a few times
 #: it.
 _CHANGE = 10.0
-_FUNCTIONALS = ("load", "displacement", "central_gap")
+_FUNCTIONALS = ("load", "displacement", "central_gap", "energy")
 
 
 def root_shift(error: float, slope: float, curvature: float) -> float:

@@ -23,8 +23,10 @@ __all__ = ["STIELTJES_QUANTITIES", "stieltjes_solution"]
 #: mu = 0.2, 0.8, 1.4 on 160 segments, wherever it converges.
 _SAFETY = 2.0
 
-#: The quantities at one event of the path.
-STIELTJES_QUANTITIES = {name: row for name, row in TABLE.items() if isinstance(row, AtEvent)}
+#: The quantities at one event of the path; the states of the scheme have no energy.
+STIELTJES_QUANTITIES = {
+    name: row for name, row in TABLE.items() if isinstance(row, AtEvent) and row.functional != "energy"
+}
 
 
 @lru_cache(maxsize=2)
@@ -67,8 +69,8 @@ def stieltjes_solution(problem: Problem, quantity: str, segments: int = 2500, **
     row = STIELTJES_QUANTITIES[quantity]
     scheme = _scheme(problem, segments, **settings)
     state = find_event(scheme, row.event)
-    value = row.functional(state)
-    coarse = row.functional(find_event(_scheme(problem, segments // 2, **settings), row.event))
+    value = row.value(state)
+    coarse = row.value(find_event(_scheme(problem, segments // 2, **settings), row.event))
     parts = Parts(mesh=_SAFETY * abs(value - coarse), tail=_SAFETY * _beyond(scheme, state, row))
     iterations = sum(s.iterations for s in scheme.path)
     return Solution(value, parts, segments, iterations, state.change, time.perf_counter() - start)
