@@ -9,6 +9,7 @@ import numpy as np
 from fem_reference._validation import check_tension
 from fem_reference.interaction import Interaction, InteractionName, interaction_of
 from fem_reference.laws import SurfaceLaw
+from fem_reference.modulus import Modulus
 from fem_reference.punch import CustomPunch, Punch, radius_at_height
 from fem_reference.solids import Solid
 
@@ -72,6 +73,12 @@ class Problem:
                 f"punch_solid = {self.punch_solid!r} is not a solid, which needs modulus and poisson; leave it out for "
                 "a rigid punch"
             )
+        for solid in self.solids:
+            if not isinstance(solid.modulus, Modulus):
+                raise ValueError(
+                    f"solid = {solid!r} states no exponents of its modulus at the surface and at depth: give its "
+                    "functions to CustomSolid(E, nu, length, interfaces)"
+                )
         if not isinstance(self.punch, Punch):
             raise ValueError(f"punch = {self.punch!r} is not a punch shape: it needs height(r) and slope(r)")
         if not isinstance(self.law, SurfaceLaw):

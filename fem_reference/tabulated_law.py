@@ -68,8 +68,6 @@ class _Power:
 class TabulatedLaw:
     """Surface law through points, whose gap without traction becomes H = 0.
 
-    The law passes through every point: smooth noisy points before.
-
     Parameters
     ----------
     gaps : sequence of float, shape (N,), N >= 10
@@ -77,12 +75,14 @@ class TabulatedLaw:
     tractions : sequence of float, shape (N,)
         Compression positive: the first is positive, the last negative, or zero for a law of finite range.
     z0 : float
-        Range of the law, a length: gaps are resolved and steps are chosen relative to it.
+        Range of the law, a length > 0: gaps are resolved and steps are chosen relative to it.
     tail_exponent : float, optional
         Exponent m > 1 of the attraction far away, where it is known; C and t are fitted then.  By default the origin t
         is that of the wall, and C and m are fitted.
     work : float, optional
         Work of adhesion to which the tractions are scaled.  By default they are not scaled.
+    smoothing : float
+        Zero: the law passes through every point.
 
     Raises
     ------
@@ -99,9 +99,10 @@ class TabulatedLaw:
 
     gaps: Sequence[float]
     tractions: Sequence[float]
-    z0: float
+    z0: float = 1.0
     tail_exponent: float | None = None
     work: float | None = None
+    smoothing: float = 0.0
     _spline: PPoly = field(init=False, compare=False)
     _primitive: PPoly = field(init=False, compare=False)
     _wall: _Power = field(init=False, compare=False)
@@ -117,6 +118,11 @@ class TabulatedLaw:
         ):
             if value is not None and not low < value < math.inf:
                 raise ValueError(f"{name} = {value} is outside ({low:g}, infinity)")
+        if self.smoothing != 0.0:
+            raise ValueError(
+                f"smoothing = {self.smoothing!r} is not 0: the finite elements take a law through every point; smooth "
+                "noisy points before"
+            )
         columns = _columns(self.gaps, self.tractions)
         # Gaps in lengths of the law and tractions of size 1: the equations of the spline are then well scaled.
         stress = float(np.max(np.abs(columns[1])))

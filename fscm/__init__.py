@@ -5,6 +5,19 @@
 >>> round(solution.value, 8)
 1.78848171
 
+What a solver of an equilibrium path must have, and where it is:
+
+1. a mesh of the surface that adapts to the pressure: `_surface.mesh`, `_surface.adaptivity`;
+2. the response of the bodies to the pressure on it, and to that beyond it: `_surface.kernel`, `_surface.deformation`
+   and `_surface.response`, `_surface.tail`;
+3. an equation: a state, its residual with the exact tangent, Newton's method: `_surface.state`,
+   `_surface.linearisation`, `_surface.newton`;
+4. a continuation from far separation to an end: `_path.continuation`, `_path.ends`;
+5. completeness, a proof that no turning point is missed between two points: `_path.completeness`;
+6. events as roots of exact rates, and the jumps between stable branches: `_path.events`, `_path.jumps`;
+7. a bound of the error of every value by its causes: `_bound.defect`, `_bound.parts`;
+8. quantities, each a row that names its event and its functional: `quantities`; `analysis` computes them by 1 to 7.
+
 The names in `__all__` of the modules of solids, punches and laws are names of the package, too.  `_lazy.pyi` lists the
 others; a module is loaded when one of its names is first used.
 """

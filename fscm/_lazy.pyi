@@ -5,6 +5,7 @@ from .accuracy import ACCURACIES as ACCURACIES
 from ._sensitivity import SENSITIVE as SENSITIVE, ValueSensitivity as ValueSensitivity, sensitivity as sensitivity
 from .analysis import Analysis as Analysis
 from .errors import (
+    Failure as Failure,
     AccuracyWarning as AccuracyWarning,
     NoSuchEvent as NoSuchEvent,
     NotConverged as NotConverged,

@@ -18,12 +18,11 @@ from fscm._path.events import Bracket, Condition
 from fscm._path.jumps import Branch, jumps_between
 from fscm._path.pull_off_path import deepest_minimum, pull_off_path
 from fscm._path.punch_rules import rules_of
-from fscm._path.surface_rings import RingsForm
 from fscm._path.whole_path import bracketing_path
 from fscm._threads import one_thread
 from fscm.accuracy import Accuracy, Mesh, Meshes
 from fscm.critical import critical_tabor_number
-from fscm.errors import AccuracyWarning, NoSuchEvent, NotConverged
+from fscm.errors import AccuracyWarning, Failure, NoSuchEvent, NotConverged, RingsForm
 from fscm.folds import Fold, edge_radius, folds_of
 from fscm.problem import Problem
 from fscm.punch import check_reach
@@ -129,7 +128,9 @@ class Analysis:
             return [Branch(high=maxima[0], largest=0.0), Branch(low=minima[0], least=0.0)]  # no displacement is needed
         turns = [i for i, fold in enumerate(self.folds) if fold.quantity == "displacement"]
         if [self.folds[i].maximum for i in turns] != [j % 2 == 0 for j in range(len(maxima) + len(minima))]:
-            raise NotConverged(f"the turning points of the displacement on the path of {self.problem} do not alternate")
+            raise NotConverged(
+                f"the turning points of the displacement on the path of {self.problem} do not alternate", Failure.FOLDS
+            )
         sections = stable_sections(
             self.points[0], self.points[-1], [(fold.quantity, fold.displacement) for fold in self.folds]
         )
@@ -141,7 +142,9 @@ class Analysis:
                 high = (maxima[j], places[2 * j]) if j < len(maxima) else (None, math.inf)
                 branches.append(Branch(low[0], high[0], low[1], high[1]))
         if len(branches) < 2:
-            raise NotConverged(f"no part of the path of {self.problem} in contact was found to be stable")
+            raise NotConverged(
+                f"no part of the path of {self.problem} in contact was found to be stable", Failure.BRANCH
+            )
         return self._with_accurate_ends(branches)
 
     def _with_accurate_ends(self, branches: list[Branch]) -> list[Branch]:
@@ -306,7 +309,8 @@ class Analysis:
         if not rising:
             raise NotConverged(
                 f"the path of {self.problem} does not reach the displacement {fold.value.displacement:.6g}, "
-                f"at which the {event.replace('_', '-')} lands"
+                f"at which the {event.replace('_', '-')} lands",
+                Failure.BRANCH,
             )
         coarse = events.locate(*rising[-1 if event == "jump_in" else 0], condition)
         value = events.sharpen(coarse, condition, *self.meshes.value)

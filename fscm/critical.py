@@ -22,7 +22,7 @@ from fscm._surface.newton import newton
 from fscm._surface.state import State
 from fscm._threads import one_thread
 from fscm.accuracy import Accuracy, Meshes
-from fscm.errors import NoSuchEvent, NotConverged
+from fscm.errors import Failure, NoSuchEvent, NotConverged
 from fscm.problem import Problem
 from fscm.solution import Parts, Solution
 
@@ -106,7 +106,7 @@ def _on_mesh(state: State) -> tuple[float, State, float]:
             return mu, state, slope
         step = -new / slope if moving else step
         rate = new
-    raise NotConverged("the secant method for the critical Tabor number did not settle")
+    raise NotConverged("the secant method for the critical Tabor number did not settle", Failure.EVENT)
 
 
 def _bounds(state: State, slope: float) -> Parts:

@@ -33,6 +33,9 @@ class CustomSolid:
     interfaces : sequence of float, optional
         Depths > 0 at which E or nu or a derivative of them jumps.  Layers thinner than a twentieth of their depth may
         be missed unless their interfaces are given here.
+    surface_exponent, depth_exponent : float
+        Exponents of E ~ z^m as z -> 0, which is 0 (a modulus that vanishes at the surface is a `PowerLaw`), and as
+        z -> infinity, in [0, 1), which the response does not need.
     surface_tension : float
         Surface tension, a force per length, >= 0.
 
@@ -47,10 +50,20 @@ class CustomSolid:
     nu: float | Callable[[Array], Array]
     length: float
     interfaces: Sequence[float] = ()
+    surface_exponent: float = 0.0
+    depth_exponent: float = 0.0
     surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "surface_tension", checked_tension(self.surface_tension))
+        for name, high, reason in (
+            ("surface_exponent", 0.0, "its modulus is positive at the surface; one that vanishes there is a PowerLaw"),
+            ("depth_exponent", 1.0, "it has no finite surface response far away"),
+        ):
+            exponent = real_number(
+                name, getattr(self, name), low=0.0, high=high, reason=reason, closed_low=True, closed_high=high == 0.0
+            )
+            object.__setattr__(self, name, exponent)
         length = real_number("length", self.length, low=0.0, high=math.inf, reason=POSITIVE)
         object.__setattr__(self, "length", length)
         ends = [real_number("interface", z, low=0.0, high=math.inf, reason=POSITIVE) for z in self.interfaces]

@@ -1,12 +1,66 @@
-"""Exceptions and warnings of the solvers."""
+"""Exceptions and warnings of the solver.
+
+RuntimeError
+NotConverged        a computation did not reach its tolerance; `failure` says which one, with its remedy
+RingsForm         the surface comes into contact in rings
+LookupError
+NoSuchEvent         the path has no such event
+ValueError            an argument is outside its range
+OutsideAtlas        a parameter is outside the range of the atlas
+UserWarning
+AccuracyWarning     the bound of a value exceeds the requested accuracy
+"""
 
 from __future__ import annotations
 
-__all__ = ["AccuracyWarning", "NoSuchEvent", "NotConverged", "OutsideAtlas"]
+from enum import Enum
+from typing import Any
+
+__all__ = ["AccuracyWarning", "Failure", "NoSuchEvent", "NotConverged", "OutsideAtlas", "RingsForm"]
+
+
+class Failure(Enum):
+    """What did not converge; the value is the remedy.
+
+    Examples
+    --------
+    >>> Failure.STEP.value
+    'the path of a smaller Tabor number turns less sharply'
+    """
+
+    #: Newton's method.
+    ITERATION = "take a smaller step, start from a closer state, or use another control"
+    #: The refinement of a mesh.
+    MESH = "a smaller Tabor number or gradient exponent has a wider contact edge"
+    #: Depths at which the constants of a solid change.
+    SOLID = "a step is an interface of sharp layers (Layers, the kind layers)"
+    #: The continuation of the path.
+    STEP = "the path of a smaller Tabor number turns less sharply"
+    #: The search for turning points between the points of a path.
+    FOLDS = "the folds of a Tabor number that is a little different may be told apart"
+    #: The end of the path.
+    END = "take a power-law solid, a punch without asperities or a law that decays faster"
+    #: The root of an event.
+    EVENT = "take a Tabor number that is farther from the critical one"
+    #: The stable branches between which a cycle jumps.
+    BRANCH = "ask for a quantity at one event, or trace the path"
+    #: A surface that comes into contact in rings.
+    RINGS = "take a smaller Tabor number or a stiffer film"
+    #: A contact larger than its punch.
+    REACH = "take a larger ball or a stiffer solid"
+    #: The paper's own scheme.
+    SCHEME = "use a smaller gap_step or more segments"
 
 
 class NotConverged(RuntimeError):
-    """The computation did not reach its tolerance; the message says what was tried and what to change.
+    """The computation did not reach its tolerance.
+
+    Parameters
+    ----------
+    reason : str
+        What was tried, and where it ended.
+    failure : Failure, optional
+        Its remedy ends the message.
 
     Examples
     --------
@@ -15,6 +69,17 @@ class NotConverged(RuntimeError):
     Traceback (most recent call last):
     fscm.errors.NotConverged: the contact edge of ... is about 10^-314 of its radius wide, below 10^-22, ...
     """
+
+    def __init__(self, reason: str = "", failure: Failure | None = None) -> None:
+        super().__init__(f"{reason}; {failure.value}" if failure else reason)
+        self.reason, self.failure = reason, failure
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.reason, self.failure)
+
+
+class RingsForm(NotConverged):
+    """The surface comes into contact in rings; a finer mesh does not help."""
 
 
 class NoSuchEvent(LookupError):

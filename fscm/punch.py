@@ -15,7 +15,7 @@ import numpy as np
 
 from fscm._typing import Array
 from fscm._validation import real_number
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 
 __all__ = ["Ball", "PowerPunch", "PowerSum", "PunchShape", "RoundedCone"]
 
@@ -394,7 +394,8 @@ def check_reach(punch: PunchShape, radius: float) -> None:
     if radius > reach:
         raise NotConverged(
             f"the ball is smaller than the contact, whose radius is {radius / reach * _REACH:.2g} R: the model needs a "
-            f"contact within {_REACH:g} R"
+            f"contact within {_REACH:g} R",
+            Failure.REACH,
         )
 
 

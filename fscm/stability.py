@@ -30,7 +30,7 @@ from scipy.sparse.linalg import ArpackError, LinearOperator, eigs
 from fscm._path.arc_length import Point, rates_of
 from fscm._surface.state import State
 from fscm._typing import Array
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 
 __all__ = ["Stability", "margins", "stability_of", "stable_sections"]
 
@@ -104,7 +104,8 @@ def margins(state: State, count: int = 1) -> Array:
             values = eigs(operator, k=count, which="LM", v0=np.ones(size), return_eigenvectors=False)
     except (LinAlgError, ArpackError) as error:
         raise NotConverged(
-            f"the stability of the state at H_0 = {state.central_gap:.6g} was not found: {error}"
+            f"the stability of the state at H_0 = {state.central_gap:.6g} was not found: {error}",
+            Failure.ITERATION,
         ) from error
     return np.sort(1.0 - values.real)[:count]
 

@@ -23,7 +23,7 @@ from fscm._surface.discretisation import Discretisation
 from fscm._surface.linearisation import Linearisation, linearised
 from fscm._surface.state import Control, State
 from fscm._typing import Array
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.problem import Problem
 from fscm.punch import kinks_of
 
@@ -54,7 +54,7 @@ class Adjoint:
         matrix[-1] = system.row(_unit(control))
         lu, pivots, info = scipy.linalg.lapack.dgetrf(matrix, overwrite_a=1)
         if info != 0:
-            raise NotConverged("the tangent at the event is singular: its adjoint is not known")
+            raise NotConverged("the tangent at the event is singular: its adjoint is not known", Failure.EVENT)
         self._adjoint: Array = scipy.linalg.lapack.dgetrs(lu, pivots, system.row(_unit(functional)), trans=1)[0]
         self._value, self._left = getattr(state, functional), self._left_sides(state, system)
 

@@ -22,7 +22,7 @@ from fscm._path.events import MISSED_EXTREME
 from fscm._surface.discretisation import Discretisation
 from fscm._surface.state import Rates, State
 from fscm._typing import Array
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.punch import kinks_of
 from fscm.solution import Parts
 
@@ -196,7 +196,7 @@ class EventErrors:
             return self.on_path(functional).plus(Parts(rounding=missed))
         _, curvature, third = self.derivatives(extremal)
         if curvature == 0.0:
-            raise NotConverged(f"the {extremal} has no curvature at its extreme: the event is about to vanish")
+            raise NotConverged(f"the {extremal} has no curvature at its extreme", Failure.EVENT)
         rate = self.rate(extremal)
         size = bounds(rate).total
         factor = root_shift(size, curvature, third) * abs(curvature) / size if size else 1.0

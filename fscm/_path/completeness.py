@@ -22,7 +22,7 @@ from fscm._surface.anchors import AtEdge
 from fscm._surface.mesh import PanelMesh
 from fscm._surface.newton import STEP_TOLERANCE, newton
 from fscm._surface.state import State
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.punch import kinks_of
 
 __all__ = ["completed", "least_loads", "may_hide"]
@@ -278,7 +278,8 @@ def _subdivided(a: Point, b: Point, test: _Test, halvings: int) -> list[Point]:
             if _hidden(a, b, name) > _NEGLIGIBLE:
                 raise NotConverged(
                     f"the path of {a.state.disc.problem} may hide turning points of the {name} near "
-                    f"delta = {a.state.displacement:.6g}, P = {a.state.load:.6g}"
+                    f"delta = {a.state.displacement:.6g}, P = {a.state.load:.6g}",
+                    Failure.FOLDS,
                 )
         return [a, b]
     middle = _resolved_middle(a, b, test)

@@ -31,7 +31,7 @@ from fscm._surface.newton import STEP_TOLERANCE, newton
 from fscm._surface.response import largest_mu
 from fscm._surface.state import Control, Rates, State, rigid_state
 from fscm.accuracy import Meshes
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.problem import Problem
 
 __all__ = ["equilibrium_path", "moved", "usual_start"]
@@ -124,12 +124,14 @@ class _Tracer:
             check_rings(state, self._rings)
         if state.central_gap > farthest:
             raise NotConverged(
-                f"the path of {self._problem} came back to separation: a sharp turn of it was not resolved"
+                f"the path of {self._problem} came back to separation: a sharp turn of it was not resolved",
+                Failure.STEP,
             )
         if self._turns > _MOST_TURNS:
             raise NotConverged(
                 f"the path of {self._problem} ends at delta = {state.displacement:.6g}, P = {state.load:.6g}: "
-                f"no continuation parameter allows another step"
+                f"no continuation parameter allows another step",
+                Failure.STEP,
             )
 
     def _following_edge(self, point: Point) -> Point | None:
@@ -176,7 +178,8 @@ class _Tracer:
                     raise NotConverged(
                         f"the path of {self._problem} ends at delta = {state.displacement:.6g}, "
                         f"P = {state.load:.6g}: no step of arc length down to {_SMALLEST_STEP} converges "
-                        f"({error}); the path of a smaller Tabor number turns less sharply"
+                        f"({error.reason})",
+                        Failure.STEP,
                     ) from error
                 continue
             if after is None:

@@ -7,7 +7,7 @@ import math
 import scipy
 
 from fscm._surface.response import response_of
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.problem import Problem
 
 __all__ = ["check_edge", "log_edge_width"]
@@ -47,5 +47,6 @@ def check_edge(problem: Problem) -> None:
         raise NotConverged(
             f"the contact edge of {problem} is about 10^{_log_width(problem, log_mu):.0f} of its radius wide, below "
             f"10^{_NARROWEST:.0f}, which needs too much memory: the largest Tabor number at n = {problem.n:g}, "
-            f"k = {problem.k:g} is mu = {10.0**largest:.3g}"
+            f"k = {problem.k:g} is mu = {10.0**largest:.3g}",
+            Failure.MESH,
         )

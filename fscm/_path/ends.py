@@ -33,7 +33,7 @@ import scipy
 from fscm._surface.response import response_of
 from fscm._surface.state import State
 from fscm._typing import Array
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.problem import Problem
 
 __all__ = ["LeastLoad", "PathEnd", "depth", "displacement_of_compression"]
@@ -158,7 +158,8 @@ def displacement_of_compression(problem: Problem, end: float) -> float:
         return -math.inf
     if problem.graded is not None:
         raise NotConverged(
-            f"the punch of {problem} has asperities: the end of its path is known for a power-law modulus only"
+            f"the punch of {problem} has asperities: the end of its path is known for a power-law modulus only",
+            Failure.END,
         )
     bound = LeastLoad(problem, end)
     largest = _LARGEST * float(problem.punch.height(np.array([end]))[0])

@@ -28,7 +28,7 @@ from fscm._surface.adaptivity import (
 )
 from fscm._surface.newton import newton
 from fscm._surface.state import Rates, State
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 
 __all__ = [
     "MISSED_EXTREME",
@@ -285,7 +285,7 @@ def sharpened(
     # From a better root on the coarse mesh.
     root, slope = _sharpen(locate(*bracket, condition), condition, order, tolerance, end_height)
     if not _belongs(root, slope, bracket, condition):
-        raise NotConverged("the secant method left the bracket of an event for another one")
+        raise NotConverged("the secant method left the bracket of an event for another one", Failure.EVENT)
     return root
 
 
@@ -349,7 +349,9 @@ def _sharpen(
             return state, slope
         # The steep rise of a flat punch, or a joint, has moved off the panels that resolve it.
         state = refined(state, order, tolerance)
-    raise NotConverged("the mesh at an event does not resolve the pressure; the event moves with the mesh")
+    raise NotConverged(
+        "the mesh at an event does not resolve the pressure; the event moves with the mesh", Failure.EVENT
+    )
 
 
 def _root(state: State, condition: Condition, tolerance: float, slope: float | None) -> tuple[State, float]:
@@ -392,6 +394,5 @@ def _root(state: State, condition: Condition, tolerance: float, slope: float | N
         settled = settled or small
         step *= -value / change
     raise NotConverged(
-        "the root of an event did not settle on the refined mesh; the event may be about to vanish "
-        "(Tabor number close to critical)"
+        "the root of an event did not settle on the refined mesh: the event may be about to vanish", Failure.EVENT
     )

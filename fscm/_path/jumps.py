@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fscm._path.events import Bracket
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 
 __all__ = ["Branch", "jumps_between"]
 
@@ -73,7 +73,8 @@ def jumps_between(branches: Sequence[Branch], inward: bool) -> list[tuple[Bracke
         if index < 0:
             raise NotConverged(
                 f"no other stable branch of the path has the displacement {level if inward else -level:.6g}, "
-                f"at which a jump-{'in' if inward else 'out'} begins"
+                f"at which a jump-{'in' if inward else 'out'} begins",
+                Failure.BRANCH,
             )
         jumps.append((fold, order[index]))
     return jumps

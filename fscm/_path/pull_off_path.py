@@ -24,7 +24,7 @@ from fscm._surface.discretisation import STEEP
 from fscm._surface.state import State
 from fscm._typing import Array
 from fscm.accuracy import Meshes
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.laws import LennardJones, Mie
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
@@ -157,7 +157,9 @@ def deepest_minimum(points: list[Point], meshes: Meshes) -> Bracket:
     points = completed(points, meshes.path.tolerance, below, ("load",))
     minima = [pair for pair in brackets(points, load_fold, rising=True) if least_loads(*pair) < below]
     if not minima:
-        raise NotConverged(f"no minimum of the load was found on the path of {points[0].state.disc.problem}")
+        raise NotConverged(
+            f"no minimum of the load was found on the path of {points[0].state.disc.problem}", Failure.FOLDS
+        )
     if len(minima) == 1:
         return minima[0]
     located = [(locate(*pair, load_fold), pair) for pair in minima]

@@ -15,7 +15,7 @@ from fscm._path.arc_length import ArcLength, Point
 from fscm._path.edge_width import log_edge_width
 from fscm._surface.state import State
 from fscm._typing import Array
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.problem import Problem
 from fscm.punch import PowerPunch, kinks_of
 
@@ -213,5 +213,5 @@ def checked_orientation(a: Point, b: Point, step: float, same: bool | None, larg
         same = bool(np.sum(product[near_edge]) >= 0.0)
     deviation = after - before - 0.5 * step * (rate + (1.0 if same else -1.0) * new_rate)
     if np.max(np.abs(deviation) / clearance) > largest:
-        raise NotConverged("Newton converged to a state on another branch of the path")
+        raise NotConverged("Newton converged to a state on another branch of the path", Failure.ITERATION)
     return same

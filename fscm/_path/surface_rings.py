@@ -23,10 +23,10 @@ import numpy as np
 
 from fscm._surface.response import response_of
 from fscm._surface.state import State
-from fscm.errors import NotConverged
+from fscm.errors import Failure, RingsForm
 from fscm.problem import Problem
 
-__all__ = ["RingLimit", "RingsForm", "check_rings", "ring_limit"]
+__all__ = ["RingLimit", "check_rings", "ring_limit"]
 
 #: Gaps at which the slope of the law is evaluated: distances from the gap of largest tension, in units of its distance
 #: to the singular gap.
@@ -40,10 +40,6 @@ _ROOM = 0.25
 #: Decrease of the gap outwards, in z0, that indicates a ring.  Measured: up to 0.09, the dent of the surface beside the
 #: contact, on paths that were traced to their end; 0.1 to 0.8 on those that were not.
 _FALL = 0.2
-
-
-class RingsForm(NotConverged):
-    """The surface comes into contact in rings; a finer mesh does not help."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +70,8 @@ class RingLimit:
             f"the surface of {problem} comes into contact in rings, whose path has too many folds: waves of the length "
             f"{self.length:.3g} (Q z0)^(1/n) are softer than longer ones, and their stiffness {self.stiffness:.3g} "
             f"dgamma/z0^2 is below the steepest fall of the tension, {self.steepest:.3g}; the largest Tabor number at "
-            f"which no rings form on this solid is mu = {self.mu:.4g}"
+            f"which no rings form on this solid is mu = {self.mu:.4g}",
+            Failure.RINGS,
         )
 
 

@@ -11,11 +11,11 @@ from fscm._path.completeness import completed
 from fscm._path.continuation import equilibrium_path
 from fscm._path.ends import PathEnd, displacement_of_compression
 from fscm._path.punch_rules import Tracking, rules_of
-from fscm._path.surface_rings import RingsForm, ring_limit
+from fscm._path.surface_rings import ring_limit
 from fscm._surface.adaptivity import end_radius
 from fscm._surface.state import State
 from fscm.accuracy import Mesh, Meshes
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged, RingsForm
 from fscm.problem import Problem
 
 __all__ = ["MAX_POINTS", "bracketing_path", "path_by_any_mesh", "path_end", "path_until"]
@@ -67,7 +67,8 @@ def path_until(
     reached = points[-1].state
     raise NotConverged(
         f"the path of {problem} has not reached {end} in {most} steps: the last is at "
-        f"delta = {reached.displacement:.6g}, P = {reached.load:.6g}"
+        f"delta = {reached.displacement:.6g}, P = {reached.load:.6g}",
+        Failure.STEP,
     )
 
 
@@ -140,6 +141,7 @@ def path_end(problem: Problem, end_height: float) -> PathEnd:
     if displacement == math.inf:
         raise NotConverged(
             f"of the path of {problem} it cannot be told where its last tension is: "
-            "up to the largest displacement that is examined, the attraction can still exceed the compression"
+            "up to the largest displacement that is examined, the attraction can still exceed the compression",
+            Failure.END,
         )
     return PathEnd(displacement)

@@ -19,7 +19,7 @@ from fscm._surface.mesh import PanelMesh
 from fscm._surface.newton import STEP_TOLERANCE, newton
 from fscm._surface.state import Control, State
 from fscm._typing import Array
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.problem import Problem
 from fscm.punch import joints_of, kinks_of
 
@@ -415,10 +415,13 @@ def fit(
         ends = np.sort(np.concatenate([np.delete(mesh.offsets, drop), middles]))
         if np.any(np.diff(ends) <= 0.0):
             raise NotConverged(
-                "the contact edge is narrower than the rounding of its radius: no panel resolves the pressure there"
+                "the contact edge is narrower than the rounding of its radius: no panel resolves the pressure there",
+                Failure.MESH,
             )
         mesh = at_kinks(state.disc.problem, replace(mesh, offsets=ends), state.scale, state.scale)
         mesh = resolving(state, mesh, tolerance, partial(_gap_on, state))
         state = newton(on_mesh(state, mesh), control, step_tolerance)
         iterations += state.iterations
-    raise NotConverged(f"the mesh was refined {_MAX_ROUNDS} times without resolving the pressure to {tolerance:.0e}")
+    raise NotConverged(
+        f"the mesh was refined {_MAX_ROUNDS} times without resolving the pressure to {tolerance:.0e}", Failure.MESH
+    )

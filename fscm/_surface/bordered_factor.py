@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 
 from fscm._typing import Array
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 
 __all__ = ["BorderedFactor"]
 
@@ -35,7 +35,7 @@ class BorderedFactor:
         # the condition estimate of the wrapper warn.
         self._lu, self._pivots, info = scipy.linalg.lapack.dgetrf(matrix, overwrite_a=1)
         if info != 0:
-            raise NotConverged("Newton met a singular tangent; use another control")
+            raise NotConverged("Newton met a singular tangent", Failure.ITERATION)
 
     def _back(self, right: Array) -> Array:
         solution: Array = scipy.linalg.lapack.dgetrs(self._lu, self._pivots, right, overwrite_b=1)[0]
@@ -60,6 +60,6 @@ class BorderedFactor:
         solution = self._back(top)
         along = float(row @ self.tangent)
         if along == 0.0:
-            raise NotConverged("Newton met a singular tangent; use another control")
+            raise NotConverged("Newton met a singular tangent", Failure.ITERATION)
         solution += (float(right[-1]) - float(row @ solution)) / along * self.tangent
         return solution

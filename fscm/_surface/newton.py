@@ -11,7 +11,7 @@ from fscm._surface.bordered_factor import BorderedFactor
 from fscm._surface.linearisation import linearised
 from fscm._surface.state import Control, State
 from fscm._typing import Array
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.laws import SurfaceLaw
 
 __all__ = ["STEP_TOLERANCE", "newton"]
@@ -109,7 +109,7 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
         row = system.row(control)
         rhs = np.concatenate([system.residual, [system.anchor, system.violation(control)]])
         if not np.all(np.isfinite(rhs)):
-            raise NotConverged("Newton met a residual that is not finite; start from a closer state")
+            raise NotConverged("Newton met a residual that is not finite", Failure.ITERATION)
         if iteration == 1 and factor is not None and not system.near(factor):
             factor = None
         step, change = _step(state, factor, rhs, row) if factor is not None else (rhs, math.inf)
@@ -119,7 +119,7 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
             step, change = _step(state, factor, rhs, row)
         damping = _largest_damping(state, step)
         if damping < _SMALLEST_DAMPING:
-            raise NotConverged("Newton is driven into the singular gap of the surface law; take a smaller step")
+            raise NotConverged("Newton is driven into the singular gap of the surface law", Failure.ITERATION)
         residual = float(np.max(np.abs(rhs[:-2]) / (1.0 + np.abs(state.gap))))
         dH = _change_of_gap(state, step)
         state = replace(
@@ -129,7 +129,7 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
         )
         change = float(np.max(np.abs(dH) / (1.0 + np.abs(state.gap))))
         if not math.isfinite(change) or change > _DIVERGED:
-            raise NotConverged("Newton diverged; take a smaller step")
+            raise NotConverged("Newton diverged", Failure.ITERATION)
         if damping == 1.0:
             if change < tolerance and not reused:
                 return state
@@ -143,4 +143,4 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
         full = change if damping == 1.0 and not reused else math.inf
         if damping < 1.0 or change > _CHORD:
             factor, last_change = None, math.inf
-    raise NotConverged(f"Newton did not converge in {most} iterations (last change {change:.1e})")
+    raise NotConverged(f"Newton did not converge in {most} iterations (last change {change:.1e})", Failure.ITERATION)

@@ -30,7 +30,7 @@ import numpy as np
 import scipy
 
 from fscm._threads import one_thread
-from fscm.errors import NoSuchEvent, NotConverged
+from fscm.errors import Failure, NoSuchEvent, NotConverged
 from fscm.gibson.local_equilibrium import Front, LocalEquilibrium, root
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
@@ -180,7 +180,7 @@ class GibsonSolid:
                 return [*minima, stop]
             if rate > 0.0 and self._sum(delta, contact, 0)[0] > 0.0:
                 return minima
-        raise NotConverged(f"no compressive load up to delta = {delta:g} for {self.problem}")
+        raise NotConverged(f"no compressive load up to delta = {delta:g} for {self.problem}", Failure.END)
 
     @one_thread()
     def solution(self, quantity: str) -> Solution:

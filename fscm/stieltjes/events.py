@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fscm._threads import one_thread
 from fscm._typing import Array
-from fscm.errors import NoSuchEvent, NotConverged
+from fscm.errors import Failure, NoSuchEvent, NotConverged
 from fscm.stieltjes.scheme import CentralGapRates, StieltjesScheme, StieltjesState
 
 __all__ = ["find_event"]
@@ -56,7 +56,8 @@ def find_event(scheme: StieltjesScheme, name: str) -> StieltjesState:
     if len(folds) not in _SIMPLE_FOLDS:
         raise NotConverged(
             f"the displacement has {len(folds)} folds, not 0 or 2, on {scheme.segments} segments at "
-            f"mu = {scheme.problem.mu:g}: the edge pins to the segments, or the path ends before contact"
+            f"mu = {scheme.problem.mu:g}: the edge pins to the segments, or the path ends before contact",
+            Failure.SCHEME,
         )
     event = _EVENTS[name]
     along = np.array([event.followed(s) for s in scheme.path])
@@ -96,7 +97,8 @@ def _between(
     low, high = sorted(states)
     if measure(a) * measure(b) > 0.0:
         raise NotConverged(
-            f"between the central gaps {low:g} and {high:g} the path turns more than once: use a smaller gap_step"
+            f"between the central gaps {low:g} and {high:g} the path turns more than once",
+            Failure.SCHEME,
         )
     return at(float(scipy.optimize.brentq(lambda gap: measure(at(gap)), low, high, xtol=_EVENT_TOLERANCE, rtol=1e-15)))
 

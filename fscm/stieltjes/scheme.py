@@ -19,7 +19,7 @@ from fscm._surface.kernel import Psi
 from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm._validation import real_number
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.problem import Problem
 
 __all__ = ["CentralGapRates", "StieltjesScheme", "StieltjesState"]
@@ -214,7 +214,8 @@ class StieltjesScheme:
                 )
         raise NotConverged(
             f"Newton's method failed at the central gap {central_gap:g} after {iteration} iterations on "
-            f"{self.segments} segments at mu = {self.problem.mu:g}: use a smaller gap_step or more segments"
+            f"{self.segments} segments at mu = {self.problem.mu:g}",
+            Failure.SCHEME,
         )
 
     @staticmethod

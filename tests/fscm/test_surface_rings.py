@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fscm import Coating, LennardJones, PowerPunch, Problem, solve
-from fscm._path.surface_rings import RingsForm, ring_limit
-from fscm.errors import NotConverged
+from fscm._path.surface_rings import ring_limit
+from fscm.errors import NotConverged, RingsForm
 
 R, Z0, SUBSTRATE = 1e-6, 3e-10, 1e9
 

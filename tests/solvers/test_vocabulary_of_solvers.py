@@ -14,10 +14,45 @@ NAMES = (
     *("CustomSolid", "Ball", "PowerPunch", "RoundedCone", "PowerSum", "MeasuredPunch", "CustomPunch"),
     *("LennardJones", "Mie", "TabulatedLaw"),
 )
-#: Arguments that one of them has besides the shared ones, which have one order.
-MORE = {
-    "TabulatedLaw": ("smoothing",),
-    "CustomSolid": ("surface_exponent", "depth_exponent"),
+_GAPS = np.geomspace(0.75, 20.0, 60)
+#: Every keyword of each class, with a value that both take.
+KEYWORDS = {
+    "PowerLaw": {"E0": 1.0, "c0": 2.0, "k": 0.4, "nu": 0.3, "surface_tension": 0.0},
+    "Homogeneous": {"E": 1.0, "nu": 0.3, "surface_tension": 0.1},
+    "OffsetPowerLaw": {"E0": 1.0, "c0": 2.0, "k": 0.4, "z_s": 0.5, "nu": 0.3, "surface_tension": 0.0},
+    "Exponential": {"E_surface": 1.0, "E_depth": 2.0, "length": 3.0, "nu": 0.3, "surface_tension": 0.0},
+    "Coating": {
+        **{"E_coating": 1.0, "E_substrate": 2.0, "thickness": 3.0, "transition": 0.5},
+        **{"nu_coating": 0.3, "nu_substrate": 0.2, "surface_tension": 0.0},
+    },
+    "Layers": {"E": [1.0, 2.0], "nu": [0.3, 0.2], "thickness": [1.0], "surface_tension": 0.0},
+    "TabulatedModulus": {"depths": [0.0, 1.0], "moduli": [1.0, 2.0], "nu": 0.3, "surface_tension": 0.0},
+    "CustomSolid": {
+        **{"E": lambda z: 1.0 + 0.0 * z, "nu": 0.3, "length": 1.0, "interfaces": (2.0,)},
+        **{"surface_exponent": 0.0, "depth_exponent": 0.0, "surface_tension": 0.0},
+    },
+    "Ball": {"R": 2.0},
+    "PowerPunch": {"n": 2.0, "Q": 3.0},
+    "RoundedCone": {"rounding": 1.0, "cone_slope": 0.5},
+    "PowerSum": {"coefficients": [0.5, 0.1], "exponents": [2.0, 4.0]},
+    "MeasuredPunch": {"radii": [0.0, 1.0, 2.0], "heights": [0.0, 0.3, 1.6], "growth": 2.0},
+    "CustomPunch": {
+        **{"function": lambda r: 0.5 * r**2, "growth": 2.0},
+        **{"derivative": lambda r: 1.0 * r, "kinks": ()},
+    },
+    "LennardJones": {"work_of_adhesion": 0.5, "z0": 2.0},
+    "Mie": {"work_of_adhesion": 0.5, "z0": 2.0, "m": 9.0, "n": 3.0},
+    "TabulatedLaw": {
+        **{"gaps": _GAPS, "tractions": _GAPS**-9 - _GAPS**-3, "z0": 1.0, "tail_exponent": 3.0},
+        **{"work": 0.5, "smoothing": 0.0},
+    },
+}
+
+#: Keywords that a dimensionless problem need not state.
+SCALES = {
+    "PowerPunch": ("Q",),
+    "LennardJones": ("work_of_adhesion", "z0"),
+    "Mie": ("work_of_adhesion", "z0", "m", "n"),
 }
 
 
@@ -30,8 +65,29 @@ def test_the_names_of_a_package_are_listed_once():
 def test_a_class_has_the_same_arguments_in_both():
     for name in NAMES:
         lists = [tuple(inspect.signature(getattr(package, name)).parameters) for package in (fscm, fem_reference)]
-        shorter, longer = sorted(lists, key=len)
-        assert tuple(argument for argument in longer if argument not in MORE.get(name, ())) == shorter, name
+        assert lists == [tuple(KEYWORDS[name])] * 2, name
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_class_takes_the_same_keywords_in_both(name):
+    """With the same defaults; the scales of a dimensionless problem, which `fscm` alone solves, have one there."""
+    defaults = []
+    for package in (fscm, fem_reference):
+        getattr(package, name)(**KEYWORDS[name])
+        parameters = inspect.signature(getattr(package, name)).parameters
+        defaults.append(
+            [parameters[keyword].default for keyword in KEYWORDS[name] if keyword not in SCALES.get(name, ())]
+        )
+    assert defaults[0] == defaults[1]
+
+
+@pytest.mark.parametrize("package", [fscm, fem_reference])
+def test_a_solid_of_the_other_reference_is_refused_by_a_problem_or_solved(package):
+    """A solid of one's own is written for one of them."""
+    other = fem_reference if package is fscm else fscm
+    solid = other.Exponential(1.0, 2.0, 1.0, 0.3)
+    with pytest.raises(ValueError, match="solid"):
+        package.Problem(solid, package.PowerPunch(2.0, 10.0), package.LennardJones(1.0, 1.0))
 
 
 @pytest.mark.parametrize("package", [fscm, fem_reference])

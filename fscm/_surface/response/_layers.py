@@ -8,7 +8,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from fscm._typing import Array
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.solids import GradedHalfSpace
 
 __all__ = ["resolved_depths"]
@@ -52,7 +52,8 @@ def resolved_depths(solid: GradedHalfSpace, deepest: float) -> Array:
         if np.any(b - a < _SHORTEST * b):
             raise NotConverged(
                 f"the modulus or Poisson's ratio jumps near the depth {b[np.argmin(b - a)]:.6g} (in the unit of the "
-                "solid), and is not resolved there: a step is an interface of sharp layers (Layers, the kind layers)"
+                "solid), and is not resolved there",
+                Failure.SOLID,
             )
         middle = 0.5 * (a + b)
         ends = np.union1d(ends, middle)
