@@ -15,7 +15,7 @@ from fscm._path import events
 from fscm._path.arc_length import Point
 from fscm._path.completeness import completed
 from fscm._path.events import Bracket, Condition
-from fscm._path.jumps import Branch, jumps_between
+from fscm._path.jumps import Branch, jumps_between, with_accurate_ends
 from fscm._path.pull_off_path import deepest_minimum, pull_off_path
 from fscm._path.punch_rules import rules_of
 from fscm._path.whole_path import bracketing_path
@@ -32,8 +32,6 @@ from fscm.stability import stable_sections
 
 __all__ = ["Analysis"]
 
-#: Ends of branches that differ by less than this, relative to 1 + |delta|, are compared on the value mesh.
-_NEAR = 1e-2
 #: Mesh of a second path where the usual one, which resolves 3e-3 of a load of at least 1, leads to no event.  Measured:
 #: a tall asperity with a force of 2.9e-3, which is the same to 3e-13 down to a tolerance of 1e-7.
 _FINER_PATH = Mesh(8, 1e-4)
@@ -145,26 +143,7 @@ class Analysis:
             raise NotConverged(
                 f"no part of the path of {self.problem} in contact was found to be stable", Failure.BRANCH
             )
-        return self._with_accurate_ends(branches)
-
-    def _with_accurate_ends(self, branches: list[Branch]) -> list[Branch]:
-        """The branches, with the displacements of the value mesh at ends that are close to each other."""
-        ends = [
-            displacement
-            for branch in branches
-            for displacement in (branch.least, branch.largest)
-            if math.isfinite(displacement)
-        ]
-
-        def at(bracket: Bracket | None, displacement: float) -> float:
-            if bracket is None or sum(abs(displacement - end) < _NEAR * (1.0 + abs(displacement)) for end in ends) == 1:
-                return displacement
-            return self._pair(bracket, events.displacement_fold).value.displacement
-
-        return [
-            replace(branch, least=at(branch.low, branch.least), largest=at(branch.high, branch.largest))
-            for branch in branches
-        ]
+        return with_accurate_ends(branches, lambda fold: self._pair(fold, events.displacement_fold).value.displacement)
 
     def _least_load(self) -> Bracket:
         points = None if "_traced" in self.__dict__ else pull_off_path(self.problem, self.meshes)
@@ -211,8 +190,8 @@ class Analysis:
 
     def _pair(self, bracket: Bracket, condition: Condition) -> EventPair:
         end = self.meshes.end_height
-        check = partial(events.sharpened, bracket, condition, *self.meshes.check, end)
-        value = events.sharpened(bracket, condition, *self.meshes.value, end)
+        check = partial(events.event_between, bracket, condition, *self.meshes.check, end)
+        value = events.event_between(bracket, condition, *self.meshes.value, end)
         check_reach(self.problem.punch, edge_radius(value))
         return EventPair(value, check)
 
@@ -313,8 +292,8 @@ class Analysis:
                 Failure.BRANCH,
             )
         coarse = events.locate(*rising[-1 if event == "jump_in" else 0], condition)
-        value = events.sharpen(coarse, condition, *self.meshes.value)
-        return EventPair(value, lambda: events.sharpen(coarse, at(fold.check.displacement), *self.meshes.check))
+        value = events.root_near(coarse, condition, *self.meshes.value)
+        return EventPair(value, lambda: events.root_near(coarse, at(fold.check.displacement), *self.meshes.check))
 
     @one_thread()
     def solution(self, quantity: str) -> Solution:

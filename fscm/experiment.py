@@ -96,8 +96,8 @@ def _recorded(
             return np.hstack([*segments, curve[:, i:]]), jumps, uncertainty
         top = i + int(falls[0])
         # The fold at the end of a stable section is not marked as stable.
-        held = stable[top:-1] | stable[top + 1 :]
-        after = np.flatnonzero((d[top:-1] <= d[top]) & (d[top + 1 :] > d[top]) & held)
+        is_stable = stable[top:-1] | stable[top + 1 :]
+        after = np.flatnonzero((d[top:-1] <= d[top]) & (d[top + 1 :] > d[top]) & is_stable)
         if not after.size:
             end = d[-1] if argument == "max_load" else -d[-1]
             level = d[top] if argument == "max_load" else -d[top]

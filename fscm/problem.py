@@ -12,19 +12,17 @@ from dataclasses import dataclass, field, replace
 from numbers import Number
 from typing import Any, overload
 
+from fscm._problem_checks import check_bodies, check_exponents, check_parts
 from fscm._response_factor import response_factor_per_rest
 from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, units_of
 from fscm._validation import real_number
-from fscm.bodies import Bodies, ScaledSolid, power_law_of, scaled, tension_length, tension_of
+from fscm.bodies import Bodies, ScaledSolid, power_law_of, scaled
 from fscm.interaction import Body, Interaction, interaction_of
 from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law
 from fscm.punch import PowerPunch, PunchShape, ScaledPunch, scaled_punch, unit_of_radii
 from fscm.solids import GradedHalfSpace, PowerLaw, Solid
 
 __all__ = ["Problem"]
-
-#: m * growth has to exceed this for the load integral of p ~ r^(-m growth) times r dr to converge.
-_LOAD_INTEGRAL = 2.0
 
 #: Steeper punches overflow within a few contact radii: 10^300 is near the largest double.
 _LARGEST_N = 300.0
@@ -33,9 +31,6 @@ _LARGEST_N = 300.0
 #: relative width of at most 1 / M, is as narrow as the rounding of a radius.
 _LEAST_M, _LARGEST_M = 1e-30, 1e15
 
-#: Shortest length at which surface tension acts, in (Q z0)^(1/n), and the inverse of the longest: shorter waves than
-#: 1e-20 carry none of the pressure, and at 1e20 the surface is a rigid plane to all digits.
-_SHORTEST = 1e-20
 
 #: Arguments of the two kinds of problems, in the order of their positions.
 _PHYSICAL = ("solid", "punch", "law", "punch_solid", "interaction")
@@ -182,8 +177,8 @@ class Problem:
             )
         punch = PowerPunch(n) if punch is None else punch
         law = LennardJones() if law is None else law
-        _check_parts(punch, law)
-        _check_exponents(n, k, punch, law)
+        check_parts(punch, law)
+        check_exponents(n, k, punch, law)
         # By logarithms: the power itself may overflow.
         log_M = math.log(2.0) + (2.0 * n + k - 1.0) / n * math.log(mu)
         if not math.log(_LEAST_M) <= log_M <= math.log(_LARGEST_M):
@@ -192,7 +187,7 @@ class Problem:
                 f"[{_LEAST_M:g}, {_LARGEST_M:g}]: the solid is rigid, or its cohesive edge a point, to all digits"
             )
         if graded is not None:
-            _check_bodies(graded, k)
+            check_bodies(graded, k)
         if isinstance(punch, PowerPunch) and punch != PowerPunch(n):
             raise ValueError(
                 f"punch = {punch!r} does not fit n = {n:g}: a dimensionless power-law punch is r^n / n, with "
@@ -227,7 +222,7 @@ class Problem:
         self, solid: Any, punch: Any = None, law: Any = None, punch_solid: Any = None, interaction: str = "derjaguin"
     ) -> None:
         """Set a physical problem, and its dimensionless one, which is checked."""
-        _check_parts(punch, law)
+        check_parts(punch, law)
         w, z0 = law.work_of_adhesion, law.z0
         n, Q = unit_of_radii(punch, z0)
         units = units_of(n, Q, w, z0)
@@ -244,7 +239,7 @@ class Problem:
             first, *others = (scaled(body, units["radius"]) for body in bodies.solids)
             graded = first if isinstance(first, ScaledSolid) and not others else Bodies((first, *others))
         k = power_law.k
-        _check_exponents(n, k, punch, law)
+        check_exponents(n, k, punch, law)
         mu = number_from_log("Tabor number", log_tabor_number(power_law, n, Q, w, z0))
         shape: PunchShape = ScaledPunch(punch, units["radius"], z0)
         if interaction == "derjaguin":
@@ -375,55 +370,3 @@ class Problem:
         if self._dimensionless is not None:
             raise ValueError(f"{self!r} is in physical units; the equations take problem.dimensionless")
         return 2.0 * self.mu ** ((2.0 * self.n + self.k - 1.0) / self.n)
-
-
-def _check_parts(punch: Any, law: Any) -> None:
-    if not isinstance(punch, PunchShape):
-        raise ValueError(f"punch = {punch!r} is not a punch shape: it needs growth, height(r) and slope(r)")
-    if not isinstance(law, SurfaceLaw):
-        raise ValueError(
-            f"law = {law!r} is not a surface law: it needs traction, slope, curvature and energy "
-            "of the gap and work_of_adhesion, z0, singular_gap, peak_gap and decay"
-        )
-
-
-def _check_bodies(graded: Any, k: float) -> None:
-    """Refuse bodies whose k is not that of the problem, and the Gibson solid among several."""
-    if not isinstance(graded, GradedHalfSpace | Bodies):
-        raise ValueError(f"graded = {graded!r} is no graded solid: it needs modulus(z), poisson(z), length, interfaces")
-    bodies = graded if isinstance(graded, Bodies) else Bodies((graded,))
-    k_surface = bodies.surface.k
-    if k != k_surface:
-        raise ValueError(
-            f"gradient exponent k = {k} is outside [{k_surface:g}, {k_surface:g}]: the modulus at the surface is finite"
-            if k_surface == 0.0
-            else f"gradient exponent k = {k} is outside [{k_surface:g}, {k_surface:g}]: it is that of the bodies"
-        )
-    if k == 1.0:
-        raise ValueError(
-            "gradient exponent k = 1 is outside [0, 1): the response of the Gibson solid is local, and known for this "
-            "solid alone without surface tension"
-        )
-    for body in bodies.solids:
-        length = tension_length(body)
-        if tension_of(body) and not _SHORTEST <= length <= 1.0 / _SHORTEST:
-            raise ValueError(
-                f"the surface tension of {body!r} is as stiff as the solid at the length {length:.3g} (Q z0)^(1/n), "
-                f"outside [{_SHORTEST:g}, {1.0 / _SHORTEST:g}]: a smaller one changes no digit, a larger one leaves a "
-                "rigid plane"
-            )
-
-
-def _check_exponents(n: float, k: float, punch: PunchShape, law: SurfaceLaw) -> None:
-    """Refuse a punch that is too slender for the law, which is stricter for the 9-3 law, or for the Tabor number."""
-    C, m = law.decay
-    if C != 0.0 and not m * punch.growth > _LOAD_INTEGRAL:
-        raise ValueError(
-            f"growth f ~ r^{punch.growth} of the punch is outside ({_LOAD_INTEGRAL:g}/{m:g}, inf): "
-            f"with p ~ H^-{m:g} far away, the load integral of p r dr diverges at infinity"
-        )
-    if 2.0 * n + k <= 1.0:
-        raise ValueError(
-            f"shape index n = {n} is outside ({(1.0 - k) / 2.0:.12g}, inf) for k = {k}: "
-            "the Tabor number of Eq. 29 is a power 1 / (2n + k - 1)"
-        )

@@ -389,15 +389,3 @@ class Coating:
     def poisson(self, z: Array) -> Array:
         """nu(z)."""
         return self._between(z, self.nu_coating, float(self.nu_substrate or 0.0))
-
-
-def contact_modulus(solid: GradedHalfSpace, z: float = 0.0) -> float:
-    """E / (1 - nu^2) at a depth, that of the surface by default.
-
-    Examples
-    --------
-    >>> contact_modulus(Exponential(E_surface=3.0, E_depth=1.0, length=1.0, nu=0.5))
-    4.0
-    """
-    at = np.array([z])
-    return float(solid.modulus(at)[0] / (1.0 - solid.poisson(at)[0] ** 2))

@@ -213,7 +213,7 @@ def _near_extreme(
     missing = condition(coarse, rates_of(coarse))
     if abs(missing) > _NEAR * (1.0 + max(abs(x) for x in ends)):
         return None
-    extreme = events.sharpen(coarse, fold, *meshes.value)
+    extreme = events.root_near(coarse, fold, *meshes.value)
     rates = rates_of(extreme)
     missing = condition(extreme, rates)
     if (missing < 0.0) == (ends[0] < 0.0) and missing != 0.0:
@@ -232,7 +232,7 @@ def _near_extreme(
 def _solved(
     coarse: State, control: str, value: float, condition: events.Condition, meshes: Meshes, units: Mapping[str, float]
 ) -> EquilibriumState:
-    state = events.sharpen(coarse, condition, *meshes.value)
+    state = events.root_near(coarse, condition, *meshes.value)
     check_reach(state.disc.problem.punch, edge_radius(state))
     errors = EventErrors(state)
     parts = {name: errors.prescribed(name, control, value) for name in _FUNCTIONALS}

@@ -55,7 +55,7 @@ LAYERS = {
         ("errors", "_typing", "_threads", "_validation", "_presentation", "_response_factor", "_law_curve"),
         ("laws", "tabulated_law", "punch", "custom_punch", "measured_punch"),
         ("_body_of_revolution", "interaction", "solids", "layers", "tabulated_modulus", "custom_solid"),
-        ("bodies", "_units"),
+        ("bodies", "_units", "_problem_checks"),
         ("accuracy",),
         ("problem",),
         ("_surface",),

@@ -10,8 +10,9 @@ import scipy
 
 from fscm._path.arc_length import ArcLength, Point
 from fscm._path.punch_rules import rules_of
-from fscm._surface.adaptivity import at_kinks, edge_mesh, on_mesh, resolving
+from fscm._surface.adaptivity import on_mesh, resolving
 from fscm._surface.anchors import AtEdge
+from fscm._surface.breaks import at_kinks, edge_mesh
 from fscm._surface.discretisation import Discretisation
 from fscm._surface.mesh import PanelMesh
 from fscm._surface.state import Rates, State

@@ -17,7 +17,7 @@ import numpy as np
 
 from fscm._path.arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of, rates_of
 from fscm._path.continuation import moved
-from fscm._surface.adaptivity import fit, on_mesh
+from fscm._surface.adaptivity import adapted, on_mesh
 from fscm._surface.anchors import AtEdge
 from fscm._surface.mesh import PanelMesh
 from fscm._surface.newton import STEP_TOLERANCE, newton
@@ -42,7 +42,7 @@ _FINE = 1e-8
 #: Newton error relative to the error of the mesh, and the smallest step towards a midpoint, in units of its distance.
 _NEWTON_MARGIN, _SMALLEST = 0.01, 1e-3
 #: Last step of Newton's method where only the least load is sought; the remaining error is about its square.
-_SHARP = 1e-5
+_LAST_STEP = 1e-5
 
 #: Rates whose zeros are the turning points of a path.
 _RATES = ("load", "displacement")
@@ -78,7 +78,7 @@ def completed(
     NotConverged
         When it remains undecided whether turning points are missed.
     """
-    newton_step = STEP_TOLERANCE if below == math.inf else _SHARP
+    newton_step = STEP_TOLERANCE if below == math.inf else _LAST_STEP
     test = _Test(ArcLength.of(points[0].state.disc.problem), tolerance, names, newton_step)
     complete = [points[0]]
     for a, b in pairwise(points):
@@ -186,10 +186,10 @@ def _on_common_mesh(a: Point, b: Point, test: _Test) -> tuple[Point, Point]:
     With kinks there is no such mesh; each point is then resolved until its mesh error is negligible.
     """
     if _kinked(a):
-        return _resolved(a, test), _resolved(b, test)
+        return _on_fine_mesh(a, test), _on_fine_mesh(b, test)
     mesh_a, mesh_b = a.state.disc.mesh, b.state.disc.mesh
     if a.state.disc is b.state.disc:
-        return _sharp(a, test), _sharp(b, test)
+        return _solved_again(a, test), _solved_again(b, test)
     ends = np.union1d(mesh_a.offsets, mesh_b.offsets + (mesh_b.origin - mesh_a.origin))
     mesh = PanelMesh(ends, mesh_a.order, mesh_a.origin)
     guess_a = on_mesh(a.state, mesh)
@@ -198,7 +198,7 @@ def _on_common_mesh(a: Point, b: Point, test: _Test) -> tuple[Point, Point]:
     return _point(solved[0], a, test), _point(solved[1], a, test)
 
 
-def _sharp(point: Point, test: _Test) -> Point:
+def _solved_again(point: Point, test: _Test) -> Point:
     state = newton(point.state, parameter_control(point.state, parameter_of(point.state)), test.newton)
     return _point(state, point, test)
 
@@ -207,8 +207,8 @@ def _kinked(point: Point) -> bool:
     return bool(kinks_of(point.state.disc.problem.punch))
 
 
-def _resolved(point: Point, test: _Test) -> Point:
-    state = fit(point.state, parameter_control(point.state, parameter_of(point.state)), _FINE)
+def _on_fine_mesh(point: Point, test: _Test) -> Point:
+    state = adapted(point.state, parameter_control(point.state, parameter_of(point.state)), _FINE)
     return _point(state, point, test)
 
 
@@ -245,7 +245,7 @@ def _reached_middle(a: Point, b: Point, test: _Test, tolerance: float) -> Point:
         target = middle if abs(step) >= abs(middle - x) * (1.0 - 1e-9) else x + step
         try:
             new = moved(state, rates, target, _NEWTON_MARGIN * tolerance)
-            state = fit(new, parameter_control(new, target), tolerance)
+            state = adapted(new, parameter_control(new, target), tolerance)
         except NotConverged:
             step *= 0.5
             if abs(step) < _SMALLEST * abs(middle - parameter_of(a.state)):
@@ -257,13 +257,13 @@ def _reached_middle(a: Point, b: Point, test: _Test, tolerance: float) -> Point:
     return _point(state, a, test)
 
 
-def _resolved_middle(a: Point, b: Point, test: _Test) -> Point:
+def _middle_on_any_mesh(a: Point, b: Point, test: _Test) -> Point:
     """The state halfway, on the mesh of the ends if that resolves it, else on a finer one."""
     if _kinked(a):
         return _reached_middle(a, b, test, _FINE)
     try:
         state = _middle(a, b, test).state
-        state = fit(state, parameter_control(state, parameter_of(state)), test.tolerance)
+        state = adapted(state, parameter_control(state, parameter_of(state)), test.tolerance)
     except NotConverged:
         return _reached_middle(a, b, test, test.tolerance)
     return _point(state, a, test)
@@ -282,7 +282,7 @@ def _subdivided(a: Point, b: Point, test: _Test, halvings: int) -> list[Point]:
                     Failure.FOLDS,
                 )
         return [a, b]
-    middle = _resolved_middle(a, b, test)
+    middle = _middle_on_any_mesh(a, b, test)
     halves = (a, middle), (middle, b)
     if middle.state.disc is not a.state.disc and not _kinked(a):
         # The mesh of the two ends does not resolve the edge between them: it would pin it, and make false folds.

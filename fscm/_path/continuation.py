@@ -25,7 +25,8 @@ from fscm._path.edge_width import check_edge
 from fscm._path.ends import depth
 from fscm._path.punch_rules import Tracking, rules_of
 from fscm._path.surface_rings import check_rings, ring_limit
-from fscm._surface.adaptivity import end_radius, fit, initial_mesh, resolved
+from fscm._surface.adaptivity import adapted, resolved
+from fscm._surface.breaks import end_radius, initial_mesh
 from fscm._surface.discretisation import Discretisation
 from fscm._surface.newton import STEP_TOLERANCE, newton
 from fscm._surface.response import largest_mu
@@ -75,7 +76,7 @@ def _far_state(problem: Problem, central_gap: float, order: int, tolerance: floa
     disc = Discretisation(problem, initial_mesh(problem, order, end_height))
     control = Control(central_gap, gap=1.0)
     guess = resolved(rigid_state(disc, central_gap), tolerance)
-    return fit(newton(guess, control), control, tolerance)
+    return adapted(newton(guess, control), control, tolerance)
 
 
 def usual_start(problem: Problem) -> float:
@@ -147,7 +148,7 @@ class _Tracer:
         if edge_gap is not None:  # the contact grows slowly at first: its gap identifies the state, not its radius
             control = Control(state.central_gap, gap=1.0)
         state = newton(guess, control, tolerance or STEP_TOLERANCE)
-        state = fit(state, control, self._tolerance, step_tolerance=tolerance)
+        state = adapted(state, control, self._tolerance, step_tolerance=tolerance)
         return joined(self._arc, point, state)
 
     def _in_usual_parameter(self, point: Point) -> Point | None:
@@ -201,8 +202,8 @@ class _Tracer:
         guess = resolved(predicted(point.state, point.rates, self._step), self._tolerance)
         control = self._control(point, guess)
         new = newton(guess, control, self._newton, _MOST_ITERATIONS)
-        fitted = fit(new, control, self._tolerance, True, self._tracking.newton)
-        after = Point(fitted, self._arc.tangent(fitted), point.segment)
+        converged = adapted(new, control, self._tolerance, True, self._tracking.newton)
+        after = Point(converged, self._arc.tangent(converged), point.segment)
         turn = self._arc.turn(point, after)
         if self._step > self._rules.unchecked_step and self._rules.turns_too_far(turn, self._tracking):
             return None, new.iterations

@@ -15,17 +15,8 @@ import scipy
 
 from fscm._path.arc_length import Point, parameter_control, parameter_of, rates_of
 from fscm._path.continuation import moved
-from fscm._surface.adaptivity import (
-    at_joints,
-    fit,
-    graded,
-    indicator,
-    lengthened,
-    newton_tolerance,
-    off_joints,
-    on_mesh,
-    resolved,
-)
+from fscm._surface.adaptivity import adapted, balanced, indicator, lengthened, newton_tolerance, on_mesh, resolved
+from fscm._surface.breaks import at_joints, off_joints
 from fscm._surface.newton import newton
 from fscm._surface.state import Rates, State
 from fscm.errors import Failure, NotConverged
@@ -36,11 +27,11 @@ __all__ = [
     "brackets",
     "crossings",
     "displacement_fold",
+    "event_between",
     "extreme",
     "load_fold",
     "locate",
-    "sharpen",
-    "sharpened",
+    "root_near",
     "slowest",
     "with_minima",
     "zero_load",
@@ -64,7 +55,8 @@ _COARSE_PARAMETER_TOLERANCE = 1e-6
 #: The mesh is refined again when the indicator at the root exceeds the tolerance by this factor, at most _REFITS times.
 #: Measured: once at n = 300, k = 0, where the force was wrong by 4e-8.
 _UNRESOLVED, _REFITS = 10.0, 4
-#: Above this tolerance the indicator underestimates the error of a panel next to a much shorter one: meshes are graded.
+#: Above this tolerance the indicator underestimates the error of a panel next to a much shorter one: meshes are
+#: balanced.
 #: So they are at any tolerance for edges narrower than _NARROW, relative to their radius (n = 2, k = 0.98, mu = 1).
 _SEEN, _NARROW = 1e-6, 1e-9
 #: Tolerance of the root on the coarse mesh that is only a starting point.
@@ -262,13 +254,13 @@ def refined(state: State, order: int, tolerance: float, end_height: float | None
     mesh = replace(state.disc.mesh, order=order)
     narrow = tolerance > _SEEN or float(np.min(mesh.lengths)) < _NARROW
     if narrow:
-        mesh = graded(mesh)
+        mesh = balanced(mesh)
     mesh = at_joints(state.disc.problem, mesh, state.scale)
     guess = resolved(on_mesh(state, mesh), tolerance)
-    return fit(newton(guess, control, newton_tolerance(tolerance)), control, tolerance, coarsen=not narrow)
+    return adapted(newton(guess, control, newton_tolerance(tolerance)), control, tolerance, coarsen=not narrow)
 
 
-def sharpened(
+def event_between(
     bracket: Bracket, condition: Condition, order: int, tolerance: float, end_height: float | None = None
 ) -> State:
     """Root of the condition in a bracket, on a mesh of the given order refined to the tolerance.
@@ -277,13 +269,15 @@ def sharpened(
     """
     try:
         rough = _rough(bracket, condition)
-        root, slope = _sharpen(rough, condition, order, tolerance, end_height, _slope(bracket, rough, condition))
+        root, slope = _root_with_slope(
+            rough, condition, order, tolerance, end_height, _slope(bracket, rough, condition)
+        )
         if _belongs(root, slope, bracket, condition):
             return root
     except NotConverged:
         pass
     # From a better root on the coarse mesh.
-    root, slope = _sharpen(locate(*bracket, condition), condition, order, tolerance, end_height)
+    root, slope = _root_with_slope(locate(*bracket, condition), condition, order, tolerance, end_height)
     if not _belongs(root, slope, bracket, condition):
         raise NotConverged("the secant method left the bracket of an event for another one", Failure.EVENT)
     return root
@@ -322,7 +316,9 @@ def _belongs(state: State, slope: float, bracket: Bracket, condition: Condition)
     return slope * (after - before) * (x_b - x_a) > 0.0
 
 
-def sharpen(state: State, condition: Condition, order: int, tolerance: float, end_height: float | None = None) -> State:
+def root_near(
+    state: State, condition: Condition, order: int, tolerance: float, end_height: float | None = None
+) -> State:
     """Root of the condition near a state, on a mesh of the given order refined to the tolerance.
 
     Raises
@@ -330,10 +326,10 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float, en
     NotConverged
         When the secant method does not settle, or the mesh at the root stays too coarse.
     """
-    return _sharpen(state, condition, order, tolerance, end_height)[0]
+    return _root_with_slope(state, condition, order, tolerance, end_height)[0]
 
 
-def _sharpen(
+def _root_with_slope(
     state: State,
     condition: Condition,
     order: int,
@@ -378,7 +374,7 @@ def _root(state: State, condition: Condition, tolerance: float, slope: float | N
     for _ in range(_SECANT_STEPS):
         new = moved(state, rates, parameter_of(state) + step, newton_tolerance(tolerance))
         if abs(step) > _FAR:
-            new = fit(new, parameter_control(new, parameter_of(new)), tolerance)
+            new = adapted(new, parameter_control(new, parameter_of(new)), tolerance)
         new_rates = rates_of(new)
         new_value = condition(new, new_rates)
         change = new_value - value

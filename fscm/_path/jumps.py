@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 from fscm._path.events import Bracket
 from fscm.errors import Failure, NotConverged
 
-__all__ = ["Branch", "jumps_between"]
+__all__ = ["Branch", "jumps_between", "with_accurate_ends"]
+
+#: Ends of branches that differ by less than this, relative to 1 + |delta|, are compared on a finer mesh.
+_NEAR = 1e-2
 
 
 @dataclass(frozen=True)
@@ -78,3 +81,25 @@ def jumps_between(branches: Sequence[Branch], inward: bool) -> list[tuple[Bracke
             )
         jumps.append((fold, order[index]))
     return jumps
+
+
+def with_accurate_ends(branches: Sequence[Branch], displacement_of: Callable[[Bracket], float]) -> list[Branch]:
+    """The branches, with more accurate displacements at ends that are close to each other.
+
+    Parameters
+    ----------
+    branches : sequence of Branch
+    displacement_of : callable
+        Bracket of a fold -> its displacement on a finer mesh.
+    """
+    ends = [end for branch in branches for end in (branch.least, branch.largest) if math.isfinite(end)]
+
+    def at(bracket: Bracket | None, displacement: float) -> float:
+        if bracket is None or sum(abs(displacement - end) < _NEAR * (1.0 + abs(displacement)) for end in ends) == 1:
+            return displacement
+        return displacement_of(bracket)
+
+    return [
+        replace(branch, least=at(branch.low, branch.least), largest=at(branch.high, branch.largest))
+        for branch in branches
+    ]

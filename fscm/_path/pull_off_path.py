@@ -17,7 +17,7 @@ import numpy as np
 from fscm._path.arc_length import Point, rates_of
 from fscm._path.completeness import completed, least_loads
 from fscm._path.continuation import usual_start
-from fscm._path.events import Bracket, brackets, load_fold, locate, sharpen, with_minima
+from fscm._path.events import Bracket, brackets, load_fold, locate, root_near, with_minima
 from fscm._path.punch_rules import Tracking
 from fscm._path.whole_path import path_until
 from fscm._surface.discretisation import STEEP
@@ -167,5 +167,5 @@ def deepest_minimum(points: list[Point], meshes: Meshes) -> Bracket:
     close = [(state, pair) for state, pair in located if state.load - least < _CLOSE * (1.0 + abs(least))]
     if len(close) > 1:  # the coarse path does not decide which of them is the deepest
         value = *meshes.value, meshes.end_height
-        close = [(sharpen(state, load_fold, *value), pair) for state, pair in close]
+        close = [(root_near(state, load_fold, *value), pair) for state, pair in close]
     return min(close, key=lambda candidate: candidate[0].load)[1]

@@ -12,7 +12,7 @@ from fscm._path.continuation import equilibrium_path
 from fscm._path.ends import PathEnd, displacement_of_compression
 from fscm._path.punch_rules import Tracking, rules_of
 from fscm._path.surface_rings import ring_limit
-from fscm._surface.adaptivity import end_radius
+from fscm._surface.breaks import end_radius
 from fscm._surface.state import State
 from fscm.accuracy import Mesh, Meshes
 from fscm.errors import Failure, NotConverged, RingsForm

@@ -14,26 +14,20 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from fscm._surface.discretisation import STEEP, Discretisation
+from fscm._surface.breaks import are_halves, at_kinks, end_radius, extended, joints_in, off_kinks
+from fscm._surface.discretisation import Discretisation
 from fscm._surface.mesh import PanelMesh
 from fscm._surface.newton import STEP_TOLERANCE, newton
 from fscm._surface.state import Control, State
 from fscm._typing import Array
 from fscm.errors import Failure, NotConverged
-from fscm.problem import Problem
-from fscm.punch import joints_of, kinks_of
+from fscm.punch import kinks_of
 
 __all__ = [
-    "at_joints",
-    "at_kinks",
-    "edge_mesh",
-    "end_radius",
-    "fit",
-    "graded",
+    "adapted",
+    "balanced",
     "indicator",
-    "initial_mesh",
     "newton_tolerance",
-    "off_joints",
     "on_mesh",
     "resolved",
     "resolving",
@@ -47,16 +41,12 @@ _LARGEST_RATIO = 8.0
 #: about ten coefficients, and this is a fifth of one; it is large where no node of a panel samples a feature on it.
 #: (Gaps of 25 to 6e4 z0 were once on one panel, n = 2, k = 0, mu = 1e5: the pull-off force was wrong by 2e-3.)
 _JUMP = 0.02
-#: Ends of the first panels of all meshes, in units of the radius at s = 1; farther out they grow by factors of four.
-_FIRST_ENDS = np.array([0.0, 0.5, 1.0, 2.0])
-#: On a steep punch the gap rises by at most this factor over a panel of the first mesh.
-_RISE = 64.0
 #: Above this number of panels, as at a very narrow edge, merging saves more than reusing the stored response does.
 _MANY = 40
-#: On a graded mesh neighbours differ by at most this factor in length: the pressure on a longer panel is no polynomial
+#: On a balanced mesh neighbours differ by at most this factor in length: the pressure on a longer one is no polynomial
 #: next to a narrow edge, which its last coefficients do not show.  Without it, bounds at accuracy 1e-6 were up to 0.3
 #: of the pull-off force (n = 2.1, k = 0.85, mu = 19).
-_GRADING = 8.0
+_BALANCE = 8.0
 #: A mesh is rebuilt to merge panels only if at least this share of its breaks is superfluous.
 _WORTH_MERGING = 0.2
 #: Newton error relative to the error of the mesh.
@@ -64,133 +54,11 @@ _NEWTON_MARGIN = 0.01
 _MAX_ROUNDS = 60
 #: Rounds of splitting for known gaps between two solves; for the gaps of a guess.
 _KNOWN_ROUNDS, _GUESS_ROUNDS = 6, 2
-#: A break belongs to a kink that is closer than this share of its panels; a panel is wider than _SLIVER.
-_NEAR_KINK, _SLIVER = 0.3, 1e-7
 #: Largest distance of a kink to its break, in units of the root of the tolerance: its effect is of second order.
 _OFF_KINK = 0.1
-#: Largest distance of a joint to the nearest end of its panel, relative to its length: where the third derivative jumps
-#: the error falls with the fourth power of it, and a node of the panel is farther than this from both ends.
-_OFF_JOINT = 5e-3
-#: Joints are rounded to this number, 2^40, of steps: ends with more digits are not stored (`_surface.response_store`).
-_STORED = 2.0**40
 #: r^n at the tip of a punch is not smooth: coefficients of the innermost panel fall algebraically, so that the
 #: omitted ones together exceed the last.  Measured on n = 1.5, k = 0.6, mu = 3: by up to 10.
 _ALGEBRAIC = 30.0
-
-
-def end_radius(problem: Problem, end_height: float) -> float:
-    """A radius with f >= `end_height`, found by doubling."""
-    r = 1.0
-    while problem.punch.height(np.array([r]))[0] < end_height:
-        r *= 2.0
-        if r > 1e200:
-            raise ValueError(f"the punch does not grow: f is still below {end_height} at r = {r}")
-    while problem.punch.height(np.array([r / 2.0]))[0] > end_height:
-        r /= 2.0
-    return r
-
-
-def _extended(offsets: Array, origin: float, end: float) -> Array:
-    """Panel ends relative to the origin, truncated or extended by factors of four to reach the radius `end`."""
-    inside = offsets[offsets < end - origin]
-    outer = [origin + inside[-1] if len(inside) else 0.0]
-    while outer[-1] < end:
-        outer.append(4.0 * outer[-1])
-    return np.concatenate([inside, np.array(outer[1:]) - origin])
-
-
-def initial_mesh(problem: Problem, order: int, end_height: float) -> PanelMesh:
-    """A coarse mesh for the separated punch, scale 1, with a break at s = 1 and an end where f >= `end_height`."""
-    breaks = _extended(_FIRST_ENDS, 0.0, end_radius(problem, end_height))
-    while problem.punch.growth > STEEP:
-        f = problem.punch.height(breaks)
-        # Farther out than the end height the pressure need not be resolved.
-        bad = np.flatnonzero((f[1:] > _RISE * np.maximum(f[:-1], 1.0)) & (f[:-1] < end_height))
-        if not bad.size:
-            break
-        breaks = np.sort(np.concatenate([breaks, 0.5 * (breaks[bad] + breaks[bad + 1])]))
-    return at_kinks(problem, PanelMesh(breaks, order), 1.0, 1.0)
-
-
-def at_kinks(problem: Problem, mesh: PanelMesh, old_scale: float, new_scale: float) -> PanelMesh:
-    """Mesh with panel ends at the kinks of the punch: moved from their radii at the old scale, or inserted."""
-    kinks = np.array(kinks_of(problem.punch))
-    return _with_ends(mesh, kinks / old_scale, kinks / new_scale)
-
-
-def at_joints(problem: Problem, mesh: PanelMesh, scale: float) -> PanelMesh:
-    """Mesh with panel ends at the joints of the punch: moved from near them, or inserted.
-
-    A mesh whose scale changes leaves them behind: an end near a joint serves nearly as well as one on it.
-    """
-    joints = _joints(problem, scale)
-    if not joints.size:
-        return mesh
-    ends = np.append(np.array(kinks_of(problem.punch)) / scale, joints)
-    return _with_ends(mesh, ends, ends)
-
-
-def _joints(problem: Problem, scale: float) -> Array:
-    """Joints of the punch in the scaled radius, rounded so that the response of panels between them can be stored."""
-    mantissa, exponent = np.frexp(np.array(joints_of(problem.punch)) / scale)
-    return np.asarray(np.ldexp(np.rint(mantissa * _STORED) / _STORED, exponent))
-
-
-def off_joints(state: State) -> bool:
-    """Whether a joint inside the mesh has left its panel end."""
-    mesh = state.disc.mesh
-    joints = _joints(state.disc.problem, state.scale) - mesh.origin
-    joints = joints[joints < mesh.offsets[-1]]
-    panel = mesh.locate(joints)
-    from_end = np.minimum(joints - mesh.offsets[panel], mesh.offsets[panel + 1] - joints)
-    return bool(np.any(from_end > _OFF_JOINT * mesh.lengths[panel]))
-
-
-def _with_ends(mesh: PanelMesh, old: Array, new: Array) -> PanelMesh:
-    """Mesh with panel ends at new radii: moved from near the old ones, or inserted."""
-    if not new.size:
-        return mesh
-    ends, edge = mesh.offsets, 1.0 - mesh.origin
-    for s in old - mesh.origin:
-        i = int(np.argmin(np.abs(ends - s)))
-        if not 0 < i < len(ends) - 1 or ends[i] == edge:
-            continue
-        if abs(ends[i] - s) < _NEAR_KINK * min(ends[i] - ends[i - 1], ends[i + 1] - ends[i]):
-            ends = np.delete(ends, i)
-    new = new - mesh.origin
-    fixed = np.array([ends[0], edge, ends[-1]])
-    new = new[(new < ends[-1]) & (np.min(np.abs(new[:, None] - fixed), axis=1) > _SLIVER)]
-    # A remaining break next to a kink would make an unnecessarily narrow panel.
-    distance = np.min(np.abs(ends[:, None] - new), axis=1) if new.size else np.full(len(ends), np.inf)
-    keep = (distance > _SLIVER) | np.isin(ends, fixed)
-    return replace(mesh, offsets=np.union1d(ends[keep], new))
-
-
-def _off_kinks(state: State) -> float:
-    """Largest distance from a kink inside the mesh to the closest break."""
-    kinks = np.array(kinks_of(state.disc.problem.punch)) / state.scale
-    breaks = state.disc.mesh.breaks
-    kinks = kinks[kinks < breaks[-1]]
-    return float(np.max(np.min(np.abs(kinks[:, None] - breaks), axis=1))) if kinks.size else 0.0
-
-
-def _halves(mesh: PanelMesh) -> NDArray[np.bool_]:
-    """Whether neighbouring panels are the halves of an earlier one, whose response is stored."""
-    initial_ends = _extended(_FIRST_ENDS, 0.0, float(mesh.breaks[-1])) - mesh.origin
-    starts, lengths = mesh.offsets[:-2], mesh.lengths
-    ancestor = initial_ends[np.searchsorted(initial_ends, starts, side="right") - 1]
-    number = (starts - ancestor) / lengths[:-1]
-    siblings: NDArray[np.bool_] = (lengths[:-1] == lengths[1:]) & (number % 2.0 == 0.0)
-    return siblings
-
-
-def edge_mesh(problem: Problem, order: int, scale: float, end_height: float) -> PanelMesh:
-    """A coarse mesh with its origin at the edge, to be split there.
-
-    Its ends are the same for all problems, so that their response is stored (see `_surface.response_store`).
-    """
-    ends = _extended(np.array([-1.0, -0.5, 0.0, 1.0]), 1.0, max(end_radius(problem, end_height) / scale, 4.0))
-    return at_kinks(problem, PanelMesh(ends, order, 1.0), scale, scale)
 
 
 class _Field:
@@ -280,12 +148,12 @@ def resolving(
     return mesh
 
 
-def graded(mesh: PanelMesh) -> PanelMesh:
+def balanced(mesh: PanelMesh) -> PanelMesh:
     """The mesh with panels halved until neighbours have similar lengths."""
     while True:
         h = mesh.lengths
         shortest = np.minimum(np.append(h[1:], np.inf), np.append(np.inf, h[:-1]))
-        middles = mesh.middles[h > _GRADING * shortest]
+        middles = mesh.middles[h > _BALANCE * shortest]
         if not middles.size:
             return mesh
         mesh = replace(mesh, offsets=np.sort(np.concatenate([mesh.offsets, middles])))
@@ -310,11 +178,11 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
     jump = np.maximum(np.abs(new_start - at_start[:-1]), np.abs(new_end - at_end[1:]))
     effect = _unseen(modes, jump) * _weights(_Field(state), starts, lengths)
     keeps_edge = mesh.offsets[1:-1] != 1.0 - mesh.origin
-    keeps_joint = ~np.isin(mesh.offsets[1:-1], _joints(state.disc.problem, state.scale) - mesh.origin)
+    keeps_joint = ~np.isin(mesh.offsets[1:-1], joints_in(state.disc.problem, state.scale) - mesh.origin)
     not_too_long = lengths <= (_LARGEST_RATIO - 1.0) * mesh.starts[:-1]
     removable = (effect < _MERGE_MARGIN * tolerance) & keeps_edge & keeps_joint & not_too_long
     if len(mesh.lengths) < _MANY and not kinks_of(state.disc.problem.punch):
-        removable &= _halves(mesh)
+        removable &= are_halves(mesh)
     indices: list[int] = []
     for i in np.flatnonzero(removable) + 1:
         if not indices or i > indices[-1] + 1:
@@ -356,7 +224,7 @@ def lengthened(state: State, end_height: float) -> State:
     end = end_radius(problem, end_height) / state.scale
     if state.disc.steep or mesh.breaks[-1] >= end:
         return state
-    longer = replace(mesh, offsets=_extended(mesh.offsets, mesh.origin, end))
+    longer = replace(mesh, offsets=extended(mesh.offsets, mesh.origin, end))
     added = longer.nodes[mesh.size :]
     w = state.gap[-1] + state.displacement - state.disc.height(state.radius[-1:])[0]
     behind = w * (mesh.nodes[-1] / added) ** (1.0 + problem.k)
@@ -370,12 +238,12 @@ def newton_tolerance(tolerance: float) -> float:
 
 
 def resolved(guess: State, tolerance: float) -> State:
-    """The guess on a mesh that resolves its pressure, split as by `fit`; nothing is solved."""
+    """The guess on a mesh that resolves its pressure, split as by `adapted`; nothing is solved."""
     mesh = resolving(guess, guess.disc.mesh, tolerance, partial(_gap_on, guess), _GUESS_ROUNDS)
     return guess if mesh is guess.disc.mesh else on_mesh(guess, mesh)
 
 
-def fit(
+def adapted(
     state: State,
     control: Control,
     tolerance: float,
@@ -409,7 +277,7 @@ def fit(
         mesh, middles = state.disc.mesh, _unresolved(state, tolerance)
         drop = _superfluous(state, tolerance) if coarsen and attempt == 0 else np.empty(0, np.intp)
         # A new mesh costs a solve: worth it for missing panels, or for many superfluous ones.
-        moved = _off_kinks(state) > _OFF_KINK * tolerance**0.5
+        moved = off_kinks(state) > _OFF_KINK * tolerance**0.5
         if not (middles.size or moved) and drop.size < _WORTH_MERGING * len(mesh.offsets):
             return replace(state, iterations=iterations)
         ends = np.sort(np.concatenate([np.delete(mesh.offsets, drop), middles]))

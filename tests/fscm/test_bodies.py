@@ -21,7 +21,7 @@ from fscm import (
     TabulatedModulus,
     solve,
 )
-from fscm._surface.adaptivity import initial_mesh
+from fscm._surface.breaks import initial_mesh
 from fscm._surface.discretisation import Discretisation
 from fscm._surface.mesh import PanelMesh
 from fscm._surface.response.body import compliance_of

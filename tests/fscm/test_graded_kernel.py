@@ -21,7 +21,7 @@ from fscm._bound.parts import _KERNEL_RATE
 from fscm._surface.response import GradedKernel
 from fscm._surface.response.compliance import compliance
 from fscm._surface.response.patches import ImageTable
-from fscm.solids import contact_modulus
+from fscm.bodies import surface_of
 from tests.fscm import graded_digits
 from tests.marks import heavy
 from tests.solvers.layered_jkr import Stack
@@ -64,7 +64,9 @@ def _signed_error(name, xi):
     images = kernel(name).images
     depths, strengths = images.depths.astype(np.clongdouble), images.strengths.astype(np.clongdouble)
     approximation = 1.0 - np.exp(-xi.astype(np.longdouble)[:, None] * depths) @ strengths
-    return (approximation.real - 0.5 * contact_modulus(SOLIDS[name]) * compliance(SOLIDS[name], xi)).astype(float)
+    return (approximation.real - 0.5 * surface_of(SOLIDS[name]).contact_modulus * compliance(SOLIDS[name], xi)).astype(
+        float
+    )
 
 
 #: Rounding of the compliance: 4.4e-15 beyond the bound was measured with SciPy 1.13, on the exponential solid.
@@ -152,7 +154,7 @@ def test_the_stored_compliances_are_those_of_the_series(name, count):
     exact = np.array([float(graded_digits.relative_compliance(solid, x)) for x in xi])
     # What the pieces of the table leave; one step of collocation leaves 6e-13 on the smooth coating.
     assert np.allclose(graded_digits.excess(modes, xi), exact - 1.0, rtol=0.0, atol=1e-12)
-    assert np.allclose(0.5 * contact_modulus(solid) * compliance(solid, xi), exact, rtol=2e-12, atol=0.0)
+    assert np.allclose(0.5 * surface_of(solid).contact_modulus * compliance(solid, xi), exact, rtol=2e-12, atol=0.0)
 
 
 @pytest.mark.heavy
@@ -174,7 +176,7 @@ def test_sharp_layers_are_those_of_a_code_of_their_own():
     xi = np.array([0.05, 0.5, 2.0, 8.0])
     layers = tuple((E, 0.3, thickness) for E, thickness in zip(moduli[:-1], np.diff(ends), strict=True))
     stack = Stack(layers, (moduli[-1], 0.3))
-    relative = 0.5 * contact_modulus(solid) * compliance(solid, xi)
+    relative = 0.5 * surface_of(solid).contact_modulus * compliance(solid, xi)
     assert relative == pytest.approx(stack.relative_compliance(xi), rel=1e-11)
 
 

@@ -20,7 +20,7 @@ from itertools import pairwise
 import numpy as np
 
 from fscm._surface.mesh import gauss_rule
-from fscm._surface.response._layers import resolved_depths
+from fscm._surface.response.depths import depth_intervals
 from fscm._typing import Array
 from fscm.solids import GradedHalfSpace
 
@@ -95,7 +95,7 @@ def _homogeneous(E: Array, nu: Array) -> Array:
 
 def _steps(solid: GradedHalfSpace, xi: Array, longest: float) -> Array:
     """Ends of the steps of each xi from the depth upwards, shape (most steps + 1, len(xi)), padded with zeros."""
-    depths = resolved_depths(solid, START / float(np.min(xi)))
+    depths = depth_intervals(solid, START / float(np.min(xi)))
     columns = []
     for x in xi:
         inside = x * depths[x * depths < START]

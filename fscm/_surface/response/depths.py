@@ -11,7 +11,7 @@ from fscm._typing import Array
 from fscm.errors import Failure, NotConverged
 from fscm.solids import GradedHalfSpace
 
-__all__ = ["resolved_depths"]
+__all__ = ["depth_intervals"]
 
 #: Degree of the polynomials, and largest size of the last two coefficients of log E and nu: the remainder is below the
 #: error of the integration.
@@ -22,7 +22,7 @@ _FIRST, _RATIO = 1.0 / 64.0, 2.0
 _SHORTEST = 1e-9
 
 
-def resolved_depths(solid: GradedHalfSpace, deepest: float) -> Array:
+def depth_intervals(solid: GradedHalfSpace, deepest: float) -> Array:
     """Ends of the intervals from the surface to a depth, ascending.
 
     Raises
@@ -34,7 +34,7 @@ def resolved_depths(solid: GradedHalfSpace, deepest: float) -> Array:
     --------
     >>> from fscm import Coating
     >>> sharp = Coating(E_coating=1.0, E_substrate=9.0, thickness=3.0, transition=0.0, nu_coating=0.3)
-    >>> 3.0 in resolved_depths(sharp, 10.0)
+    >>> 3.0 in depth_intervals(sharp, 10.0)
     True
     """
     shallowest = min(_FIRST * solid.length, deepest)
