@@ -129,10 +129,6 @@ def _displacement(state: StieltjesState) -> float:
     return state.displacement
 
 
-def _central_gap(state: StieltjesState) -> float:
-    return state.central_gap
-
-
 _EVENTS = {
     "pull_off": _Event(_load, True, lambda r: r.load, lambda turns, P: int(turns[np.argmin(P[turns + 1])])),
     "jump_in": _Event(_displacement, False, lambda r: r.displacement, lambda turns, _: int(turns[0])),
