@@ -2,6 +2,7 @@
 
 import pytest
 
+import fem_reference.quantities
 from comparisons.quantities import QUANTITIES as COMPARED
 from fscm import NoSuchEvent, Problem, quantities, solve
 from fscm.gibson import GibsonSolid
@@ -47,5 +48,7 @@ def test_a_quantity_is_known_everywhere_and_has_a_reference_value(quantity):
         assert gibson.solution(quantity).u_num < 1e-8
 
 
-def test_the_names_are_those_of_the_rows():
-    assert tuple(TABLE) == quantities.QUANTITIES
+def test_each_compared_quantity_has_its_row_in_both_references():
+    """The critical Tabor number is that of a modulus in physical units."""
+    assert set(COMPARED) == set(TABLE) == set(quantities.QUANTITIES)
+    assert set(COMPARED) - {"critical_tabor_number"} <= set(fem_reference.quantities.TABLE)
