@@ -137,10 +137,16 @@ class EventErrors:
 
     @cached_property
     def _neighbours(self) -> tuple[tuple[dict[str, float], Rates], tuple[dict[str, float], Rates]]:
-        """Values and rates of the functionals at the neighbouring states, whose matrices are not kept."""
+        """Values, under kinks, and rates of the functionals at the neighbouring states, whose matrices are not kept."""
+        names = _FUNCTIONALS if self._is_kinked else ()
         neighbours = [self._at(step) for step in (-_CURVATURE_STEP, _CURVATURE_STEP)]
-        before, after = (({name: getattr(state, name) for name in _FUNCTIONALS}, rates) for state, rates in neighbours)
+        before, after = (({name: getattr(state, name) for name in names}, rates) for state, rates in neighbours)
         return before, after
+
+    @property
+    def _is_kinked(self) -> bool:
+        """Whether the mesh moves with kinks of the punch."""
+        return bool(kinks_of(self.state.disc.problem.punch))
 
     def controlled(self, functional: str, control: str, value: float | None = None) -> Errors:
         """Errors at a fixed control or continuation parameter; `value` is the prescribed one, if any."""
@@ -158,7 +164,7 @@ class EventErrors:
         change, step = self._changes(functional)
         rounding = self._defect.rate_rounding(functional, self.parameter)
         mesh = change.mesh / step
-        if kinks_of(self.state.disc.problem.punch):
+        if self._is_kinked:
             mesh = np.append(mesh, self._moving(functional))
         # The error of the response varies over a radius as the response itself: per unit of the parameter, by its size.
         kernel = _KERNEL_RATE * change.kernel / (2.0 * self._unit)
