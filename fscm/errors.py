@@ -29,7 +29,7 @@ class Failure(Enum):
     """
 
     #: Newton's method.
-    ITERATION = "take a smaller step, start from a closer state, or use another control"
+    ITERATION = "take a smaller step or a closer start, in a solution a smaller Tabor number or gradient exponent"
     #: The refinement of a mesh.
     MESH = "a smaller Tabor number or gradient exponent has a wider contact edge"
     #: Depths at which the constants of a solid change.
