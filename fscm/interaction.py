@@ -375,15 +375,14 @@ def interaction_of(punch: PunchShape, law: SurfaceLaw, name: str) -> Interaction
     shape = punch.punch if isinstance(punch, ScaledPunch) else punch
     if isinstance(shape, Ball) and type(law) in (LennardJones, Mie):
         return Body(punch, law)  # type: ignore[arg-type]  # checked above
-    if type(shape) is not PowerPunch or shape.n != 2.0 or type(law) not in (LennardJones, Mie):
+    if type(law) not in (LennardJones, Mie):
         raise ValueError(
-            f"interaction 'body' is known for a Ball or a paraboloid under LennardJones or Mie, not for {shape!r} "
-            f"under {type(law).__name__}: take 'derjaguin'"
+            f"interaction 'body' is known under LennardJones or Mie, whose powers are those of atoms, not under "
+            f"{type(law).__name__}: take 'derjaguin'"
         )
-    odd = isinstance(law, LennardJones) or all(m in _ODD for m in (law.m, law.n))  # type: ignore[attr-defined]
-    if not odd:
+    if shape.growth < 1.0:
         raise ValueError(
-            f"interaction 'body' of a paraboloid is known for odd exponents from {_ODD[0]} to {_ODD[-1]}, not for "
-            f"{law!r}: take a Ball or 'derjaguin'"
+            f"growth f ~ r^{shape.growth:g} of the punch is outside [1, inf): for interaction 'body' the punch has to "
+            "be as slender as a cone far away; take 'derjaguin'"
         )
     return BodyOfRevolution(punch, law)  # type: ignore[arg-type]  # checked above
