@@ -27,6 +27,8 @@ _STEEP, _LOW = 1.5, 0.4
 #: Tolerance of the logarithms of powers and of their integrals; the rounding of a height and a radius, in which the
 #: nodes of a quadrature lie, for each unit of slope.
 _TOLERANCE, _OF_ENERGY, _NOISE = 2e-13, 1e-12, 1e-15
+#: Rounding of the fluxes through a punch as wide as the distance.
+_SIDES = 5e-15
 #: Quadrature of the integral downwards, with the logarithm of the distance for a variable: rule of a piece of the
 #: length one and a finer one, share of the whole that is left to the power law beyond, and largest length.
 _GAUSS = np.polynomial.legendre.leggauss(12), np.polynomial.legendre.leggauss(20)
@@ -55,7 +57,7 @@ class PotentialTable:
         self.profile = Profile(punch, self.aspect)
         breaks = tuple(float(np.log(x / self.aspect)) for x in self.profile.kinks)
         self._below = ChebyshevTree(self._of_depth, self._noise, breaks)
-        self._beside = ChebyshevTree(self._of_height, lambda X, Z: np.full(X.shape, self.tolerance), breaks)
+        self._beside = ChebyshevTree(self._of_height, self._cancelled, breaks)
 
     def error(self, r: Array, v: Array) -> Array:
         """Error of the logarithms, measured near points with v > 0; shape (N,)."""
@@ -119,6 +121,13 @@ class PotentialTable:
         x = self.aspect * np.exp(X)
         steep = self.profile.slope(x)
         return self.tolerance + _NOISE * (self.profile.height(x) + x * steep) * (1.0 + steep) * np.exp(-Y)
+
+
+    def _cancelled(self, X: Array, Z: Array) -> Array:
+        """Fluxes through both sides of a slender punch cancel to its width over the distance."""
+        x = self.aspect * np.exp(X)
+        slender = np.maximum(self.profile.height(x) / x, 1.0) ** (1.0 / self.punch.growth)
+        return np.asarray(self.tolerance + _SIDES * slender)
 
 
 class _EnergyTable(PotentialTable):
