@@ -19,7 +19,7 @@ __all__ = ["ChebyshevTree"]
 #: Nodes of a cell in each variable, and last coefficients in each that have to be within the tolerance.
 _NODES, _LAST = 14, 2
 #: Length of the first cells, and number of halvings.
-_FIRST, _HALVINGS = 2.0, 40
+_FIRST, _HALVINGS = 2.0, 30
 #: Points, as shares of a cell, at which its polynomial is compared with a finer evaluation of the functions.
 _FRESH = np.array([[0.93, 0.31], [0.41, 0.97], [0.04, 0.62], [0.55, 0.03], [0.77, 0.81]])
 #: Cells that are fitted together.

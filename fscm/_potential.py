@@ -33,7 +33,7 @@ import numpy as np
 import scipy
 
 from fscm._typing import Array
-from fscm.punch import PunchShape, kinks_of
+from fscm.punch import PunchShape, joints_of, kinks_of
 
 __all__ = ["Profile", "log_powers"]
 
@@ -85,8 +85,8 @@ class Profile:
 
     @property
     def kinks(self) -> tuple[float, ...]:
-        """Radii at which the slope jumps."""
-        return tuple(self.aspect * r for r in kinks_of(self.punch))
+        """Radii at which the slope or a higher derivative jumps."""
+        return tuple(sorted(self.aspect * r for r in kinks_of(self.punch) + joints_of(self.punch)))
 
 
 def log_powers(

@@ -22,8 +22,9 @@ __all__ = ["PotentialTable", "aspect_of", "energy_table", "power_table"]
 
 #: Radius, in the unit of the punch, below which nothing changes.
 _INNERMOST = 1e-30
-#: A point is beside a punch where the slope exceeds the one and its depth, in the height of the surface, the other.
-_STEEP, _LOW = 1.5, 0.4
+#: A point is beside a punch where the slope exceeds the first and its depth, in the height of the surface, the second;
+#: and not as many radii below its tip as the third, nor as deep below as the surface is high.
+_STEEP, _LOW, _BELOW = 1.5, 0.4, 1e3
 #: Tolerance of the logarithms of powers and of their integrals; the rounding of a height and a radius, in which the
 #: nodes of a quadrature lie, for each unit of slope.
 _TOLERANCE, _OF_ENERGY, _NOISE = 2e-13, 1e-12, 1e-15
@@ -73,7 +74,8 @@ class PotentialTable:
     def _is_beside(self, r: Array, v: Array) -> Array:
         """Whether points are beside the upper part of a steep punch."""
         x = self.aspect * r
-        return np.asarray((v > _LOW * self.profile.height(x)) & (self.profile.slope(x) > _STEEP))
+        f = self.profile.height(x)
+        return np.asarray((v > _LOW * f) & (v < f + np.maximum(f, _BELOW * x)) & (self.profile.slope(x) > _STEEP))
 
     def __call__(self, r: Array, v: Array) -> tuple[Array, Array, Array]:
         """Logarithms, their derivatives by v, and by log r at a fixed v; each of shape (exponents, N).
@@ -143,13 +145,15 @@ class _EnergyTable(PotentialTable):
         order = order[v[order] > 0.0]
         last = np.append(x[order[1:]] != x[order[:-1]], True)[: len(order)]
         deepest = order[last]
+        own, unit = unit, unit.copy()
+        unit[order] = np.repeat(unit[deepest], np.diff(np.flatnonzero(last), prepend=-1))
         parts = np.zeros((len(self.exponents), len(order)))
         parts[:, last] = self._to_infinity(x[deepest], z[deepest], v[deepest], unit[deepest], finer)
         upper, lower = order[:-1][~last[:-1]], order[1:][~last[:-1]]
         parts[:, ~last] = self._between(x[upper], v[upper], v[lower], unit[upper], finer)
         for column in np.split(np.arange(len(order)), np.flatnonzero(last)[:-1] + 1):
             values[:, order[column]] = np.cumsum(parts[:, column[::-1]], axis=1)[:, ::-1]
-        return np.asarray(np.log(values))
+        return np.asarray(np.log(values) + (self.exponents - 1.0)[:, None] * np.log(own / unit))
 
     def _density(self, x: Array, v: Array, unit: Array) -> Array:
         """p_m unit^m."""
