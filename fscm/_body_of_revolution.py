@@ -28,7 +28,7 @@ _SECANTS = 5
 _STEP = 1e-4
 #: The traction is nearly a power of the radius beyond so many sizes of the punch.
 _FAR = 1e4
-#: Unit of the rounding in which a size counts (`fscm._defect`), and safety for points that were not compared.
+#: Rounding of a size in the bounds (`fscm._defect`), and safety for points that were not compared.
 _ROUNDING, _SAFETY = 2.0**-49, 4.0
 #: Halvings in the search of the size of the punch, between these radii.
 _HALVINGS, _LEAST, _LARGEST = 60, 1e-30, 1e30

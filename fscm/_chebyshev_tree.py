@@ -1,7 +1,7 @@
 """Smooth functions of two variables as Chebyshev polynomials on cells that are halved until they resolve the functions.
 
-A cell is fitted when a point in it is first asked for, so that only the visited part of the plane costs anything.  Cells
-depend on their place alone: the values do not depend on the order of the questions.
+A cell is fitted when a point in it is first asked for, so that only the visited part of the plane costs anything.
+Cells depend on their place alone: the values do not depend on the order of the questions.
 """
 
 from __future__ import annotations
@@ -50,9 +50,12 @@ class ChebyshevTree:
     Examples
     --------
     >>> tree = ChebyshevTree(lambda X, Y, finer: np.array([np.exp(X - Y)]), lambda X, Y: np.full(X.shape, 1e-13))
-    >>> value, by_X, by_Y = tree(np.array([0.3]), np.array([5.0]))
-    >>> bool(abs(value[0, 0] - np.exp(-4.7)) < 1e-14), bool(abs(by_Y[0, 0] + np.exp(-4.7)) < 1e-12), bool(tree.error(np.array([0.3]), np.array([5.0]))[0] < 1e-14)
-    (True, True, True)
+    >>> X, Y = np.array([0.3]), np.array([5.0])
+    >>> value, by_X, by_Y = tree(X, Y)
+    >>> bool(abs(value[0, 0] - np.exp(-4.7)) < 1e-14), bool(abs(by_Y[0, 0] + np.exp(-4.7)) < 1e-12)
+    (True, True)
+    >>> bool(tree.error(X, Y)[0] < 1e-14)
+    True
     """
 
     def __init__(
@@ -66,8 +69,9 @@ class ChebyshevTree:
         self._roots: dict[tuple[int, int, int], int] = {}
         #: Of each cell: its ends (X, X, Y, Y); the variable that is cut, or -1 for a fitted and -2 for a new one; its
         #: first half, which the second one follows; its number among the fitted ones; its halvings.
-        self._ends, self._cut, self._half, self._fitted, self._depth = np.empty((0, 4)), *(
-            np.empty(0, int) for _ in range(4)
+        self._ends, self._cut, self._half, self._fitted, self._depth = (
+            np.empty((0, 4)),
+            *(np.empty(0, int) for _ in range(4)),
         )
         self._coefficients = np.empty((0, 0, _NODES, _NODES))
         #: Of each fitted cell: largest difference of its polynomial and the finer evaluation at fresh points.

@@ -28,6 +28,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 import scipy
@@ -45,8 +46,9 @@ _INNERMOST = 3e-8
 _LEFT = 1e-16
 #: Nodes of a Gauss rule: _NODES, and _PER_LENGTH for each unit of its length in the variable of the quadrature, times
 #: half the exponent of growth of steep punches, and the whole one beside or below a slender punch: a ray from the point
-#: meets the profile of r^n at complex radii of the angles pi/n and pi/(2 n).  Measured under the 12-6 and the 9-3 law against four times as many,
-#: for paraboloids, cones and powers of up to 6: 1e-13 beside the rounding of the height.
+#: meets the profile of r^n at complex radii of the angles pi/n and pi/(2 n).  Measured under the 12-6 and the 9-3 law
+#: against twice and four times as many, for paraboloids, cones and powers of up to 6: 1e-13 beside the rounding of the
+#: height.
 _NODES, _PER_LENGTH = 16, 4.0
 #: Their number is a multiple of it, so that few rules are computed.
 _STEP = 8
@@ -118,7 +120,7 @@ def _block(seen: _Seen, exponents: tuple[float, ...], finer: float) -> Array:
     farther = (1.0 / _LEFT) ** (1.0 / min(exponents))
     sums = np.zeros((len(exponents), len(seen.x)))
     ends = np.array([0.0, *seen.profile.kinks, math.inf])
-    for a, b in zip(ends[:-1], ends[1:], strict=True):
+    for a, b in pairwise(ends):
         for rho, weight in seen.rules(a, b, farther, finer):
             sums += seen.fluxes(exponents, rho, weight)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -134,6 +136,7 @@ class _Seen:
         self._depth = (profile.height(x) - z) / unit
         steep = profile.slope(x)
         self._steepest, self._steep = float(np.max(np.abs(steep))), steep > 1.0
+
     def surface(self, rho: Array) -> tuple[Array, Array]:
         """Height above the points, and slope; shape of `rho`, whose first axis is that of the points."""
         unit, z = (self._unit, self._z) if rho.ndim == 1 else (self._unit[:, None], self._z[:, None])

@@ -28,6 +28,8 @@ _STEEP, _LOW, _BELOW = 1.5, 0.4, 1e3
 #: Tolerance of the logarithms of powers and of their integrals; the rounding of a height and a radius, in which the
 #: nodes of a quadrature lie, for each unit of slope.
 _TOLERANCE, _OF_ENERGY, _NOISE = 2e-13, 1e-12, 1e-15
+#: Tolerance for a punch whose slope is by differences, with an error of 1e-11.
+_BY_DIFFERENCES = 1e-9
 #: Rounding of the fluxes through a punch as wide as the distance.
 _SIDES = 5e-15
 #: Quadrature of the integral downwards, with the logarithm of the distance for a variable: rule of a piece of the
@@ -50,12 +52,14 @@ class PotentialTable:
     exponents : tuple of float
     """
 
-    #: Power of a length that the tabulated number falls by less than m.
-    gained, tolerance = 0.0, _TOLERANCE
+    #: Power of a length that the tabulated number falls by less than m, and tolerance of its logarithm.
+    gained, _least = 0.0, _TOLERANCE
 
     def __init__(self, punch: PunchShape, exponents: tuple[float, ...]) -> None:
         self.punch, self.aspect, self.exponents = punch, aspect_of(punch), np.array(exponents)
         self.profile = Profile(punch, self.aspect)
+        shape = punch.punch if isinstance(punch, ScaledPunch) else punch
+        self.tolerance = _BY_DIFFERENCES if getattr(shape, "derivative", self) is None else self._least
         breaks = tuple(float(np.log(x / self.aspect)) for x in self.profile.kinks)
         self._below = ChebyshevTree(self._of_depth, self._noise, breaks)
         self._beside = ChebyshevTree(self._of_height, self._cancelled, breaks)
@@ -124,7 +128,6 @@ class PotentialTable:
         steep = self.profile.slope(x)
         return self.tolerance + _NOISE * (self.profile.height(x) + x * steep) * (1.0 + steep) * np.exp(-Y)
 
-
     def _cancelled(self, X: Array, Z: Array) -> Array:
         """Fluxes through both sides of a slender punch cancel to its width over the distance."""
         x = self.aspect * np.exp(X)
@@ -135,7 +138,7 @@ class PotentialTable:
 class _EnergyTable(PotentialTable):
     """The integral, by quadrature of the tabulated powers."""
 
-    gained, tolerance = 1.0, _OF_ENERGY
+    gained, _least = 1.0, _OF_ENERGY
 
     def _tabulated(self, x: Array, z: Array, unit: Array, finer: bool) -> Array:
         v = self.profile.height(x) - z

@@ -4,8 +4,8 @@ A point of the surface at the radius r has the vertical gap H to the punch.
 
 * `Derjaguin`: the traction is the law at H, as if the facing parts were parallel.  The work of adhesion counts for the
   projected area.
-* `Body`: the traction is the potential of all atoms of a ball at the point.  It counts for the true area.  That of a
-  paraboloid is in `fscm._body_of_revolution`.
+* `Body`: the traction is the potential of all atoms of a ball at the point.  It counts for the true area.  That of any
+  other punch, without end, is in `fscm._body_of_revolution`.
 
 Atoms whose law over a half-space has the powers (v/z0)^-m, v = z0 + H, attract each other with pair potentials of the
 powers m + 3.  Their integral over a ball of the radius R, at the distance s of its center, d = s - R of its surface and
@@ -32,7 +32,7 @@ import scipy
 from fscm._body_of_revolution import BodyOfRevolution
 from fscm._typing import Array
 from fscm.laws import LennardJones, Mie, SurfaceLaw
-from fscm.punch import Ball, PowerPunch, PunchShape, ScaledPunch
+from fscm.punch import Ball, PunchShape, ScaledPunch
 
 __all__ = ["INTERACTIONS", "Body", "Derjaguin", "Interaction", "check_interaction", "interaction_of"]
 
@@ -47,8 +47,6 @@ _LAST_POWER = 33
 #: begins at _FARTHEST sizes of ball and radius, beyond which the traction is a power of the distance.
 _GAUSS = np.polynomial.legendre.leggauss(20)
 _FARTHER, _FARTHEST = 4.0, 40.0
-#: Exponents of the laws whose potential of a paraboloid is known.
-_ODD = range(3, 22, 2)
 #: The traction is a power of the radius beyond this many radii of the ball.
 _BALL_RADII = 300.0
 #: Logarithm of the distance of the largest tension in lengths of the law: between these.
@@ -361,8 +359,8 @@ def interaction_of(punch: PunchShape, law: SurfaceLaw, name: str) -> Interaction
     Raises
     ------
     ValueError
-        For an unknown name, and for "body" where it is not known: for any punch but a `Ball` or a paraboloid, and for
-        a law that is no difference of two powers, which have to be odd for a paraboloid.
+        For an unknown name, and for "body" where it is not known: for a law that is no difference of two powers, and
+        for a punch that is less slender than a cone far away.
 
     Examples
     --------

@@ -70,7 +70,7 @@ class Problem:
         E(0) / (1 - nu(0)^2) of one graded solid.
     interaction : str
         Of the surface: "derjaguin", the law at the vertical gap, or "body", the potential of the punch at the place of
-        each point, which is known for a rigid `Ball` or paraboloid under `LennardJones` or `Mie` (see
+        each point, which is known for a rigid punch with a growth of at least 1 under `LennardJones` or `Mie` (see
         `fscm.interaction`).
 
     Attributes

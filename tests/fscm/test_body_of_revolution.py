@@ -1,4 +1,4 @@
-"""Potential of a punch of any shape under any powers: against its atoms, its table, the rigid solid, and in a contact."""
+"""Potential of a punch of any shape under any powers: its atoms, table, and energy, the rigid solid, and a contact."""
 
 import math
 from functools import lru_cache
