@@ -84,7 +84,7 @@ class BodyOfRevolution:
     @property
     def size_of_punch(self) -> float:
         """Radius at which the punch is as high as wide, or of its last kink, in the unit of heights."""
-        return _size(self.punch)
+        return _size(self)
 
     @property
     def _unit(self) -> Array:
@@ -177,7 +177,8 @@ def _peak(body: BodyOfRevolution, r: float) -> float:
 
 
 @lru_cache(maxsize=64)
-def _size(punch: PunchShape) -> float:
+def _size(body: BodyOfRevolution) -> float:
+    punch = body.punch
     aspect, low, high = aspect_of(punch), _LEAST, _LARGEST
     last = aspect * max(kinks_of(punch), default=0.0)
     if punch.growth <= 1.0:

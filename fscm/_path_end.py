@@ -33,7 +33,7 @@ import scipy
 from fscm._equilibrium import State
 from fscm._typing import Array
 from fscm.errors import NotConverged
-from fscm.interaction import Derjaguin
+from fscm.interaction import Body, BodyOfRevolution
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
@@ -224,7 +224,7 @@ class LeastLoad:
         if C == 0.0:
             return 0.0
         T, F, force = self.radii[-1], self.heights[-1], self.problem.force
-        if not isinstance(force, Derjaguin):
+        if isinstance(force, Body | BodyOfRevolution):
             tension = -float(force.traction(self.radii[-1:], self.heights[-1:])[0])
             return _TAIL_MARGIN * tension * T**power / (force.falls_as(T) - power)
         return float(C * _TAIL_MARGIN**m * F**-m * T**power / (m * self.problem.punch.growth - power))

@@ -9,9 +9,11 @@ radius; there asinh(z/r) takes the place of log v.
 from __future__ import annotations
 
 import math
+from collections.abc import Hashable
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fscm._chebyshev_tree import ChebyshevTree
 from fscm._potential import Profile, log_powers
@@ -75,7 +77,7 @@ class PotentialTable:
         errors[~beside] = self._below.error(np.log(r[~beside]), np.log(v[~beside]))
         return errors
 
-    def _is_beside(self, r: Array, v: Array) -> Array:
+    def _is_beside(self, r: Array, v: Array) -> NDArray[np.bool_]:
         """Whether points are beside the upper part of a steep punch."""
         x = self.aspect * r
         f = self.profile.height(x)
@@ -92,7 +94,7 @@ class PotentialTable:
         values = np.full((3, len(self.exponents), len(r)), np.nan)
         r = np.maximum(r, _INNERMOST)
         f, steep = self.profile.height(self.aspect * r), self.profile.slope(self.aspect * r)
-        inside = v > 0.0
+        inside = np.asarray(v > 0.0)
         beside = inside & self._is_beside(r, v)
         for at, chart in ((inside & ~beside, self._at_depth), (beside, self._at_height)):
             if np.any(at):
@@ -185,13 +187,22 @@ class _EnergyTable(PotentialTable):
         return np.asarray((total + math.exp(pieces) * beyond) * (start / unit))
 
 
-@lru_cache(maxsize=8)
 def power_table(punch: PunchShape, exponents: tuple[float, ...]) -> PotentialTable:
-    """Table of p_m."""
-    return PotentialTable(punch, exponents)
+    """Table of p_m, the same one for equal punches."""
+    return _table(PotentialTable, _hashable(punch), exponents)
 
 
-@lru_cache(maxsize=8)
 def energy_table(punch: PunchShape, exponents: tuple[float, ...]) -> PotentialTable:
     """Table of the integrals of p_m from a depth to infinity."""
-    return _EnergyTable(punch, exponents)
+    return _table(_EnergyTable, _hashable(punch), exponents)
+
+
+def _hashable(punch: PunchShape) -> Hashable:
+    assert isinstance(punch, Hashable)  # a problem is hashable, and so are its parts
+    return punch
+
+
+@lru_cache(maxsize=8)
+def _table(kind: type[PotentialTable], punch: Hashable, exponents: tuple[float, ...]) -> PotentialTable:
+    assert isinstance(punch, PunchShape)
+    return kind(punch, exponents)

@@ -24,6 +24,8 @@ _RATIO = 4.0
 _GAUSS = np.polynomial.legendre.leggauss(20)
 #: The traction is a power beyond this many radii of the mesh, where it is one of the punch.
 _MESH_RADII = 16.0
+#: Radius, in that from which on a cone has nearly its power, at which it has it to all digits.
+_FARTHEST = 1e8
 #: Quadrature over distant rings of a solid that is no power law, as in `fscm._tail`: t^-a falls by at most exp(-_FALL)
 #: on a piece, and by exp(-_LEFT) on all of them; farthest ring whose response is computed in two ways.
 _FALL, _LEFT, _BEYOND_REACH = 8.0, 42.0, 100.0
@@ -141,7 +143,8 @@ class TailOfBody:
         if excess:
             return inside + 2.0 * float(e[-1]) * self.far**2 / excess
         # On a cone e = A/t^2 and a term in delta/t^3: without the part of all states, that of A.
-        A = float(self.force.energy(t_far[-1:], self.problem.punch.height(t_far[-1:]))[0]) * self.far**2
+        farthest = np.array([_FARTHEST * self.force.far_radius])
+        A = float((self.force.energy(farthest, self.problem.punch.height(farthest)) * farthest**2)[0])
         return inside + 2.0 * (float(e[-1]) * self.far**2 - A) - 2.0 * A * math.log(self.far)
 
     def errors(self, energy: bool = True) -> tuple[Array, Array]:
