@@ -1,60 +1,37 @@
-r"""Potential of the atoms that fill a paraboloid z >= f(rho) without end, at a point below its surface.
+r"""Potential of the atoms of a punch without end as an interaction of the surface.
 
-The integral of the pair potential d^-(m+3) over the punch is one over its surface, because
-div(x d^-(m+3)) = -m d^-(m+3) for the vector x from the point; gradients are integrals of d^-(m+3) over the surface.
-With a point at the radius r, h = f(rho) - f(r) + v the height of the surface above it, and over the azimuth
-
-    J = int d^-(m+3) dphi,   K = int (1 - cos phi) d^-(m+3) dphi,   d^2 = C - D cos phi,
-
-the power (z0/v)^m of the law over a half-space becomes, with c = m (m+1) z0^m/(2 pi),
-
-    p_m = (c/m) int { [h - f' (rho - r)] J - f' r K } rho drho,
-    dp_m/dv = -c int J rho drho,   dp_m/dr at a fixed height of the point = -c int f' (J - K) rho drho.
-
-By tan(phi/2) = sqrt((C-D)/(C+D)) tan(psi/2), d^2 = (C^2 - D^2)/(C + D cos psi) and 1 - cos phi =
-(C - D) (1 - cos psi)/(C + D cos psi).  For odd m, J and K are integrals of polynomials in cos psi, for which equal
-angles are exact.
+The powers of the law are those of `fscm._potential_table`, in which each is an integral over the face of the punch
+(`fscm._potential`).  The errors of the tables belong to the sizes of the terms.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fscm._potential_table import aspect_of, energy_table, power_table
 from fscm._typing import Array
 from fscm.laws import LennardJones, Mie
-from fscm.punch import PunchShape, ScaledPunch
+from fscm.punch import PunchShape, kinks_of
 
-__all__ = ["BodyOfRevolution", "powers_of_body"]
+if TYPE_CHECKING:
+    from fscm._potential_table import PotentialTable
 
-#: Scale near the axis in the radius of the nearest point of the surface: a far point sees the tip of the punch.
-_TIP = 0.02
-#: Distance from the nearest radius to which the surface is integrated, in that of the point: what is beyond is below
-#: 1e-17 of the whole for m >= 3.
-_FARTHEST = 3e4
-#: Nodes of a piece: _NODES, and _PER_LENGTH for each unit of its length in the variable of the quadrature.  Measured
-#: against three times as many on paraboloids of 5 to 1e4 lengths of the law: powers change by less than 3e-13 of
-#: themselves up to 100 radii of the tip, and by 1e-7 at 1e6 of them, where 1e-12 of the load is left.
-_NODES, _PER_LENGTH = 16, 4.0
-#: Halvings of the radius in the search of the nearest point, which only scales the quadrature.
-_HALVINGS = 25
-#: Points that are treated together, to bound the memory of temporaries.
-_BLOCK = 200
-
+__all__ = ["BodyOfRevolution"]
 
 #: Steps of the secant method for the largest tension, whose equation is almost linear in log v: 1e-15 after four.
 _SECANTS = 5
 #: Step of log r for the drift of that; it moves the mesh alone.
 _STEP = 1e-4
-#: Quadrature of the energy over the inverse depth, on pieces on which it falls by _RATIO; the last one begins at
-#: _DEEPEST sizes of the point, beyond which the traction is a power of the depth.
-_GAUSS = np.polynomial.legendre.leggauss(16)
-_RATIO, _DEEPEST = 6.0, 40.0
-#: The traction is a power of the radius, to 1e-2, beyond this many radii of curvature of the tip.
-_TIP_RADII = 300.0
+#: The traction is nearly a power of the radius beyond so many sizes of the punch.
+_FAR = 1e4
+#: Rounding of a size in the bounds (`fscm._bound.defect`), and safety for points that were not compared.
+_ROUNDING, _SAFETY = 2.0**-49, 4.0
+#: Halvings in the search of the size of the punch, between these radii.
+_HALVINGS, _LEAST, _LARGEST = 60, 1e-30, 1e30
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,14 +40,13 @@ class BodyOfRevolution:
 
     Parameters
     ----------
-    punch : PowerPunch or ScaledPunch
-        A paraboloid.
+    punch : PunchShape
     law : LennardJones or Mie
-        Law of the same atoms over a half-space, of odd exponents.
+        Law of the same atoms over a half-space.
 
     Examples
     --------
-    Far above a paraboloid the traction on its axis is that of a plane and of a slender body:
+    Far above a large paraboloid the traction on its axis is that of a plane:
 
     >>> from fscm.punch import PowerPunch
     >>> body = BodyOfRevolution(PowerPunch(2.0, 1e9), LennardJones())
@@ -82,14 +58,9 @@ class BodyOfRevolution:
     law: LennardJones | Mie
 
     @property
-    def aspect(self) -> float:
-        """Unit of radii over that of heights."""
-        return self.punch.radius / self.punch.height_unit if isinstance(self.punch, ScaledPunch) else 1.0
-
-    @property
-    def exponents(self) -> tuple[int, int]:
+    def exponents(self) -> tuple[float, float]:
         """Of the repulsion and of the attraction of the law."""
-        return (9, 3) if isinstance(self.law, LennardJones) else (round(self.law.m), round(self.law.n))
+        return (9.0, 3.0) if isinstance(self.law, LennardJones) else (self.law.m, self.law.n)
 
     @property
     def _strength(self) -> float:
@@ -108,53 +79,63 @@ class BodyOfRevolution:
     @property
     def far_radius(self) -> float:
         """Radius beyond which the traction is nearly a power."""
-        return _TIP_RADII * self._tip_radius / self.aspect
-
-    @property
-    def _tip_radius(self) -> float:
-        """Of the paraboloid, in the unit of heights."""
-        return 0.5 * self.aspect**2 / float(self.punch.height(np.array(1.0)))
+        return _FAR * self.size_of_punch / aspect_of(self.punch)
 
     @property
     def size_of_punch(self) -> float:
-        """Length in the unit of heights beyond which a depth is large."""
-        return self._tip_radius
+        """Radius at which the punch is as high as wide, or of its last kink, in the unit of heights."""
+        return _size(self)
 
-    def _powers(self, r: Array, H: Array) -> tuple[tuple[Array, Array, Array], ...]:
+    @property
+    def _unit(self) -> Array:
+        """Powers of z0 of both terms."""
+        return np.log(self.law.z0) * np.array(self.exponents)[:, None]
+
+    def _powers(self, r: Array, H: Array) -> tuple[Array, Array, Array]:
+        """Logarithms of both powers (z0/d)^m and their derivatives; of shape (2, *shape)."""
         r, H = np.broadcast_arrays(np.asarray(r, float), np.asarray(H, float))
         return _evaluated(self, r.shape, r.tobytes(), H.tobytes())
 
     def traction(self, r: Array, H: Array) -> Array:
         """p(r, H)."""
-        repulsion, attraction = self._powers(r, H)
-        return self._strength * (repulsion[0] - attraction[0])
+        (repulsion, attraction), _, _ = self._powers(r, H)
+        return np.asarray(self._strength * np.exp(attraction) * np.expm1(repulsion - attraction))
 
     def slope(self, r: Array, H: Array) -> Array:
         """dp/dH at a fixed radius."""
-        repulsion, attraction = self._powers(r, H)
-        return self._strength * (repulsion[1] - attraction[1])
+        value, by_depth, _ = self._powers(r, H)
+        return self._difference(np.exp(value) * by_depth)
 
     def drift(self, r: Array, H: Array) -> Array:
         """r dp/dr at a fixed gap."""
-        repulsion, attraction = self._powers(r, H)
-        return self._strength * (repulsion[2] - attraction[2])
+        value, _, by_radius = self._powers(r, H)
+        return self._difference(np.exp(value) * by_radius)
+
+    def _difference(self, terms: Array) -> Array:
+        return np.asarray(self._strength * (terms[0] - terms[1]))
 
     def size(self, r: Array, H: Array) -> Array:
-        """Repulsion and attraction, and what the rounding of the height at the point makes of them."""
-        repulsion, attraction = self._powers(r, H)
-        by_height = self.punch.height(r) * (repulsion[1] + attraction[1])
-        return np.asarray(self._strength * (repulsion[0] + attraction[0] - by_height))
+        """Repulsion and attraction, what the rounding of the height at the point makes of them, and of their table."""
+        r, H = np.broadcast_arrays(np.asarray(r, float), np.asarray(H, float))
+        value, by_depth, _ = self._powers(r, H)
+        powers, table = np.exp(value), power_table(self.punch, self.exponents)
+        error = _SAFETY / _ROUNDING * table.error(r.ravel(), self.law.z0 + H.ravel()).reshape(r.shape)
+        terms = powers * (1.0 + error) - self.punch.height(r) * powers * by_depth
+        return np.asarray(self._strength * np.sum(terms, axis=0))
 
     def peak_gap(self, r: Array) -> Array:
         """Gap of the largest tension at a radius."""
         r = np.asarray(r, float)
+        return np.array(_peak(self, float(r))) if r.ndim == 0 else self._peaks(r)
+
+    def _peaks(self, r: Array) -> Array:
         m, n = self.exponents
 
         def log_ratio(u: Array) -> Array:
-            repulsion, attraction = self._powers(r, self.law.z0 * np.expm1(u))
-            return np.asarray(np.log(repulsion[1] / attraction[1]))
+            value, by_depth, _ = self._powers(r, self.law.z0 * np.expm1(u))
+            return np.asarray(value[0] - value[1] + np.log(by_depth[0] / by_depth[1]))
 
-        stretch = np.hypot(1.0, self.punch.slope(r) / self.aspect)
+        stretch = np.hypot(1.0, self.punch.slope(r) / aspect_of(self.punch))
         u = np.log(stretch * (1.0 + self.law.peak_gap / self.law.z0))
         left = log_ratio(u)
         step = left / (m - n)
@@ -167,136 +148,43 @@ class BodyOfRevolution:
 
     def peak_drift(self, r: float) -> float:
         """Its derivative by the logarithm of the radius."""
-        below, above = self.peak_gap(r * np.exp([-_STEP, _STEP]))
-        return float(above - below) / (2.0 * _STEP)
+        return (_peak(self, r * float(np.exp(_STEP))) - _peak(self, r * float(np.exp(-_STEP)))) / (2.0 * _STEP)
 
     def energy(self, r: Array, H: Array) -> Array:
         """Integral of p from H to infinity at a fixed radius."""
         r, H = np.broadcast_arrays(np.asarray(r, float), np.asarray(H, float))
-        v = self.law.z0 + H
-        largest = self._tip_radius + self.aspect * float(np.max(r)) + float(np.max(np.abs(H)))
-        pieces = math.ceil(math.log(max(_DEEPEST * largest / np.nanmin(v), 1.0)) / math.log(_RATIO))
-        ends = np.append(_RATIO ** -np.arange(pieces + 1.0), 0.0)
-        x, w = _GAUSS
-        half = 0.5 * (ends[:-1] - ends[1:])
-        t = (ends[1:] + half)[:, None] + half[:, None] * x
-        total = np.zeros_like(v)
-        for inverse, weight in zip(t.ravel(), (half[:, None] * w).ravel(), strict=True):
-            total += weight / inverse**2 * self.traction(r, v / inverse - self.law.z0)
-        return total * v
+        values = _logarithms(energy_table(self.punch, self.exponents), r, self.law.z0 + H)[0]
+        return self._difference(np.exp(values + self._unit.reshape(2, *(1,) * r.ndim)))
 
 
-@lru_cache(maxsize=8)
-def _evaluated(
-    body: BodyOfRevolution, shape: tuple[int, ...], r: bytes, H: bytes
-) -> tuple[tuple[Array, Array, Array], ...]:
-    """Powers of the repulsion and of the attraction: traction, slope and drift are asked for one after the other."""
+def _logarithms(table: PotentialTable, r: Array, v: Array) -> tuple[Array, Array, Array]:
+    values = table(r.ravel(), v.ravel())
+    first, by_depth, by_radius = (part.reshape(-1, *r.shape) for part in values)
+    return first, by_depth, by_radius
+
+
+@lru_cache(maxsize=16)
+def _evaluated(body: BodyOfRevolution, shape: tuple[int, ...], r: bytes, H: bytes) -> tuple[Array, Array, Array]:
+    """Powers and derivatives: traction, slope and drift are asked for one after the other."""
     radius, gap = (np.frombuffer(values).reshape(shape) for values in (r, H))
-    z0 = body.law.z0
-    return tuple(powers_of_body(body.punch, body.aspect, body._tip_radius, body.exponents, radius, z0 + gap, z0))
+    value, by_depth, by_radius = _logarithms(power_table(body.punch, body.exponents), radius, body.law.z0 + gap)
+    return value + body._unit.reshape(2, *(1,) * len(shape)), by_depth, by_radius
 
 
-def powers_of_body(
-    punch: PunchShape, aspect: float, tip: float, exponents: tuple[int, ...], r: Array, v: Array, z0: float
-) -> list[tuple[Array, Array, Array]]:
-    """p_m, dp_m/dv at a fixed radius, and r dp_m/dr at a fixed v, of each exponent.
-
-    Parameters
-    ----------
-    punch : PunchShape
-    aspect : float
-        Unit of radii over that of heights.
-    tip : float
-        Radius over which the tip is blunt, in the unit of heights: the surface is not smooth over longer distances.
-    exponents : tuple of int
-        Odd m >= 3.
-    r, v : ndarray
-        Radius, and depth below the surface; nan where that is not positive.
-    z0 : float
-        In the unit of heights.
-    """
-    r, v = np.broadcast_arrays(np.asarray(r, float), np.asarray(v, float))
-    values = np.full((len(exponents), 3, r.size), np.nan)
-    below = np.flatnonzero(v.ravel() > 0.0)
-    for start in range(0, below.size, _BLOCK):
-        at = below[start : start + _BLOCK]
-        values[:, :, at] = _block(punch, aspect, tip / z0, exponents, r.ravel()[at], v.ravel()[at] / z0, z0)
-    return [(p.reshape(r.shape), by_v.reshape(r.shape), by_r.reshape(r.shape)) for p, by_v, by_r in values]
+@lru_cache(maxsize=4096)
+def _peak(body: BodyOfRevolution, r: float) -> float:
+    return float(body._peaks(np.array([r]))[0])
 
 
-def _block(
-    punch: PunchShape, aspect: float, tip: float, exponents: tuple[int, ...], r: Array, v: Array, z0: float
-) -> Array:
-    """The same for a few points, with lengths in z0."""
-    unit = aspect / z0
-    x, height, slope = unit * r, punch.height(r) / z0, punch.slope(r) / aspect
-
-    def surface(rho: Array, of: Array, depth: Array) -> tuple[Array, Array]:
-        return punch.height(rho / unit) / z0 - of + depth, punch.slope(rho / unit) / aspect
-
-    # The nearest radius, by the sign of the derivative of the distance.
-    low, high = np.zeros_like(x), x
+@lru_cache(maxsize=64)
+def _size(body: BodyOfRevolution) -> float:
+    punch = body.punch
+    aspect, low, high = aspect_of(punch), _LEAST, _LARGEST
+    last = aspect * max(kinks_of(punch), default=0.0)
+    if punch.growth <= 1.0:
+        return max(last, aspect)
     for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        h, steep = surface(middle, height, v)
-        outside = middle - x + h * steep > 0.0
-        low, high = np.where(outside, low, middle), np.where(outside, middle, high)
-    h, steep = surface(high, height, v)
-    distance = np.hypot(high - x, h)
-    scale = np.minimum(distance / np.hypot(1.0, steep), np.hypot(high, tip))
-    rho, weight = _radii(high, scale, _FARTHEST * distance)
-    x = x[:, None]
-    h, steep = surface(rho, height[:, None], v[:, None])
-    near, far = (rho - x) ** 2 + h**2, (rho + x) ** 2 + h**2
-    area, flat = weight * rho, h - steep * (rho - x)
-    values = []
-    for m in exponents:
-        J, K = _azimuth(near, far, m)
-        c = m * (m + 1.0) / (2.0 * math.pi)
-        p = c / m * np.sum(area * (flat * J - steep * x * K), axis=1)
-        by_depth = -c * np.sum(area * J, axis=1)
-        by_radius = -c * np.sum(area * steep * (J - K), axis=1)
-        # At a fixed depth the point rises with the surface.
-        values.append([p, by_depth / z0, x[:, 0] * (by_radius - slope * by_depth)])
-    return np.array(values)
-
-
-def _azimuth(near: Array, far: Array, m: int) -> tuple[Array, Array]:
-    """J and K, from d^2 = `near` at phi = 0 and `far` at phi = pi."""
-    s = (m + 3) // 2
-    J, K = np.zeros_like(near), np.zeros_like(near)
-    relative = near / far
-    for i in range((s + 1) // 2):  # the other angles are their mirror images
-        opposite = math.sin(0.5 * math.pi * (2 * i + 1) / s) ** 2
-        weight = 2.0 * math.pi / s * (1.0 if 2 * i + 1 == s else 2.0)
-        ratio = 1.0 - opposite * (1.0 - relative)  # (C + D cos psi)/(C + D)
-        power = weight * _power(ratio, s - 2)
-        J += power * ratio
-        K += 2.0 * opposite * power
-    factor = np.sqrt(relative) * _power(1.0 / near, s)
-    return factor * J, factor * relative * K
-
-
-def _power(base: Array, exponent: int) -> Array:
-    """By multiplications, which are faster than a power of arrays."""
-    if exponent < 2:
-        return base if exponent else np.ones_like(base)
-    half = _power(base, exponent // 2)
-    return half * half * base if exponent % 2 else half * half
-
-
-def _radii(nearest: Array, scale: Array, farthest: Array) -> tuple[Array, Array]:
-    """Radii of the surface and weights, finer at the axis and around the nearest one of each point."""
-    tip = _TIP * nearest + np.finfo(float).tiny
-    radii, all_weights = [], []
-    for center, size, sign, extent in (
-        (np.zeros_like(nearest), tip, 1.0, 0.5 * nearest),
-        (nearest, scale, -1.0, 0.5 * nearest),
-        (nearest, scale, 1.0, farthest),
-    ):
-        length = np.arcsinh(extent / size)
-        nodes, weights = np.polynomial.legendre.leggauss(_NODES + math.ceil(_PER_LENGTH * float(length.max())))
-        t = 0.5 * length[:, None] * (1.0 + nodes)
-        radii.append(center[:, None] + sign * size[:, None] * np.sinh(t))
-        all_weights.append(0.5 * (length * size)[:, None] * weights * np.cosh(t))
-    return np.concatenate(radii, axis=1), np.concatenate(all_weights, axis=1)
+        middle = float(np.sqrt(low * high))
+        higher = float(punch.height(np.array(middle / aspect))) > middle
+        low, high = (low, middle) if higher else (middle, high)
+    return max(last, high)

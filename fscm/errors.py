@@ -48,6 +48,8 @@ class Failure(Enum):
     RINGS = "take a smaller Tabor number or a stiffer film"
     #: A contact larger than its punch.
     REACH = "take a larger ball or a stiffer solid"
+    #: The potential of the atoms of a punch.
+    PUNCH = "state the radii at which the slope of the punch jumps as its kinks"
     #: The paper's own scheme.
     SCHEME = "use a smaller gap_step or more segments"
 

@@ -4,8 +4,8 @@ A point of the surface at the radius r has the vertical gap H to the punch.
 
 * `Derjaguin`: the traction is the law at H, as if the facing parts were parallel.  The work of adhesion counts for the
   projected area.
-* `Body`: the traction is the potential of all atoms of a ball at the point.  It counts for the true area.  That of a
-  paraboloid is in `fscm._body_of_revolution`.
+* `Body`: the traction is the potential of all atoms of a ball at the point.  It counts for the true area.  That of any
+  other punch, without end, is in `fscm._body_of_revolution`.
 
 Atoms whose law over a half-space has the powers (v/z0)^-m, v = z0 + H, attract each other with pair potentials of the
 powers m + 3.  Their integral over a ball of the radius R, at the distance s of its center, d = s - R of its surface and
@@ -32,7 +32,7 @@ import scipy
 from fscm._body_of_revolution import BodyOfRevolution
 from fscm._typing import Array
 from fscm.laws import LennardJones, Mie, SurfaceLaw
-from fscm.punch import Ball, PowerPunch, PunchShape, ScaledPunch
+from fscm.punch import Ball, PunchShape, ScaledPunch
 
 __all__ = ["INTERACTIONS", "Body", "Derjaguin", "Interaction", "check_interaction", "interaction_of"]
 
@@ -47,8 +47,6 @@ _LAST_POWER = 33
 #: begins at _FARTHEST sizes of ball and radius, beyond which the traction is a power of the distance.
 _GAUSS = np.polynomial.legendre.leggauss(20)
 _FARTHER, _FARTHEST = 4.0, 40.0
-#: Exponents of the laws whose potential of a paraboloid is known.
-_ODD = range(3, 22, 2)
 #: The traction is a power of the radius beyond this many radii of the ball.
 _BALL_RADII = 300.0
 #: Logarithm of the distance of the largest tension in lengths of the law: between these.
@@ -361,8 +359,8 @@ def interaction_of(punch: PunchShape, law: SurfaceLaw, name: str) -> Interaction
     Raises
     ------
     ValueError
-        For an unknown name, and for "body" where it is not known: for any punch but a `Ball` or a paraboloid, and for
-        a law that is no difference of two powers, which have to be odd for a paraboloid.
+        For an unknown name, and for "body" where it is not known: for a law that is no difference of two powers, and
+        for a punch that is less slender than a cone far away.
 
     Examples
     --------
@@ -375,15 +373,14 @@ def interaction_of(punch: PunchShape, law: SurfaceLaw, name: str) -> Interaction
     shape = punch.punch if isinstance(punch, ScaledPunch) else punch
     if isinstance(shape, Ball) and type(law) in (LennardJones, Mie):
         return Body(punch, law)  # type: ignore[arg-type]  # checked above
-    if type(shape) is not PowerPunch or shape.n != 2.0 or type(law) not in (LennardJones, Mie):
+    if type(law) not in (LennardJones, Mie):
         raise ValueError(
-            f"interaction 'body' is known for a Ball or a paraboloid under LennardJones or Mie, not for {shape!r} "
-            f"under {type(law).__name__}: take 'derjaguin'"
+            f"interaction 'body' is known under LennardJones or Mie, whose powers are those of atoms, not under "
+            f"{type(law).__name__}: take 'derjaguin'"
         )
-    odd = isinstance(law, LennardJones) or all(m in _ODD for m in (law.m, law.n))  # type: ignore[attr-defined]
-    if not odd:
+    if shape.growth < 1.0:
         raise ValueError(
-            f"interaction 'body' of a paraboloid is known for odd exponents from {_ODD[0]} to {_ODD[-1]}, not for "
-            f"{law!r}: take a Ball or 'derjaguin'"
+            f"growth f ~ r^{shape.growth:g} of the punch is outside [1, inf): for interaction 'body' the punch has to "
+            "be as slender as a cone far away; take 'derjaguin'"
         )
     return BodyOfRevolution(punch, law)  # type: ignore[arg-type]  # checked above

@@ -17,7 +17,7 @@ from fscm._response_factor import response_factor_per_rest
 from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, units_of
 from fscm._validation import real_number
 from fscm.bodies import Bodies, ScaledSolid, power_law_of, scaled
-from fscm.interaction import Body, Interaction, interaction_of
+from fscm.interaction import Interaction, interaction_of
 from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law
 from fscm.punch import PowerPunch, PunchShape, ScaledPunch, scaled_punch, unit_of_radii
 from fscm.solids import GradedHalfSpace, PowerLaw, Solid
@@ -70,7 +70,7 @@ class Problem:
         E(0) / (1 - nu(0)^2) of one graded solid.
     interaction : str
         Of the surface: "derjaguin", the law at the vertical gap, or "body", the potential of the punch at the place of
-        each point, which is known for a rigid `Ball` or paraboloid under `LennardJones` or `Mie` (see
+        each point, which is known for a rigid punch with a growth of at least 1 under `LennardJones` or `Mie` (see
         `fscm.interaction`).
 
     Attributes
@@ -204,12 +204,6 @@ class Problem:
             raise ValueError(
                 "interaction 'body' is not known for a dimensionless PowerPunch: it needs the ratio of radii to "
                 "heights; state the problem in physical units, or take 'derjaguin'"
-            )
-        of_paraboloid = interaction == "body" and not isinstance(interaction_of(punch, law, interaction), Body)
-        if of_paraboloid and graded is not None:
-            raise ValueError(
-                "interaction 'body' of a paraboloid is known on one power-law solid without surface tension, not on "
-                f"{graded!r}: take a Ball, or 'derjaguin'"
             )
         if k == 1.0 and interaction != "derjaguin":
             raise ValueError(

@@ -54,6 +54,7 @@ LAYERS = {
     "fscm": (
         ("errors", "_typing", "_threads", "_validation", "_presentation", "_response_factor", "_law_curve"),
         ("laws", "tabulated_law", "punch", "custom_punch", "measured_punch"),
+        ("_chebyshev_tree", "_potential", "_potential_table"),
         ("_body_of_revolution", "interaction", "solids", "layers", "tabulated_modulus", "custom_solid"),
         ("bodies", "_units", "_problem_checks"),
         ("accuracy",),

@@ -268,7 +268,7 @@ class Defect:
         problem, tail = f.disc.problem, f.tail
         effect = border * self._explicit(control) - self._explicit(functional)
         effect[1] -= float(np.sum(adjoint))
-        computed, remainder = tail_errors(problem, f.end, f.displacement)
+        computed, remainder = tail_errors(problem, f.end, f.displacement, energy=bool(effect[2]))
         # The closed tail is too large by `computed`.
         of_tail = np.concatenate([-effect * computed, effect * remainder])
         # The tail neglects w, which decreases outwards from the last node on, or as under a distant load.

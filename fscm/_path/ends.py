@@ -34,6 +34,7 @@ from fscm._surface.response import response_of
 from fscm._surface.state import State
 from fscm._typing import Array
 from fscm.errors import Failure, NotConverged
+from fscm.interaction import Body, BodyOfRevolution
 from fscm.problem import Problem
 
 __all__ = ["LeastLoad", "PathEnd", "depth", "displacement_of_compression"]
@@ -185,6 +186,7 @@ class LeastLoad:
         self.heights = problem.punch.height(self.radii)
         # The largest non-decreasing function below f: its tension lifts the surface most at the center.
         self._rising = np.minimum.accumulate(self.heights[::-1])[::-1]
+        self._peaks = problem.force.peak_gap(self.radii)
 
     def __call__(self, displacement: float) -> float:
         tension = self._tension(self.heights, displacement + self.deformation(displacement))
@@ -213,15 +215,18 @@ class LeastLoad:
         return self.problem.compliance * (inside + (1.0 - k) * self._tail(1.0 - k))
 
     def _tension(self, heights: Array, approach: float) -> Array:
-        law = self.problem.law
-        return np.asarray(-law.traction(np.maximum(heights - approach, law.peak_gap)))
+        gap = np.maximum(heights - approach, self._peaks)
+        return np.asarray(-self.problem.force.traction(self.radii, gap))
 
     def _tail(self, power: float) -> float:
         """Integral of t r^(power - 1) beyond the last radius."""
         C, m = self.problem.law.decay
         if C == 0.0:
             return 0.0
-        T, F = self.radii[-1], self.heights[-1]
+        T, F, force = self.radii[-1], self.heights[-1], self.problem.force
+        if isinstance(force, Body | BodyOfRevolution):
+            tension = -float(force.traction(self.radii[-1:], self.heights[-1:])[0])
+            return _TAIL_MARGIN * tension * T**power / (force.falls_as(T) - power)
         return float(C * _TAIL_MARGIN**m * F**-m * T**power / (m * self.problem.punch.growth - power))
 
     @cached_property

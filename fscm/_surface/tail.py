@@ -126,7 +126,7 @@ def _ring_integrals(problem: Problem, T: float) -> tuple[float, float, float]:
     return totals[0], totals[1], at_T + response.weight * float(at_start)
 
 
-def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array, Array]:
+def tail_errors(problem: Problem, T: float, displacement: float, energy: bool = True) -> tuple[Array, Array]:
     """Errors of load, displacement and energy of the closed tail.
 
     The closed forms are compared with quadrature of the law, on the undeformed punch, over the next radii; beyond,
@@ -136,6 +136,8 @@ def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array,
     ----------
     problem, T, displacement
         As for `tail_of`.
+    energy : bool
+        Whether that of the energy is asked for; else it is zero under the potential of a punch, where it is costly.
 
     Returns
     -------
@@ -152,7 +154,7 @@ def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array,
     (True, True)
     """
     if not isinstance(problem.force, Derjaguin):
-        return TailOfBody(problem, T, displacement).errors()
+        return TailOfBody(problem, T, displacement).errors(energy)
     C, m = problem.law.decay
     if C == 0.0 or _height(problem, T) > _ZERO:
         return np.zeros(3), np.zeros(3)

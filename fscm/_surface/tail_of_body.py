@@ -26,6 +26,8 @@ _RATIO = 4.0
 _GAUSS = np.polynomial.legendre.leggauss(20)
 #: The traction is a power beyond this many radii of the mesh, where it is one of the punch.
 _MESH_RADII = 16.0
+#: Radius, in that from which on a cone has nearly its power, at which it has it to all digits.
+_FARTHEST = 1e8
 #: Quadrature over distant rings of a solid that is no power law, as in `tail`: t^-a falls by at most exp(-_FALL)
 #: on a piece, and by exp(-_LEFT) on all of them; farthest ring whose response is computed in two ways.
 _FALL, _LEFT, _BEYOND_REACH = 8.0, 42.0, 100.0
@@ -140,24 +142,31 @@ class TailOfBody:
 
     @property
     def energy(self) -> float:
-        """int e 2 t dt."""
+        """int e 2 t dt, its finite part if it diverges."""
         t, weights = self._rule
         t_far = np.append(t, self.far)
         e = self.force.energy(t_far, self._gap(t_far))
-        beyond = 2.0 * e[-1] * self.far**2 / (self.exponent - 3.0)
-        return float((weights * 2.0 * t * t) @ e[:-1] + beyond)
+        inside = float((weights * 2.0 * t * t) @ e[:-1])
+        excess = self.exponent - 3.0
+        if excess:
+            return inside + 2.0 * float(e[-1]) * self.far**2 / excess
+        # On a cone e = A/t^2 and a term in delta/t^3: without the part of all states, that of A.
+        farthest = np.array([_FARTHEST * self.force.far_radius])
+        A = float((self.force.energy(farthest, self.problem.punch.height(farthest)) * farthest**2)[0])
+        return inside + 2.0 * (float(e[-1]) * self.far**2 - A) - 2.0 * A * math.log(self.far)
 
-    def errors(self) -> tuple[Array, Array]:
+    def errors(self, energy: bool = True) -> tuple[Array, Array]:
         """Errors of load, displacement and energy: those of the quadrature, and bounds of what is beyond `far`."""
         finer = TailOfBody(self.problem, self.T, self.displacement, 2 * self.cuts)
         p, farther = self._tractions[0][-1], float(self.traction(np.array([_RATIO * self.far]))[0])
         relative = abs(farther / p * _RATIO**self.exponent - 1.0)
         load = 2.0 * p * self.far**2 / (self.exponent - 2.0)
-        energy = 2.0 * p * self.far**2 * (abs(self.displacement) + self.force.size_of_punch + self.far)
+        of_energy = 2.0 * p * self.far**2 * (abs(self.displacement) + self.force.size_of_punch + self.far)
         lifted, of_lift = (finer.lift[0], 0.0) if self.problem.graded is None else self._lifted_by_waves(finer)
         beyond = self.problem.compliance * abs(p) * self.far ** (1.0 - self.problem.k)
-        computed = self.load[0] - finer.load[0], self.lift[0] - lifted, self.energy - finer.energy
-        remainder = relative * abs(load), relative * beyond + of_lift, relative * abs(energy)
+        change = self.energy - finer.energy if energy else 0.0
+        computed = self.load[0] - finer.load[0], self.lift[0] - lifted, change
+        remainder = relative * abs(load), relative * beyond + of_lift, relative * abs(of_energy) if energy else 0.0
         return np.array(computed), np.array(remainder)
 
     def _lifted_by_waves(self, finer: TailOfBody) -> tuple[float, float]:
