@@ -6,16 +6,14 @@ negative.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from numbers import Number
 from typing import Any, overload
 
-from fscm._problem_checks import check_bodies, check_exponents, check_parts
+from fscm._problem_checks import check_bodies, check_exponents, check_parts, check_tabor_number, checked_numbers
 from fscm._response_factor import response_factor_per_rest
 from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, units_of
-from fscm._validation import real_number
 from fscm.bodies import Bodies, ScaledSolid, power_law_of, scaled
 from fscm.interaction import Interaction, interaction_of
 from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law
@@ -23,13 +21,6 @@ from fscm.punch import PowerPunch, PunchShape, ScaledPunch, scaled_punch, unit_o
 from fscm.solids import GradedHalfSpace, PowerLaw, Solid
 
 __all__ = ["Problem"]
-
-#: Steeper punches overflow within a few contact radii: 10^300 is near the largest double.
-_LARGEST_N = 300.0
-
-#: Range of M = 2 mu^((2n+k-1)/n).  Below, the solid is rigid to every digit of a double; above, the cohesive edge, of a
-#: relative width of at most 1 / M, is as narrow as the rounding of a radius.
-_LEAST_M, _LARGEST_M = 1e-30, 1e15
 
 
 #: Arguments of the two kinds of problems, in the order of their positions.
@@ -159,33 +150,12 @@ class Problem:
         interaction: str = "derjaguin",
     ) -> None:
         """Check and set the attributes of a dimensionless problem."""
-        inf = math.inf
-        n = real_number("shape index n", n, low=0.0, high=inf, reason="f = r^n / n must grow with r")
-        k = real_number(
-            "gradient exponent k",
-            k,
-            low=0.0,
-            high=1.0,
-            reason="E = E0 (z/c0)^k has no finite surface response there",
-            closed_low=True,
-            closed_high=True,
-        )
-        mu = real_number("Tabor number mu", mu, low=0.0, high=inf, reason="it is a positive ratio of lengths")
-        if n > _LARGEST_N:
-            raise ValueError(
-                f"shape index n = {n:g} is outside (0, {_LARGEST_N:g}]: f = r^n / n overflows near the contact"
-            )
+        n, k, mu = checked_numbers(n, k, mu)
         punch = PowerPunch(n) if punch is None else punch
         law = LennardJones() if law is None else law
         check_parts(punch, law)
         check_exponents(n, k, punch, law)
-        # By logarithms: the power itself may overflow.
-        log_M = math.log(2.0) + (2.0 * n + k - 1.0) / n * math.log(mu)
-        if not math.log(_LEAST_M) <= log_M <= math.log(_LARGEST_M):
-            raise ValueError(
-                f"Tabor number mu = {mu:g} gives M = 2 mu^((2n+k-1)/n) = 10^{log_M / math.log(10.0):.0f}, outside "
-                f"[{_LEAST_M:g}, {_LARGEST_M:g}]: the solid is rigid, or its cohesive edge a point, to all digits"
-            )
+        check_tabor_number(n, k, mu)
         if graded is not None:
             check_bodies(graded, k)
         if isinstance(punch, PowerPunch) and punch != PowerPunch(n):
