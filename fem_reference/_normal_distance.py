@@ -3,7 +3,9 @@ r"""A law at the normal distance of a point of the surface to the face of the pu
 Of a law that is no sum of powers the pair potential of the atoms is not known.  It acts here as between parallel faces
 at the shortest distance d from the point to the face, so that it counts for the true area of the contact, as the
 potential of the punch does.  Left out is what the curvature of the face changes: a face of the mean curvature C (of
-1/R for a ball) has the relative term of the size d C, for a power d^-m of the law C d m/(m - 1) or so.
+1/R for a ball) takes C (d p + e) from the pressure p at d, to first order, where e is the energy of the law there: of
+a power d^-m the share C d m/(m - 1).  That may exceed what the true area adds: the pull-off force of a paraboloid of
+R = 100 z0 at w/(E* R) = 1e-3 is 3.4 % above that under the potential of the atoms, and at vertical gaps 0.4 % below it.
 
 The face is where the repulsion diverges: d and the vertical depth v of the point are those of `singular_gap`, or, for a
 law without one, of a gap of -z0.
