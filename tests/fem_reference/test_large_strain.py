@@ -32,6 +32,7 @@ from fem_reference._large_strain.discretisation import linear_event
 from fem_reference._large_strain.equilibrium import Control, solve_state
 from fem_reference._large_strain.error_parts import state_bounds, variants_of
 from fem_reference._large_strain.events import Family, found_event
+from fem_reference._large_strain.material import energy, kinematics
 from fem_reference._large_strain.surface import Surface, local_slopes
 from fem_reference._large_strain.whole_path import PathState, path_states
 from fem_reference.interaction import interaction_of
@@ -254,6 +255,23 @@ def test_the_work_of_the_load_is_the_energy(nu, friction):
     slopes = load.deriv()(inside) / delta.deriv()(inside)
     scale = np.abs(slopes).max()
     assert np.abs([state.load_slope for state in path[2:-2]] - slopes).max() < 2e-4 * scale
+
+
+@pytest.mark.parametrize("degrees", [80.0, 100.0, 170.0])
+def test_a_turned_element_has_no_energy(degrees):
+    """At a large Tabor number the surface beside the contact edge is steeper than vertical."""
+    cosine, sine = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    state = kinematics(np.array([cosine - 1.0, -sine, 0.0, sine, cosine - 1.0]).reshape(5, 1, 1))
+    assert state is not None
+    assert energy(state, np.array(1.0), np.array(2.0)) == pytest.approx(np.zeros((1, 1)), abs=1e-14)
+
+
+@pytest.mark.heavy
+def test_the_surface_overturns_at_the_edge_of_a_soft_contact():
+    """The largest tension is 1.74 E*: the surface beside the edge is no function of the radius."""
+    overturned = family(sphere(5e-3, 10.0, 0.5)).state(0.0)
+    assert -0.5 < overturned.faces.stretch.min() < -0.1
+    assert overturned.block.core.energy(overturned.u, 1.0) < math.inf
 
 
 def test_a_sphere_pulls_off_as_the_first_trial_did():
