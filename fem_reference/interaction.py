@@ -15,8 +15,9 @@ of its centre, d = s - R and D = s + R,
     p_m = z0^m { d^-m - D^-m - m/((m-1) s) [d^(1-m) - D^(1-m)] },
 
 which is (z0/d)^m for R -> infinity, and [(s^2 - R^2)/(2 R z0)]^-3 for m = 3.  With c = R - f(rho), the height of the
-centre above the face of the punch, s^2 - R^2 = (z0 + H)(2 c + z0 + H) on the sphere, which does not cancel.  That of a
-paraboloid is in `fem_reference._body_of_revolution`.
+centre above the face of the punch, s^2 - R^2 = (z0 + H)(2 c + z0 + H) on the sphere, which does not cancel.  That of
+any other shape is in `fem_reference._body_of_revolution`.  A law that is no difference of two powers acts at the normal
+distance of the point to the punch (`fem_reference._normal_distance`).
 """
 
 from __future__ import annotations
@@ -29,10 +30,11 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fem_reference._body_of_revolution import BodyOfRevolution
+from fem_reference._normal_distance import NormalDistance
 from fem_reference._typing import Array
 from fem_reference.laws import LennardJones, Mie, SurfaceLaw
 from fem_reference.profiles import Ball
-from fem_reference.punch import PowerPunch, Punch
+from fem_reference.punch import Punch
 
 __all__ = ["INTERACTIONS", "Body", "Derjaguin", "Interaction", "InteractionName", "interaction_of"]
 
@@ -55,9 +57,6 @@ _RATIO, _FARTHEST = 2.0, 1e5
 #: The distance of the largest tension is a length of the law, up to this factor.
 _WIDEST = 10.0
 
-#: Exponents of the laws whose potential of a paraboloid is known.
-_ODD = range(3, 22, 2)
-
 #: Distance in radii beyond which a ball is a point to 1e-6.
 _POINT = 1e3
 
@@ -73,6 +72,11 @@ class Interaction(Protocol):
     @property
     def law(self) -> SurfaceLaw:
         """The law of the same atoms over a half-space."""
+        ...
+
+    @property
+    def finer(self) -> Interaction:
+        """The same by a finer quadrature, or itself if it has none."""
         ...
 
     def traction(self, rho: Array, gap: Array) -> Array:
@@ -118,6 +122,11 @@ class Derjaguin:
 
     punch: Punch
     law: SurfaceLaw
+
+    @property
+    def finer(self) -> Derjaguin:
+        """Itself: there is no quadrature."""
+        return self
 
     def traction(self, rho: Array, gap: Array) -> Array:
         """p(H)."""
@@ -167,6 +176,11 @@ class Body:
 
     punch: Ball
     law: LennardJones | Mie
+
+    @property
+    def finer(self) -> Body:
+        """Itself: there is no quadrature."""
+        return self
 
     def _distances(self, rho: Array, gap: Array) -> tuple[Array, Array, Array]:
         """Distances of the centre and of the surface of the ball, and the vertical one of the centre."""
@@ -286,12 +300,13 @@ def interaction_of(punch: Punch, law: SurfaceLaw, name: InteractionName) -> Inte
     punch : Punch
     law : SurfaceLaw
     name : {"auto", "body", "derjaguin"}
-        "auto" is "body" for a `Ball` under a `LennardJones` or `Mie` law.
+        "auto" is "body" for a `Ball` under a `LennardJones` or `Mie` law.  Under another law "body" is the law at the
+        normal distance.
 
     Raises
     ------
     ValueError
-        If the name is unknown, or "body" is not known for these.
+        If the name is unknown.
 
     Examples
     --------
@@ -304,14 +319,6 @@ def interaction_of(punch: Punch, law: SurfaceLaw, name: InteractionName) -> Inte
         return Body(punch, law)
     if name != "body":
         return Derjaguin(punch, law)
-    if type(punch) is not PowerPunch or punch.n != 2.0 or not isinstance(law, LennardJones | Mie):
-        raise ValueError(
-            f"interaction 'body' is known for a Ball or a paraboloid under LennardJones or Mie, not for {punch!r} "
-            f"under {type(law).__name__}: take 'derjaguin'"
-        )
-    if not all(m in _ODD for _, m in law.powers):
-        raise ValueError(
-            f"interaction 'body' of a paraboloid is known for odd exponents from {_ODD[0]} to {_ODD[-1]}, not for "
-            f"{law!r}: take a Ball or 'derjaguin'"
-        )
-    return BodyOfRevolution(punch, law)
+    if isinstance(law, LennardJones | Mie):
+        return BodyOfRevolution(punch, law)
+    return NormalDistance(punch, law)

@@ -8,9 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from fem_reference._body_of_revolution import BodyOfRevolution
 from fem_reference._contact.bodies import condition_of
-from fem_reference._large_strain.block import Friction
+from fem_reference._contact.friction import FrictionName
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent, linear_event
 from fem_reference._large_strain.error_parts import estimate
 from fem_reference._large_strain.events import Family, found_event
@@ -56,22 +55,18 @@ EDGE_WIDTH = 0.4
 Form = Literal["auto", "displacement", "mixed"]
 
 
-def _check(problem: Problem, friction: Friction, form: Form, interaction: InteractionName) -> None:
+def _check(problem: Problem, friction: FrictionName, form: Form, interaction: InteractionName) -> None:
     """Refuse what finite strain has no answer for, before anything is computed.
 
     Raises
     ------
     ValueError
     """
-    if friction not in ("frictionless", "bonded"):
-        raise ValueError(f"friction {friction!r} is unknown; choose 'frictionless' or 'bonded'")
+    if friction not in ("none", "bonded"):
+        raise ValueError(f"friction {friction!r} is unknown; choose 'none' or 'bonded'")
     if form not in ("auto", "displacement", "mixed"):
         raise ValueError(f"form {form!r} is unknown; choose 'auto', 'displacement' or 'mixed'")
-    if isinstance(interaction_of(problem.punch, problem.law, interaction), BodyOfRevolution):
-        raise ValueError(
-            f"interaction 'body' of {problem.punch!r} is not known at finite strain, where the punch has to be a Ball; "
-            "take 'derjaguin', or `solve`"
-        )
+    interaction_of(problem.punch, problem.law, interaction)
     if problem.punch_solid is not None:
         raise ValueError(
             f"punch_solid = {problem.punch_solid!r} cannot be had at finite strain, where displacements do not add and "
@@ -91,7 +86,7 @@ def _check(problem: Problem, friction: Friction, form: Form, interaction: Intera
 
 
 def _discretisation(
-    problem: Problem, event: LinearEvent, friction: Friction, form: Form, interaction: InteractionName = "auto"
+    problem: Problem, event: LinearEvent, friction: FrictionName, form: Form, interaction: InteractionName = "auto"
 ) -> Discretisation:
     """Elements for an event."""
     largest = float(np.max(poisson_at(problem.solid.poisson, event.radius * np.geomspace(1e-6, 1e6, 200))))
@@ -114,7 +109,7 @@ def solve_large_strain(
     problem: Problem,
     quantity: str,
     accuracy: float | str = "quick",
-    friction: Friction = "frictionless",
+    friction: FrictionName = "none",
     form: Form = "auto",
     interaction: InteractionName = "auto",
 ) -> Solution:
@@ -135,13 +130,12 @@ def solve_large_strain(
         One of `LARGE_STRAIN_QUANTITIES`.
     accuracy : float or str
         Selects the meshes, as for `solve`.
-    friction : {"frictionless", "bonded"}
+    friction : {"none", "bonded"}
         "bonded" is the opposite limit: no point of the surface changes its radius, inside and outside the contact.
     form : {"auto", "displacement", "mixed"}
         Whether the pressure is a separate unknown ("mixed"); "auto" is "mixed" for nu > 0.45.
     interaction : {"auto", "body", "derjaguin"}
-        Where the surface force is taken; "auto" is "body" where it is known, for a `Ball` under a `LennardJones` or
-        `Mie` law.
+        Where the surface force is taken, as for `Problem`.
 
     Returns
     -------
@@ -153,8 +147,8 @@ def solve_large_strain(
     Raises
     ------
     ValueError
-        For an unknown name, the form "displacement" for an incompressible solid, the interaction "body" where it is not
-        known, or a modulus that vanishes at the surface.
+        For an unknown name, the form "displacement" for an incompressible solid, or a modulus that vanishes at the
+        surface.
     NoSuchEvent
         If the small-strain path, where the search begins, has no such event.
     NotConverged
@@ -213,7 +207,7 @@ class LargeStrainPath(EquilibriumPath):
 def trace_large_strain(
     problem: Problem,
     accuracy: float | str = "quick",
-    friction: Friction = "frictionless",
+    friction: FrictionName = "none",
     form: Form = "auto",
     interaction: InteractionName = "auto",
 ) -> LargeStrainPath:
@@ -265,7 +259,7 @@ def profile_large_strain(
     problem: Problem,
     event: str = "pull_off",
     accuracy: float | str = "quick",
-    friction: Friction = "frictionless",
+    friction: FrictionName = "none",
     form: Form = "auto",
     interaction: InteractionName = "auto",
 ) -> RadialField:

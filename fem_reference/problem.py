@@ -43,8 +43,9 @@ class Problem:
         Rigid by default.
     interaction : {"derjaguin", "body", "auto"}
         Where the surface force of small strain is taken: the law at the vertical gap, or the potential of a rigid punch
-        at the place of each point, which is known for a `Ball` or a paraboloid under `LennardJones` or `Mie` (of odd
-        exponents for a paraboloid); "auto" is "body" for a `Ball` under these laws.
+        at the place of each point.  That is exact under `LennardJones` or `Mie`; any other law acts at the normal
+        distance of the point to the punch, without the terms of curvature.  "auto" is "body" for a `Ball` under
+        `LennardJones` or `Mie`.
 
     Raises
     ------
@@ -123,7 +124,7 @@ class Problem:
         Raises
         ------
         ValueError
-            If the interaction is unknown, or not known for this punch and law.
+            If the interaction is unknown, or not known for an elastic punch.
         """
         return self if interaction is None else replace(self, interaction=interaction)
 

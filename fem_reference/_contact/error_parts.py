@@ -179,7 +179,14 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
             *(ResolvedEvents(fine, contact, placement) for placement in placements),
             *(ResolvedEvents(fine, contact, beside=beside) for beside in doubts),
         ),
-        tuple(ResolvedEvents(fine, choice.contact(other, size)) for other in resized),
+        (
+            *(ResolvedEvents(fine, choice.contact(other, size)) for other in resized),
+            *(
+                ResolvedEvents(fine, replace(contact, force=force.finer))
+                for force in [contact.force]
+                if force.finer is not force
+            ),
+        ),
         ResolvedEvents(fine, _with_tail(contact, choice)),
         (SEARCH_DEGREE, spec.order - 1, spec.order),
         choice.level.accuracy,

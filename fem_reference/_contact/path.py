@@ -289,9 +289,10 @@ def edge_width(point: Point) -> float:
     contact, y = point.branch.contact, point.state.y
     radius, length = point.edge_radius, contact.law.z0
     slope = -EdgeRadius(radius).parameter_rate(contact, y)
-    s, gap = contact.compliance.trace.s, contact.gap(y)
+    beside = np.flatnonzero(np.abs(y[-1] * contact.compliance.trace.s - radius) < radius)
+    s, gap = contact.compliance.trace.s[beside], contact.gap(y)[beside]
     peak = contact.force.peak_gap(y[-1] * s)
-    at_edge = (gap > peak) & (gap < peak + length) & (y[-1] * s < 2.0 * radius)
+    at_edge = (gap > peak) & (gap < peak + length)
     pairs = at_edge[:-1] & at_edge[1:]
     steepest = float(np.max(np.diff(gap)[pairs] / np.diff(s)[pairs], initial=0.0)) / float(y[-1])
     return length / (radius * (max(slope, steepest / STEEPER) if slope > 0.0 else slope))

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import SuperLU, splu
 
+from fem_reference._contact.friction import FrictionName
 from fem_reference._elastic.assembly import square_boundary
 from fem_reference._elastic.dof_ordering import line_unknowns
 from fem_reference._elastic.elasticity import EXTRA_POINTS
@@ -27,12 +27,10 @@ from fem_reference.errors import NotConverged
 from fem_reference.modulus import Modulus
 from fem_reference.poisson import PoissonRatio, poisson_at
 
-__all__ = ["EXTERIOR_RATIO", "Block", "Friction", "block_of", "factorised", "linear_response", "summed"]
+__all__ = ["EXTERIOR_RATIO", "Block", "block_of", "factorised", "linear_response", "summed"]
 
 #: Largest Poisson ratio of the exterior, whose stiffness needs a finite lambda: it changes by about 1 - 2 nu.
 EXTERIOR_RATIO = 0.5 - 2.5e-8
-
-Friction = Literal["frictionless", "bonded"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +105,7 @@ def block_of(
     nu: float | PoissonRatio,
     order: int,
     mixed: bool,
-    friction: Friction = "frictionless",
+    friction: FrictionName = "none",
     extra: int = EXTRA_POINTS,
 ) -> Block:
     """Discretise a half-space.
@@ -122,7 +120,7 @@ def block_of(
         Degree of the elements.
     mixed : bool
         Whether the pressure is an unknown of its own; an incompressible solid needs it.
-    friction : {"frictionless", "bonded"}
+    friction : {"none", "bonded"}
         Whether the points of the surface are free to slide, or keep their radii.
     extra : int
         Gauss points a direction beyond the degree.

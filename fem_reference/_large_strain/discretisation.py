@@ -10,6 +10,7 @@ from typing import cast
 
 import numpy as np
 
+from fem_reference._contact.friction import FrictionName
 from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference._contact.mesh_lengths import scales
 from fem_reference._contact.path import EDGE_RISE, Point
@@ -17,7 +18,7 @@ from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
 from fem_reference._elastic.elasticity import EXTRA_POINTS
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import variant
-from fem_reference._large_strain.block import Block, Friction, block_of
+from fem_reference._large_strain.block import Block, block_of
 from fem_reference._large_strain.equilibrium import Control, State, extrapolated, solve_state
 from fem_reference._large_strain.start import small_strain_state
 from fem_reference._large_strain.surface import Surface
@@ -69,7 +70,7 @@ class LinearEvent:
         return float(state.size * contact.compliance.trace.s[np.argmax(above)])
 
 
-def linear_problem(problem: Problem, friction: Friction = "frictionless") -> Problem:
+def linear_problem(problem: Problem, friction: FrictionName = "none") -> Problem:
     """Return a problem with a path of small strain near that of an incompressible or a bonded solid.
 
     The response of the surface of a homogeneous solid depends on E/(1 - nu^2) only; where its points keep their radii
@@ -91,7 +92,7 @@ def linear_problem(problem: Problem, friction: Friction = "frictionless") -> Pro
 
 
 def linear_event(
-    problem: Problem, event: str, accuracy: float | str = "quick", friction: Friction = "frictionless"
+    problem: Problem, event: str, accuracy: float | str = "quick", friction: FrictionName = "none"
 ) -> LinearEvent:
     """Return an event of the path of small strain, and its mesh.
 
@@ -123,7 +124,7 @@ class Discretisation:
         Side of the core in edge radii.
     mixed : bool
         Whether the pressure is an unknown of its own.
-    friction : {"frictionless", "bonded"}
+    friction : {"none", "bonded"}
     interaction : Interaction
     extra : int
         Gauss points a direction beyond the degree.
@@ -136,7 +137,7 @@ class Discretisation:
     size: float
     extent: float
     mixed: bool
-    friction: Friction
+    friction: FrictionName
     interaction: Interaction
     extra: int = EXTRA_POINTS
     feature: str = ""

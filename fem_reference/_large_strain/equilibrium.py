@@ -201,7 +201,7 @@ def _damping(state: State, step: _Step) -> float:
     factor = min(1.0, LARGEST_CHANGE * law.z0 / change) if change > 0.0 else 1.0
     while factor > SMALLEST_DAMPING:
         moved = _moved(state, step, factor)
-        if moved.faces.stretch.min() > 0.0 and _upright(moved):
+        if _upright(moved):
             return factor
         factor *= 0.5
     raise NotConverged("a Newton step turns an element inside out: the strains are too large for this mesh")

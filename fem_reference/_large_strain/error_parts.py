@@ -2,7 +2,7 @@
 
 Whatever is made coarser at least doubles what it causes of the error, so that the difference is at least that error:
 one degree less, larger elements, half of the extent of the nonlinear core, the first layer.  A finer quadrature shows
-what the quadrature causes.
+what the quadrature causes, that over the elements and that of the potential of the punch.
 """
 
 from __future__ import annotations
@@ -45,14 +45,15 @@ class Estimate:
 
 def variants_of(base: Discretisation) -> dict[str, Discretisation]:
     """Return the discretisations whose distance from the base bounds a part each; two parts may share a name."""
-    spec = base.spec
-    return {
+    spec, force = base.spec, base.interaction
+    variants = {
         "degree": replace(base, spec=replace(spec, order=spec.order - 1)),
         "density": replace(base, spec=replace(spec, density=COARSER * spec.density)),
         "core": replace(base, extent=0.5 * base.extent),
         "quadrature": replace(base, extra=base.extra + MORE_POINTS),
         "first layer": replace(base, feature="first layer"),
     }
+    return variants if force.finer is force else variants | {"force": replace(base, interaction=force.finer)}
 
 
 def _events_of(
@@ -118,7 +119,7 @@ def estimate(
         "mesh": differences["degree"] + differences["density"],
         "first layer": differences["first layer"],
         "core": differences["core"] + EXTERIOR_ERROR * abs(base),
-        "quadrature": differences["quadrature"],
+        "quadrature": differences["quadrature"] + differences.get("force", 0.0),
         "search": abs(value(rough) - functional({name: event.previous for name, event in rough.items()})),
         "algebra": abs(functional({name: _settled(event.state) for name, event in events.items()}) - base),
     }

@@ -58,7 +58,7 @@ def kinematics(gradients: Array, finiteness: float = 1.0) -> Kinematics | None:
     F = finiteness * gradients
     F[[0, HOOP, 4]] += 1.0
     det = F[0] * F[4] - F[1] * F[3]
-    if not (det.min() > 0.0 and F[HOOP].min() > 0.0 and F[0].min() > 0.0):
+    if not (det.min() > 0.0 and F[HOOP].min() > 0.0):
         return None
     inverse = np.stack([F[4] / det, -F[3] / det, 1.0 / F[HOOP], -F[1] / det, F[0] / det])
     # ln J of small gradients without cancellation.

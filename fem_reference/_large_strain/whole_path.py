@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fem_reference._contact.friction import FrictionName
 from fem_reference._contact.mesh_choice import MeshChoice, chosen, followed_path
 from fem_reference._contact.path import Point, joined, point_at
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference._large_strain.block import Friction
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent, linear_problem
 from fem_reference._large_strain.equilibrium import State
 from fem_reference._large_strain.error_parts import state_bounds
@@ -46,7 +46,10 @@ class PathState:
 
 
 def path_states(
-    problem: Problem, accuracy: float | str, friction: Friction, discretised: Callable[[LinearEvent], Discretisation]
+    problem: Problem,
+    accuracy: float | str,
+    friction: FrictionName,
+    discretised: Callable[[LinearEvent], Discretisation],
 ) -> tuple[list[PathState], str]:
     """Return the states along the path, and why it ends earlier than that of small strain, or nothing.
 
@@ -57,7 +60,7 @@ def path_states(
     ----------
     problem : Problem
     accuracy : float or str
-    friction : {"frictionless", "bonded"}
+    friction : {"none", "bonded"}
     discretised : callable
         Elements for a point of the path of small strain.
 

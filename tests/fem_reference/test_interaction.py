@@ -8,7 +8,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import fscm
-from fem_reference import Ball, LennardJones, Mie, NeoHookean, Problem, RoundedCone, solve_large_strain
+from fem_reference import Ball, LennardJones, Mie, NeoHookean, Problem, solve_large_strain
 from fem_reference.interaction import Body, interaction_of
 from tests.refusals import refused
 
@@ -86,8 +86,7 @@ def test_a_large_ball_acts_as_its_law_over_a_plane():
     assert near == pytest.approx(law.traction(gap), rel=1e-5)
 
 
-def test_what_has_no_potential_is_refused():
-    refused("RoundedCone", interaction_of, RoundedCone(1.0, 1.0), LennardJones(1.0, 1.0), "body")
+def test_an_unknown_name_is_refused():
     refused("below", interaction_of, Ball(1.0), LennardJones(1.0, 1.0), "below")
 
 

@@ -103,7 +103,7 @@ def linear_load(delta):
 def test_a_sphere_is_pressed_in_with_the_term_of_second_order():
     problem = Problem(NeoHookean(0.75, 0.5), Ball(1.0), LennardJones(ADHESION, RANGE))
     linear = linear_event(problem, "zero_load", "quick")
-    elements = _discretisation(problem, linear, "frictionless", "auto")
+    elements = _discretisation(problem, linear, "none", "auto")
     family = Family(replace(elements, spec=replace(elements.spec, edge_width=EDGE_WIDTH, order=5)), linear)
     places = [0.0, *(math.log(edge / linear.radius) for edge in EDGES)]
     for start, end in pairwise(places):

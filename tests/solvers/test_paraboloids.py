@@ -134,7 +134,7 @@ def test_over_a_stiff_solid_the_state_has_the_load_of_vertical_gaps():
     assert state.load == pytest.approx(2.0 * math.pi * 20.0 * energy, rel=1e-8)
 
 
-@by_both
+@pytest.mark.parametrize("package", [fscm])
 def test_what_is_not_known_is_refused(package):
     solid, law = package.PowerLaw(1e6, 1.0, 0.0, 0.3), package.LennardJones(0.05, 1e-9)
     sphere = package.PowerPunch(2.0, 1e-6)
@@ -153,9 +153,3 @@ def test_shapes_and_exponents_that_only_the_integral_equation_has():
 
 def test_the_aspect_has_to_be_known():
     refused("ratio of radii to heights", fscm.Problem, 2.0, 0.0, 1.0, interaction="body")
-
-
-def test_finite_strain_has_no_potential_of_a_paraboloid():
-    solid = fem_reference.NeoHookean(1e6, 0.3)
-    problem = fem_reference.Problem(solid, fem_reference.PowerPunch(2.0, 1e-6), fem_reference.LennardJones(0.05, 1e-9))
-    refused("Ball", fem_reference.solve_large_strain, problem, "pull_off_force", interaction="body")
