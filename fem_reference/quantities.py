@@ -9,7 +9,7 @@ from functools import partial
 from typing import Literal, Protocol
 
 from fem_reference._contact.events import JUMP_IN, JUMP_OUT, LANDING, SEPARATED, Jump, energy_lost, event_energy
-from fem_reference._contact.path import Point
+from fem_reference._contact.states import Point
 
 __all__ = [
     "CRITICAL_MODULUS",

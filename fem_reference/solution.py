@@ -11,13 +11,13 @@ from dataclasses import replace
 from functools import partial
 
 from fem_reference._contact.critical import stiffer_than_critical
-from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
+from fem_reference._contact.event_mesh import EventMesh, chosen, path_over_meshes
 from fem_reference._contact.events import JUMP_IN
 from fem_reference._contact.friction import FrictionName, with_friction
-from fem_reference._contact.mesh_choice import MeshChoice, chosen, path_over_meshes
 from fem_reference._contact.mesh_lengths import scales
-from fem_reference._contact.path import edge_is_resolved
+from fem_reference._contact.parts import EventsOnMeshes, events_on_meshes
 from fem_reference._contact.resolved import ResolvedEvents
+from fem_reference._contact.states import edge_is_resolved
 from fem_reference._contact.uncondensed import uncondensed_events
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
@@ -249,14 +249,14 @@ def _solved_together(
     missed: dict[str, NotConverged] = {}
     for name, row in rows.items():
         try:
-            choice, spec, size = chosen(problem, row.events, accuracy, partial(_estimated, row), start)
+            mesh = chosen(problem, row.events, accuracy, partial(_estimated, row), start)
         except NoSuchEvent as reason:
             results[name] = reason.with_traceback(None)
         else:
             break
     else:
         return results
-    meshes = events_on_meshes(choice, spec, size)
+    meshes = events_on_meshes(mesh)
     for name, row in rows.items():
         if name not in results:
             try:
@@ -268,7 +268,7 @@ def _solved_together(
     solved = {name: solution for name, solution in results.items() if isinstance(solution, Solution)}
     unresolved = _unresolved(problem, rows, solved, missed, meshes.fine)
     # All events of the whole system are columns of one linear system.
-    events = uncondensed_events(choice, spec, size)
+    events = uncondensed_events(mesh)
     on_mesh = [name for name in solved if name not in unresolved]
     events.prepare(rows[name].functional for name in on_mesh)
     seconds = time.perf_counter() - begin
@@ -282,15 +282,15 @@ def _solved_together(
     return results
 
 
-def _estimated(row: Quantity, choice: MeshChoice, spec: MeshSpec, size: float) -> None:
+def _estimated(row: Quantity, mesh: EventMesh) -> None:
     """Solve a quantity on the condensed system of all meshes, which keep the states.
 
-    If the solid does not scale, also on the whole system, which may not resolve the rates at a narrow edge.
+    If one mesh does not carry the path, also on the whole system, which may not resolve the rates at a narrow edge.
     """
     with suppress(NoSuchEvent):
-        _solution(row, events_on_meshes(choice, spec, size))
-        if not choice.scaling:
-            uncondensed_events(choice, spec, size).prepare((row.functional,))
+        _solution(row, events_on_meshes(mesh))
+        if not mesh.meshes.one_for_all:
+            uncondensed_events(mesh).prepare((row.functional,))
 
 
 def _unresolved(

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from fem_reference._contact.hermite import Interval, Sample
-from fem_reference._contact.path import Point, branches_of, point_at
+from fem_reference._contact.states import Point, branches_of, point_at
 from fem_reference.errors import NotConverged
 
 __all__ = ["complete_branch", "complete_path", "displacement_range", "displacement_sample", "load_sample"]
@@ -77,7 +77,7 @@ def complete_path(points: Sequence[Point]) -> list[Point]:
     Parameters
     ----------
     points : sequence of Point
-        A path, as `fem_reference._contact.tracing.traced` returns it.
+        A path, as `fem_reference._contact.path.traced` returns it.
 
     Returns
     -------

@@ -18,7 +18,7 @@ import numpy as np
 from scipy import linalg
 
 from fem_reference._contact.controls import CentralGap, Control, GapRise, Size
-from fem_reference._contact.path import Branch, Point, point_at
+from fem_reference._contact.states import Branch, Point, point_at
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged

@@ -11,14 +11,15 @@ import math
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from typing import Protocol
 
 import numpy as np
 
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import EdgeRadius, Size
 from fem_reference._contact.mesh_lengths import check_width
-from fem_reference._contact.path import (
+from fem_reference._contact.meshes import Meshes
+from fem_reference._contact.resolved import projected
+from fem_reference._contact.states import (
     NARROWER,
     WIDTH_SHARE,
     Branch,
@@ -28,7 +29,6 @@ from fem_reference._contact.path import (
     element_length,
     point_at,
 )
-from fem_reference._contact.resolved import projected
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
@@ -66,22 +66,13 @@ LARGEST_MOVE = 0.1
 EXTREMUM_STEP = 0.02
 
 
-class _Meshes(Protocol):
-    """What makes meshes of a problem: `fem_reference._contact.mesh_choice.MeshChoice`."""
-
-    def spec_at(self, width: float, radius: float) -> MeshSpec: ...
-
-    def contact(self, spec: MeshSpec, size: float) -> Contact: ...
-
-
 @dataclass(slots=True)
 class EdgeStates:
     """Solver of states in contact by the radius of their edge.
 
     Attributes
     ----------
-    meshes : MeshChoice
-        Of a solid that does not scale.
+    meshes : Meshes
     start : Point
         A state with a contact edge on any mesh, to begin with.
     degree : int
@@ -94,7 +85,7 @@ class EdgeStates:
         States by the radius of their edge.
     """
 
-    meshes: _Meshes
+    meshes: Meshes
     start: Point
     degree: int
     density: float
@@ -115,10 +106,10 @@ class EdgeStates:
                     f"the path in contact needs more than {MOST_STATES} states with edges between "
                     f"{min(self.states):.4g} and {max(self.states):.4g}"
                 )
-            self.states[radius] = self._on_neighbour_mesh(radius) or self.own(radius)[1]
+            self.states[radius] = self._on_neighbour_mesh(radius) or self.on_fine_mesh(radius)[1]
         return self.states[radius]
 
-    def own(self, radius: float) -> tuple[MeshSpec, Point]:
+    def on_fine_mesh(self, radius: float) -> tuple[MeshSpec, Point]:
         """Return the mesh that is fine at a radius, and the state with the contact edge there.
 
         Raises
@@ -153,11 +144,11 @@ class EdgeStates:
         Raises
         ------
         NotConverged
-            As `own`, or if the event is not found.
+            As `on_fine_mesh`, or if the event is not found.
         """
         radius = self.start.edge_radius
         for _ in range(MOVES):
-            spec, self.start = self.own(radius)
+            spec, self.start = self.on_fine_mesh(radius)
             move = -excess(self.start) / slope
             if abs(move) <= 0.5 * WIDTH_SHARE * edge_width(self.start) * radius:
                 return spec, radius
@@ -177,12 +168,12 @@ class EdgeStates:
         Raises
         ------
         NotConverged
-            As `own`, or if the extremum is not found.
+            As `on_fine_mesh`, or if the extremum is not found.
         """
         radius = self.start.edge_radius
         steps = EXTREMUM_STEP * np.arange(-2, 3)
         for _ in range(MOVES):
-            spec, self.start = self.own(radius)
+            spec, self.start = self.on_fine_mesh(radius)
             values = [value(self.similar(spec, radius * math.exp(x))) for x in steps]
             polynomial = np.polynomial.Polynomial.fit(steps, values, steps.size - 1)
             rate, bend = polynomial.deriv(), polynomial.deriv(2)

@@ -25,15 +25,14 @@ import numpy as np
 from fem_reference._contact.bodies import meshed_bodies
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.event_equations import EventEquations
+from fem_reference._contact.event_mesh import EventMesh
 from fem_reference._contact.events import Jump, PathEvents, beginning_of
 from fem_reference._contact.full_system import FullSystem
-from fem_reference._contact.mesh_choice import MeshChoice
-from fem_reference._contact.path import Point
 from fem_reference._contact.resolved import ResolvedEvents
+from fem_reference._contact.states import Point
 from fem_reference._elastic.assembly import HalfSpace
 from fem_reference._elastic.compliance import Addend
 from fem_reference._elastic.condensation import surface_stiffness
-from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._linear.linear_solver import LinearResult, solve_cg
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
@@ -181,7 +180,7 @@ class UncondensedEvents:
         if missing:
             # A jump ends at the displacement where it begins, which therefore comes first.
             for end in sorted(missing):
-                begin = None if missing[end].held else beginning_of(end)
+                begin = None if missing[end].pinned else beginning_of(end)
                 if begin is not None:
                     missing = {begin: condensed[begin], **missing}
             self._solve(missing)
@@ -384,14 +383,12 @@ def _left(half_space: HalfSpace, load: Array, u: Array) -> Array:
 
 # As many as there are paths: an entry holds surface displacements only.
 @lru_cache(maxsize=12)
-def uncondensed_events(choice: MeshChoice, spec: MeshSpec, size: float) -> UncondensedEvents:
+def uncondensed_events(mesh: EventMesh) -> UncondensedEvents:
     """Return the events of a problem on a mesh, solved without condensation when they are needed.
 
     Parameters
     ----------
-    choice : MeshChoice
-    spec, size
-        As for `MeshChoice.traced`.
+    mesh : EventMesh
 
     Returns
     -------
@@ -404,8 +401,8 @@ def uncondensed_events(choice: MeshChoice, spec: MeshSpec, size: float) -> Uncon
     """
 
     def system() -> FullSystem:
-        first, *others = meshed_bodies(choice.problem, spec, size)
-        return FullSystem(first.half_space, choice.problem.force, first.preconditioner, others)
+        problem = mesh.meshes.problem
+        first, *others = meshed_bodies(problem, mesh.spec, mesh.size)
+        return FullSystem(first.half_space, problem.force, first.preconditioner, others)
 
-    path = choice.traced(spec, size)
-    return UncondensedEvents(path, choice.lower_contact(spec, size), system)
+    return UncondensedEvents(mesh.events, mesh.lower_contact, system)

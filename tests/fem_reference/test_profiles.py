@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fem_reference import MeasuredPunch, NotConverged, PowerLaw, PowerSum
-from fem_reference._contact.mesh_choice import chosen
+from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.mesh_lengths import kinks_within
 from fem_reference._elastic.mesh import MeshSpec, graded_grid
 from fem_reference._elastic.trace import trace_of

@@ -12,8 +12,8 @@ from fem_reference._contact.contact import Contact
 from fem_reference._contact.event_equations import EventEquations
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.full_system import FullSystem
+from fem_reference._contact.path import traced
 from fem_reference._contact.resolved import ResolvedEvents
-from fem_reference._contact.tracing import traced
 from fem_reference._contact.uncondensed import UncondensedEvents, UncondensedValue
 from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.compliance import compliance_for
@@ -144,10 +144,10 @@ def test_the_end_of_a_jump_moves_with_its_beginning(soft_path):
 
 def test_the_end_of_a_further_jump_is_kept_on_any_mesh(soft_path):
     """It begins at an edge for which the mesh is not fine, and is not looked for at its displacement."""
-    end = replace(soft_path.landing, held=True)
+    end = replace(soft_path.landing, pinned=True)
     events = ResolvedEvents(SimpleNamespace(anchor=lambda event: (end, end.displacement_rate)), _soft_contact(1e-3))
     landing = events.at("landing_2")
-    assert landing.held
+    assert landing.pinned
     assert landing.parameter == end.parameter
     assert landing.state.displacement != end.state.displacement
     equation = EventEquations("landing_2", end, _soft_contact())

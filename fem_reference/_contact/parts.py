@@ -3,7 +3,7 @@
 An event of the path is solved again on each of the others.  No part is taken from another method, and none is a factor
 times another.
 
-* mesh: the same elements with two lower degrees (`fem_reference._contact.uncertainty`).  If the solid does not scale,
+* mesh: the same elements with two lower degrees (`fem_reference._contact.degree_error`).  If the solid does not scale,
   the lower one of both neighbours has the contact edge half an element further out as well.  A law from a table has
   kinks, whose error does not fall with the degree but depends on where they are in the elements: there the differences
   from elements of other lengths are added.
@@ -27,15 +27,16 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from fem_reference._contact.contact import Contact
-from fem_reference._contact.mesh_choice import MeshChoice
+from fem_reference._contact.degree_error import degree_error
+from fem_reference._contact.event_mesh import EventMesh
 from fem_reference._contact.mesh_lengths import OTHER_LENGTHS
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tail import TailContact
-from fem_reference._contact.uncertainty import degree_error
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import ENDS, FEATURES, variant
 from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.errors import NotConverged
+from fem_reference.problem import Problem
 from fem_reference.tabulated_law import TabulatedLaw
 
 __all__ = ["PARTS", "Estimate", "EventsOnMeshes", "events_on_meshes"]
@@ -143,51 +144,53 @@ class EventsOnMeshes:
 
 # The quantities of one problem are requested one after the other, on the meshes of two kinds of events.
 @lru_cache(maxsize=4)
-def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsOnMeshes:
+def events_on_meshes(mesh: EventMesh) -> EventsOnMeshes:
     """Return the events of a problem on all meshes of an accuracy.
 
     Parameters
     ----------
-    choice : MeshChoice
-    spec, size
-        As `fem_reference._contact.mesh_choice.chosen` returns them.
+    mesh : EventMesh
+        The finest.
 
     Raises
     ------
     NotConverged
         If the path cannot be traced.
     """
-    fine = choice.traced(spec, size)
-    contact = fine.contact
+    fine, meshes, spec = mesh.events, mesh.meshes, mesh.spec
+    problem, contact = meshes.problem, fine.contact
     plain = replace(spec, order=SEARCH_DEGREE)
     # Another placement of the edge needs another mesh if the solid does not scale: that of the degree below.
-    placements = (-PLACEMENT, PLACEMENT) if choice.scaling else ()
-    doubts = (-1.0, 1.0) if fine.doubt(choice.event) > 0.0 else ()
+    placements = (-PLACEMENT, PLACEMENT) if meshes.one_for_all else ()
+    sides = (-1.0, 1.0) if mesh.event and fine.anchor(mesh.event).radius_error > 0.0 else ()
+
+    def on(other: MeshSpec) -> Contact:
+        return meshes.contact(other, mesh.size)
 
     @lru_cache(maxsize=2 * len(FEATURES))
     def feature(name: str, full: bool) -> ResolvedEvents:
-        return ResolvedEvents(fine, choice.contact(variant(spec if full else plain, name), size))
+        return ResolvedEvents(fine, on(variant(spec if full else plain, name)))
 
-    has_kinks = isinstance(choice.problem.law, TabulatedLaw)
+    has_kinks = isinstance(problem.law, TabulatedLaw)
     resized = [replace(spec, density=ratio * spec.density) for ratio in OTHER_LENGTHS if has_kinks]
     return EventsOnMeshes(
         fine,
-        ResolvedEvents(fine, choice.lower_contact(spec, size)),
-        ResolvedEvents(fine, choice.contact(plain, size)),
+        ResolvedEvents(fine, mesh.lower_contact),
+        ResolvedEvents(fine, on(plain)),
         feature,
         (
             *(ResolvedEvents(fine, contact, placement) for placement in placements),
-            *(ResolvedEvents(fine, contact, beside=beside) for beside in doubts),
+            *(ResolvedEvents(fine, contact, beside=beside) for beside in sides),
         ),
-        tuple(ResolvedEvents(fine, choice.contact(other, size)) for other in resized),
-        ResolvedEvents(fine, _with_tail(contact, choice)),
+        tuple(ResolvedEvents(fine, on(other)) for other in resized),
+        ResolvedEvents(fine, _with_tail(contact, problem)),
         (SEARCH_DEGREE, spec.order - 1, spec.order),
-        choice.level.accuracy,
+        meshes.level.accuracy,
     )
 
 
-def _with_tail(contact: Contact, choice: MeshChoice) -> Contact:
+def _with_tail(contact: Contact, problem: Problem) -> Contact:
     """The contact with the displacement beyond the mesh."""
     # Far away the body moves most whose displacement falls most slowly.
-    depth_exponent = min(solid.modulus.depth_exponent for solid in choice.problem.solids)
+    depth_exponent = min(solid.modulus.depth_exponent for solid in problem.solids)
     return TailContact(contact.force, contact.compliance, depth_exponent)
