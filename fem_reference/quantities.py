@@ -48,14 +48,14 @@ class Quantity:
         Its value from the events of a path, in the units of the problem.
     kind : {"force", "length", "energy", "modulus"}
         A length near zero is measured by the length of the surface law.
-    parts : tuple of str
+    terms : tuple of str
         Quantities whose sum it is, each with the contact edge at one radius.
     """
 
     events: tuple[str, ...]
     functional: Callable[[Events], float]
     kind: Literal["force", "length", "energy", "modulus"]
-    parts: tuple[str, ...] = ()
+    terms: tuple[str, ...] = ()
 
 
 #: Energies lost by the jump into contact and the jump out of contact. Each needs the contact edge at one radius only,
@@ -73,7 +73,7 @@ TABLE = {
     "jump_out_gap": Quantity(("jump_out",), lambda e: e.at("jump_out").state.central_gap, "length"),
     "zero_load_displacement": Quantity(("zero_load",), lambda e: e.at("zero_load").state.displacement, "length"),
     "hysteresis_energy": Quantity(
-        (JUMP_OUT, LANDING), lambda e: math.fsum(energy_lost(e, jump) for jump in e.jumps), "energy", parts=LOSSES
+        (JUMP_OUT, LANDING), lambda e: math.fsum(energy_lost(e, jump) for jump in e.jumps), "energy", terms=LOSSES
     ),
     "jump_in_energy": Quantity((LANDING,), lambda e: energy_lost(e, (JUMP_IN, LANDING)), "energy"),
     "jump_out_energy": Quantity((JUMP_OUT,), lambda e: energy_lost(e, (JUMP_OUT, SEPARATED)), "energy"),

@@ -23,7 +23,7 @@ from fem_reference._contact.friction import BondedSolid
 from fem_reference._contact.path import traced
 from fem_reference._contact.states import Point
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference.errors import NoSuchEvent, NotConverged
+from fem_reference.errors import Failure, NoSuchEvent, NotConverged
 from fem_reference.problem import Problem
 from fem_reference.punch import radius_at_height
 from fem_reference.solids import OffsetPowerLaw, PowerLaw
@@ -168,7 +168,7 @@ def _cusp_between(soft: _Trial, stiff: _Trial, trial: Callable[[float], _Trial])
                 return cusp
         middle = trial(0.5 * (soft.log_ratio + stiff.log_ratio))
         soft, stiff = (soft, middle) if middle.rate > 0.0 else (middle, stiff)
-    raise NotConverged("the modulus at which jumps begin was not found; take a finer accuracy")
+    raise NotConverged("the modulus at which jumps begin was not found", Failure.EVENT)
 
 
 def _stiffness(contact: Contact) -> float:

@@ -14,11 +14,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from fem_reference._contact.carried import projected
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import EdgeRadius, Size
 from fem_reference._contact.mesh_lengths import check_width
 from fem_reference._contact.meshes import Meshes
-from fem_reference._contact.resolved import projected
 from fem_reference._contact.states import (
     NARROWER,
     WIDTH_SHARE,
@@ -31,7 +31,7 @@ from fem_reference._contact.states import (
 )
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._typing import Array
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["EdgeStates"]
 
@@ -104,7 +104,8 @@ class EdgeStates:
             if len(self.states) >= MOST_STATES:
                 raise NotConverged(
                     f"the path in contact needs more than {MOST_STATES} states with edges between "
-                    f"{min(self.states):.4g} and {max(self.states):.4g}"
+                    f"{min(self.states):.4g} and {max(self.states):.4g}",
+                    Failure.MESH,
                 )
             self.states[radius] = self._on_neighbour_mesh(radius) or self.on_fine_mesh(radius)[1]
         return self.states[radius]
@@ -129,7 +130,7 @@ class EdgeStates:
             check_width(width)
             if width >= spec.edge_width:
                 return spec, point
-        raise NotConverged(f"the width of the contact edge was not found at the radius {radius:.4g}")
+        raise NotConverged(f"the width of the contact edge was not found at the radius {radius:.4g}", Failure.MESH)
 
     def located(self, excess: Callable[[Point], float], slope: float) -> tuple[MeshSpec, float]:
         """Return the mesh that is fine at the contact edge of an event near the start, and the radius of that edge.
@@ -153,7 +154,7 @@ class EdgeStates:
             if abs(move) <= 0.5 * WIDTH_SHARE * edge_width(self.start) * radius:
                 return spec, radius
             radius += float(np.clip(move, -LARGEST_MOVE * radius, LARGEST_MOVE * radius))
-        raise NotConverged(f"the contact edge of an event was not found near the radius {radius:.4g}")
+        raise NotConverged(f"the contact edge of an event was not found near the radius {radius:.4g}", Failure.EVENT)
 
     def extremum(self, value: Callable[[Point], float]) -> tuple[float, float]:
         """Return the radius at which a value is stationary near the start, and its second derivative there.
@@ -183,7 +184,7 @@ class EdgeStates:
                     x -= float(rate(x) / bend(x))
                 return radius * math.exp(x), float(bend(x)) / radius**2
             radius *= math.exp(float(np.clip(x, -LARGEST_MOVE, LARGEST_MOVE)))
-        raise NotConverged(f"the contact edge of an extremum was not found near the radius {radius:.4g}")
+        raise NotConverged(f"the contact edge of an extremum was not found near the radius {radius:.4g}", Failure.EVENT)
 
     def similar(self, spec: MeshSpec, radius: float) -> Point:
         """The state with the contact edge at a radius, on a mesh as fine at its edge as another one."""
@@ -229,7 +230,8 @@ def _state_from(nearest: Point, contact: Contact, radius: float) -> Point:
             if point.state.iterations <= MOST_STEPS:
                 return point
     raise NotConverged(
-        f"no equilibrium was found with the contact edge at {radius:.6g}, from that at {nearest.edge_radius:.6g}"
+        f"no equilibrium was found with the contact edge at {radius:.6g}, from that at {nearest.edge_radius:.6g}",
+        Failure.ITERATION,
     )
 
 

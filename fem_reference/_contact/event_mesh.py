@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeVar
 
+from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.events import CUSP, PathEvents
 from fem_reference._contact.followed import followed_path
 from fem_reference._contact.meshes import Meshes
-from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.width_search import WidthSearch, path_on, search_path_on
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import finer_levels
@@ -66,7 +66,7 @@ class EventMesh:
         return self.meshes.lower_contact(self.spec, self.size)
 
     @property
-    def events(self) -> ResolvedEvents:
+    def events(self) -> CarriedEvents:
         """The events of the path on this mesh; kept for all quantities.
 
         Raises
@@ -74,7 +74,7 @@ class EventMesh:
         NotConverged
             If the path cannot be traced.
         """
-        return _resolved(self)
+        return _carried(self)
 
     @property
     def whole_path(self) -> PathEvents:
@@ -89,7 +89,7 @@ class EventMesh:
 
 
 def event_mesh(meshes: Meshes, events: Sequence[str], start: tuple[MeshSpec, float] | None = None) -> EventMesh:
-    """Return the mesh whose edge width, and size if a mesh holds for one, fits the computed gap.
+    """Return the mesh whose edge width, and size if a mesh holds for one, suits the computed gap.
 
     Parameters
     ----------
@@ -189,10 +189,10 @@ def _on_first(problem: Problem, accuracy: float | str, computed: Callable[[Meshe
 
 
 @lru_cache(maxsize=12)
-def _resolved(mesh: EventMesh) -> ResolvedEvents:
+def _carried(mesh: EventMesh) -> CarriedEvents:
     """Events of a path on the mesh of one of them, or on the mesh of the whole path."""
     if mesh.event:
         path = followed_path(mesh.meshes).events(mesh.event)
     else:
         path = search_path_on(mesh.meshes, mesh.spec, mesh.size)
-    return ResolvedEvents(path, mesh.contact)
+    return CarriedEvents(path, mesh.contact)

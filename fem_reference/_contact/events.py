@@ -19,7 +19,7 @@ from fem_reference._contact.completeness import complete_path
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import cusp_from, slowest
 from fem_reference._contact.states import Point, joined, point_at
-from fem_reference.errors import NoSuchEvent, NotConverged
+from fem_reference.errors import Failure, NoSuchEvent, NotConverged
 
 __all__ = [
     "CUSP",
@@ -263,7 +263,8 @@ class PathEvents:
         folds = [point for point in self.points if point.displacement_rate <= 0.0]
         if folds:
             raise NotConverged(
-                f"the displacement has a fold near {folds[0].state.displacement:.6g}, where none should be"
+                f"the displacement has a fold near {folds[0].state.displacement:.6g}, where none should be",
+                Failure.EVENT,
             )
         return cusp_from(slowest(self.samples))
 
@@ -319,7 +320,8 @@ class PathEvents:
         if not outside:
             raise NotConverged(
                 f"two folds near delta = {self.jump_out.state.displacement:.6g} are equally low within the error of "
-                "the path: which of them is the last on retreat is not decided"
+                "the path: which of them is the last on retreat is not decided",
+                Failure.FOLDS,
             )
         return jumps
 

@@ -14,7 +14,7 @@ times another.
   at the radius where the values of states beside it have an extremum, and as far on the other side, where that was
   looked for.
 * tail: the displacement that the mesh leaves out, by its first term.
-* algebra: rounding of the quantity itself.  The whole system (`fem_reference._contact.uncondensed`) adds what its
+* rounding: that of the quantity itself.  The whole system (`fem_reference._contact.uncondensed`) adds what its
   displacement leaves of the traction, and its distance from the condensed system.
 """
 
@@ -26,11 +26,11 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.degree_error import degree_error
 from fem_reference._contact.event_mesh import EventMesh
 from fem_reference._contact.mesh_lengths import OTHER_LENGTHS
-from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tail import TailContact
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import ENDS, FEATURES, variant
@@ -42,7 +42,7 @@ from fem_reference.tabulated_law import TabulatedLaw
 __all__ = ["PARTS", "Estimate", "EventsOnMeshes", "events_on_meshes"]
 
 #: Names of the parts of a bound.
-PARTS = ("mesh", "first layer", "interior and exterior", "edge", "tail", "algebra")
+PARTS = ("mesh", "first layer", "interior and exterior", "edge", "tail", "rounding")
 
 #: Relative rounding of a quantity itself, whatever else its parts show (measured: 6e-15 of a force from one kernel of
 #: the BLAS to another, where nothing else was left).
@@ -51,7 +51,7 @@ ROUNDING = 1e-14
 #: Distance by which the contact edge is placed beside its node, in halves of the element beyond it.
 PLACEMENT = 0.5
 
-Functional = Callable[[ResolvedEvents], float]
+Functional = Callable[[CarriedEvents], float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,17 +76,17 @@ class EventsOnMeshes:
 
     Attributes
     ----------
-    fine : ResolvedEvents
+    fine : CarriedEvents
         With the highest degree.
-    lower, base : ResolvedEvents
+    lower, base : CarriedEvents
         With the degree below, and with the lowest.
     feature : callable
         Returns the events with a feature made coarser, of the lowest degree or, with True, of the highest.
-    placements : tuple of ResolvedEvents
+    placements : tuple of CarriedEvents
         With another placement of the contact edge.
-    resized : tuple of ResolvedEvents
+    resized : tuple of CarriedEvents
         With elements of other lengths, for a law with kinks.
-    tail : ResolvedEvents
+    tail : CarriedEvents
         With the displacement beyond the mesh.
     degrees : tuple of int
         Of `base`, `lower` and `fine`.
@@ -94,13 +94,13 @@ class EventsOnMeshes:
         Relative error asked for.
     """
 
-    fine: ResolvedEvents
-    lower: ResolvedEvents
-    base: ResolvedEvents
-    feature: Callable[[str, bool], ResolvedEvents]
-    placements: tuple[ResolvedEvents, ...]
-    resized: tuple[ResolvedEvents, ...]
-    tail: ResolvedEvents
+    fine: CarriedEvents
+    lower: CarriedEvents
+    base: CarriedEvents
+    feature: Callable[[str, bool], CarriedEvents]
+    placements: tuple[CarriedEvents, ...]
+    resized: tuple[CarriedEvents, ...]
+    tail: CarriedEvents
     degrees: tuple[int, int, int]
     accuracy: float
 
@@ -168,22 +168,22 @@ def events_on_meshes(mesh: EventMesh) -> EventsOnMeshes:
         return meshes.contact(other, mesh.size)
 
     @lru_cache(maxsize=2 * len(FEATURES))
-    def feature(name: str, full: bool) -> ResolvedEvents:
-        return ResolvedEvents(fine, on(variant(spec if full else plain, name)))
+    def feature(name: str, full: bool) -> CarriedEvents:
+        return CarriedEvents(fine, on(variant(spec if full else plain, name)))
 
     has_kinks = isinstance(problem.law, TabulatedLaw)
     resized = [replace(spec, density=ratio * spec.density) for ratio in OTHER_LENGTHS if has_kinks]
     return EventsOnMeshes(
         fine,
-        ResolvedEvents(fine, mesh.lower_contact),
-        ResolvedEvents(fine, on(plain)),
+        CarriedEvents(fine, mesh.lower_contact),
+        CarriedEvents(fine, on(plain)),
         feature,
         (
-            *(ResolvedEvents(fine, contact, placement) for placement in placements),
-            *(ResolvedEvents(fine, contact, beside=beside) for beside in sides),
+            *(CarriedEvents(fine, contact, placement) for placement in placements),
+            *(CarriedEvents(fine, contact, beside=beside) for beside in sides),
         ),
-        tuple(ResolvedEvents(fine, on(other)) for other in resized),
-        ResolvedEvents(fine, _with_tail(contact, problem)),
+        tuple(CarriedEvents(fine, on(other)) for other in resized),
+        CarriedEvents(fine, _with_tail(contact, problem)),
         (SEARCH_DEGREE, spec.order - 1, spec.order),
         meshes.level.accuracy,
     )

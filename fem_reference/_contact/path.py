@@ -23,7 +23,7 @@ from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import CentralGap, Control, EdgeGap, EdgeRadius, GapRise, Size
 from fem_reference._contact.states import Branch, Point, continuation
 from fem_reference._elastic.compliance import FixedCompliance
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 from fem_reference.punch import kinks_of, radius_at_height
 
 __all__ = ["BESIDE", "EDGE_RISE", "beginning", "equilibrium_points", "traced"]
@@ -76,7 +76,8 @@ def _farthest(branch: Branch, size: float) -> Point:
             if start > FARTHEST_START:
                 raise NotConverged(
                     f"no equilibrium was found at central gaps of up to {FARTHEST_START:g} lengths of the law, where "
-                    "the approach begins: the solid is too soft for the adhesion; take a stiffer one"
+                    "the approach begins: the solid is too soft for the adhesion",
+                    Failure.START,
                 ) from error
 
 
@@ -115,9 +116,7 @@ def first_edge_radius(point: Point) -> float:
     trace, force = contact.compliance.trace, contact.force
     above = np.flatnonzero(contact.gap(y) > force.peak_gap(y[-1] * trace.s))
     if above.size == 0 or above[0] == 0:
-        raise NotConverged(
-            "contact begins on a spot smaller than the mesh resolves: take a stiffer surface or less adhesion"
-        )
+        raise NotConverged("contact begins on a spot smaller than the mesh resolves", Failure.MESH)
 
     def excess(s: float) -> float:
         w = float(trace.evaluate(np.array([s]))[0] @ y[:-2])

@@ -152,7 +152,8 @@ def continuation(point: Point, step: float, stop: float) -> Iterator[Point]:
             if abs(step) < SMALLEST_STEP * largest:
                 raise NotConverged(
                     f"the path stops at H0 = {point.state.central_gap:.6g}, delta = "
-                    f"{point.state.displacement:.6g}: {error}"
+                    f"{point.state.displacement:.6g}: {error.reason}",
+                    error.failure,
                 ) from error
             continue
         step *= 1.6 if new.state.iterations <= 4 else (0.7 if new.state.iterations > 7 else 1.0)

@@ -26,7 +26,7 @@ from fem_reference._contact.path import EDGE_RISE, traced
 from fem_reference._contact.states import NARROWER, WIDTH_SHARE, Point, edge_width
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import SEARCH_DEGREE
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 from fem_reference.punch import radius_at_height
 
 __all__ = ["FAR_SHARE", "WidthSearch", "path_on", "search_path_on"]
@@ -57,12 +57,13 @@ REFINEMENTS = 10
 
 # The paths of one problem: the search for the width, on the meshes of two kinds of events.
 @lru_cache(maxsize=12)
-def _path_or_reason(meshes: Meshes, spec: MeshSpec, size: float) -> PathEvents | str:
+def _path_or_reason(meshes: Meshes, spec: MeshSpec, size: float) -> PathEvents | NotConverged:
     """The path, or why it cannot be traced: the next quantity would try it again."""
     try:
         return PathEvents(tuple(traced(meshes.contact(spec, size))))
-    except NotConverged as reason:
-        return str(reason)
+    except NotConverged as error:
+        # Without its traceback, which would keep every frame of the path.
+        return NotConverged(error.reason, error.failure)
 
 
 def path_on(meshes: Meshes, spec: MeshSpec, size: float) -> PathEvents:
@@ -74,8 +75,8 @@ def path_on(meshes: Meshes, spec: MeshSpec, size: float) -> PathEvents:
         If it cannot be traced there.
     """
     path = _path_or_reason(meshes, spec, size)
-    if isinstance(path, str):
-        raise NotConverged(path)
+    if isinstance(path, NotConverged):
+        raise path.with_traceback(None)
     return path
 
 
@@ -139,7 +140,7 @@ class WidthSearch:
                 return spec, size
             spec = following
         raise NotConverged(
-            "the width of the contact edge was not found; the edge is narrower than the mesh can resolve"
+            "the width of the contact edge was not found: the edge is narrower than the mesh can resolve", Failure.MESH
         )
 
     def _first(self) -> tuple[MeshSpec, float]:

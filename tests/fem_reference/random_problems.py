@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from fem_reference import NotConverged, Solution, solve_together
+from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.parts import events_on_meshes
-from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference.quantities import TABLE as QUANTITIES
 from tests.fem_reference.solved_together import problem_with
 from tests.random_tables import complete
@@ -74,7 +74,7 @@ def rows(number: int, accuracy: str = "quick") -> list[dict[str, object]]:
         extent=2.0 * spec.extent,
         apex_width=0.25 * (spec.apex_width or 0.0),
     )
-    reference = ResolvedEvents(events_on_meshes(mesh).fine, mesh.meshes.contact(finer, mesh.size))
+    reference = CarriedEvents(events_on_meshes(mesh).fine, mesh.meshes.contact(finer, mesh.size))
     table: list[dict[str, object]] = []
     for name, solution in solutions.items():
         row = {**head, "quantity": name, "status": type(solution).__name__}

@@ -79,7 +79,7 @@ def test_the_value_is_that_of_the_integral_equation():
     assert abs(solution.value - MODULUS) <= solution.u_num < 1e-5 * solution.value
     assert solution.u_num == pytest.approx(sum(solution.parts.values()))
     # The whole system and the condensed one have the same cusp.
-    assert solution.parts["algebra"] < 1e-9 * solution.value
+    assert solution.parts["rounding"] < 1e-9 * solution.value
     assert solution.value == pytest.approx(solution.values[-1], rel=1e-9)
 
 

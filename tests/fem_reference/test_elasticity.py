@@ -14,7 +14,7 @@ from fem_reference._elastic.dissection import LEAF, condensed_on
 from fem_reference._elastic.elasticity import Body, element_places, gauss_product, lame_parameters, stiffness
 from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import ChartMapping, InteriorChart
-from fem_reference._elastic.mesh import Grid, MeshSpec, graded_grid, uniform_grid
+from fem_reference._elastic.mesh import Grid, MeshSpec, edge_grid, uniform_grid
 from fem_reference._elastic.trace import trace_of
 from fem_reference.depth_profiles import TableModulus
 from fem_reference.errors import NotConverged
@@ -84,11 +84,11 @@ def test_batched_contraction_equals_bilinear_forms(nu):
 
 
 def test_rigid_translation_costs_nothing_and_matrix_is_symmetric():
-    _, matrix = _interior(graded_grid(extent=4.0), PowerLawModulus(1.0, 1.0, 0.4), 0.3, 4)
+    _, matrix = _interior(edge_grid(extent=4.0), PowerLawModulus(1.0, 1.0, 0.4), 0.3, 4)
     assert abs(matrix - matrix.T).max() <= 1e-13 * abs(matrix).max()
     translation = np.zeros(matrix.shape[0])
     # Vertex functions sum to 1.
-    body_basis = Basis(graded_grid(extent=4.0).quads(), ElementQuadP(4), intorder=2, disable_doflocs=True)
+    body_basis = Basis(edge_grid(extent=4.0).quads(), ElementQuadP(4), intorder=2, disable_doflocs=True)
     translation[2 * body_basis.nodal_dofs[0] + 1] = 1.0
     assert np.abs(matrix @ translation).max() <= 1e-12 * abs(matrix).max()
 

@@ -6,9 +6,9 @@ from functools import lru_cache
 
 import pytest
 
+from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.parts import PARTS, events_on_meshes
-from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.quantities import LOSSES, TABLE
 from tests.fem_reference.solved_together import PROBLEM, solved
@@ -38,7 +38,7 @@ def _finer_events():
     spec = mesh.spec
     depth, density = spec.surface_depth / 4, 0.85 * mesh.meshes.level.density
     finer = replace(spec, order=7, density=density, surface_depth=depth, extent=4 * spec.extent)
-    return ResolvedEvents(_meshes().fine, _contact(finer))
+    return CarriedEvents(_meshes().fine, _contact(finer))
 
 
 @pytest.mark.parametrize("quantity", TABLE)

@@ -72,7 +72,7 @@ ON_MESHES = {
 }  # fmt: skip
 EXPECTED = {
     "mesh": 0.0018913, "first layer": 1e-3, "interior and exterior": 3e-4, "edge": 4e-5, "tail": 6e-6,
-    "algebra": ROUNDING * FINE,
+    "rounding": ROUNDING * FINE,
 }  # fmt: skip
 
 

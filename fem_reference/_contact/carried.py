@@ -20,9 +20,9 @@ from fem_reference._contact.events import CUSP, Anchor, Jump, PathEvents, beginn
 from fem_reference._contact.states import WIDTH_SHARE, Branch, Point, edge_width, point_at
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
-__all__ = ["ResolvedEvents", "carried", "projected", "projected_rate"]
+__all__ = ["CarriedEvents", "carried", "projected", "projected_rate"]
 
 #: Largest number of secant steps; two are usual, from an event that differs by 1e-6.
 SECANT_STEPS = 12
@@ -44,12 +44,12 @@ ELEMENT_SHARE = 0.5
 LARGEST_SHIFT = 0.3
 
 
-class ResolvedEvents:
+class CarriedEvents:
     """The events of a path on another mesh, each solved once.
 
     Parameters
     ----------
-    path : PathEvents or ResolvedEvents
+    path : PathEvents or CarriedEvents
         The complete path on the finest mesh, or on a mesh for each radius; or its events on the finest mesh.
     contact : Contact
         The same problem on another mesh.
@@ -61,7 +61,7 @@ class ResolvedEvents:
     """
 
     def __init__(
-        self, path: PathEvents | ResolvedEvents, contact: Contact, placement: float = 0.0, beside: float = 0.0
+        self, path: PathEvents | CarriedEvents, contact: Contact, placement: float = 0.0, beside: float = 0.0
     ) -> None:
         self._path, self.contact, self._placement, self._beside = path, contact, placement, beside
         self._points: dict[str, Point] = {}
@@ -139,7 +139,9 @@ class ResolvedEvents:
                 slope = change / step
         # On a coarser mesh a rate may have several roots within an element, which are all the event there.
         if nearest[0] > ELEMENT_SHARE * _largest_shift(nearest[1]) or not _moves_over_elements(nearest[1]):
-            raise NotConverged(f"an event near delta = {original.state.displacement:.6g} was not found on another mesh")
+            raise NotConverged(
+                f"an event near delta = {original.state.displacement:.6g} was not found on another mesh", Failure.EVENT
+            )
         return nearest[1]
 
 
