@@ -16,10 +16,11 @@ from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import ChartMapping, InteriorChart
 from fem_reference._elastic.mesh import Grid, MeshSpec, edge_grid, uniform_grid
 from fem_reference._elastic.trace import trace_of
-from fem_reference.depth_profiles import TableModulus
+from fem_reference.depth_profiles import CustomProfile
 from fem_reference.errors import NotConverged
-from fem_reference.modulus import CustomModulus, OffsetPowerLawModulus, PowerLawModulus
+from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
 from fem_reference.verification.load_vectors import smooth_load
+from tests.fem_reference.profile_solid import table_of_moduli
 from tests.refusals import refused
 
 #: Same Gauss points, other order of summation: measured 5e-15.
@@ -100,7 +101,7 @@ def test_nu_one_half_and_low_order_are_refused():
 
 
 def test_modulus_that_vanishes_is_refused():
-    refused("not positive", _interior, uniform_grid(1.0, 2), CustomModulus(np.zeros_like, 0.0, 0.0, 1.0), 0.3, 2)
+    refused("not positive", _interior, uniform_grid(1.0, 2), CustomProfile(np.zeros_like, 0.0, 0.0, 1.0), 0.3, 2)
 
 
 def test_the_exterior_resists_every_displacement_of_its_boundary():
@@ -254,6 +255,6 @@ def test_a_compliance_that_rounding_changes_is_refused(monkeypatch):
 @pytest.mark.parametrize("step", [1e-10, 1e-7])
 def test_a_step_too_thin_for_its_elements_is_refused_by_its_depth(step):
     """The first is lost in the shells of the exterior, the second in the surface stiffness."""
-    modulus = TableModulus((0.0, 2.0, 2.0 * (1.0 + step), 6.0), (1.0, 1.2, 0.0012, 0.0014))
+    modulus = table_of_moduli((0.0, 2.0, 2.0 * (1.0 + step), 6.0), (1.0, 1.2, 0.0012, 0.0014))
     spec = MeshSpec(0.05, 0.01, 64.0, 0.8, 5, scales=depth_scales(modulus, 1e-3, 64.0))
     refused(r"at the depth 2 .* 1e-05; ", compliance_for, modulus, 0.3, spec, 1.0, recoverable=True, error=NotConverged)
