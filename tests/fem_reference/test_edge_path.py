@@ -10,8 +10,9 @@ import pytest
 
 from fem_reference import Coating, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve
 from fem_reference._contact import followed
-from fem_reference._contact.edge_path import FARTHER, edge_path
+from fem_reference._contact.edge_path import FARTHER, EventsOfEdgePath, edge_path
 from fem_reference._contact.edge_states import EdgeStates
+from fem_reference._contact.events import Anchor
 from fem_reference._contact.jkr_tension import jkr_curve
 from fem_reference._contact.meshes import Meshes
 from fem_reference._contact.path import equilibrium_points
@@ -48,7 +49,7 @@ def _bump(x):
     return math.exp(-(((x - AT) / NARROW) ** 2))
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class _Point:
     """Stands for a point of the path."""
 
@@ -105,6 +106,16 @@ def test_a_path_over_meshes_goes_on_while_tension_can_return():
 
 def test_a_second_minimum_is_found_between_states():
     assert _minima(_path(0.3)) == 2
+
+
+def test_an_event_moves_to_its_state_on_the_mesh_of_its_edge():
+    """Other meshes begin with it there, and take the error of its radius into their bound."""
+    events = EventsOfEdgePath([], _path(0.0), _States(0.0))
+    anchor = Anchor(_States(0.0).at(math.exp(2.1)), 0.7, 1e-3)
+    events.relocate("pull_off", anchor)
+    assert events.at("pull_off") is anchor.point
+    assert events.anchor("pull_off") is anchor
+    assert events.slope("pull_off", anchor.point) == 0.7
 
 
 @pytest.fixture
