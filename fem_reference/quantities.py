@@ -6,10 +6,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal, Protocol
+from typing import Literal
 
-from fem_reference._contact.events import JUMP_IN, JUMP_OUT, LANDING, SEPARATED, Jump, energy_lost, event_energy
-from fem_reference._contact.states import Point
+from fem_reference._contact.events import JUMP_IN, JUMP_OUT, LANDING, SEPARATED, Events, energy_lost, event_energy
 
 __all__ = [
     "CRITICAL_MODULUS",
@@ -21,19 +20,6 @@ __all__ = [
     "further_losses",
     "quantity_named",
 ]
-
-
-class Events(Protocol):
-    """Points of a path at its events, and its jumps."""
-
-    def at(self, event: str) -> Point:
-        """Return the point at an event."""
-        ...
-
-    @property
-    def jumps(self) -> tuple[Jump, ...]:
-        """Every jump of a cycle of approach and retreat."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,6 +29,7 @@ __all__ = [
     "LANDING",
     "SEPARATED",
     "Anchor",
+    "Events",
     "Jump",
     "Pair",
     "PathEvents",
@@ -77,9 +78,16 @@ Jump = tuple[str, str]
 
 
 class Events(Protocol):
-    """Points of a path by the names of its events."""
+    """Points of a path at its events, and its jumps."""
 
-    def at(self, event: str) -> Point: ...
+    def at(self, event: str) -> Point:
+        """Return the point at an event."""
+        ...
+
+    @property
+    def jumps(self) -> tuple[Jump, ...]:
+        """Every jump of a cycle of approach and retreat."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
