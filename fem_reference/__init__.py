@@ -5,6 +5,22 @@ rigid punch f(r), a surface law p(H).  The solid is meshed with high-order eleme
 stiffness of the infinite exterior.  The equilibrium path is traced on the system condensed to the surface; a value is
 that of the whole system at an event, solved by Newton's method with conjugate gradients and pyamg.
 
+What a solver of an equilibrium path must have, and where it is:
+
+1. a mesh that is fine where the pressure is: `_elastic.mesh`, `_contact.mesh_lengths`, `_contact.meshes`;
+2. the response of the bodies to a pressure on it: `_elastic.assembly`, `_elastic.compliance`, `_contact.bodies`, and
+   to that beyond it: `_elastic.exterior`, `_contact.tail`;
+3. an equation: a state, its residual with the exact tangent, Newton's method: `_contact.contact`,
+   `_contact.controls`, `_contact.newton`;
+4. a continuation from far separation into compression: `_contact.states`, and `_contact.path` where one mesh carries
+   the path, or `_contact.edge_states` and `_contact.edge_path` where each radius of the edge has a mesh;
+5. completeness, a proof that no turning point is missed between two points: `_contact.completeness`;
+6. events as roots of rates, the jumps between stable branches, and the mesh of each: `_contact.events`,
+   `_contact.event_mesh`;
+7. the value at an event from the whole system: `_contact.uncondensed` and `_linear`;
+8. a bound of the error of every value by its causes: `_contact.carried` and `_contact.parts`;
+9. quantities, each a row that names its event and its functional: `quantities`; `solution` computes them by 1 to 8.
+
 The names in `__all__` of the modules of solids, punches and laws are names of the package, too.  `_lazy.pyi` lists the
 others; a module is loaded when one of its names is first used.
 """

@@ -3,6 +3,7 @@
 from .accuracy import ACCURACIES as ACCURACIES
 from .errors import (
     AccuracyWarning as AccuracyWarning,
+    Failure as Failure,
     NoSuchEvent as NoSuchEvent,
     NotConverged as NotConverged,
 )

@@ -20,7 +20,7 @@ from skfem import Basis, ElementQuadP
 
 from fem_reference._contact.bodies import condition_of
 from fem_reference._contact.friction import FrictionName
-from fem_reference._contact.path import Point
+from fem_reference._contact.states import Point
 from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
 from fem_reference._elastic.mapping import ChartMapping

@@ -8,7 +8,6 @@ have `interfaces` too: depths where it changes at once or within a short length.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
@@ -17,7 +16,7 @@ import numpy as np
 from fem_reference._typing import Array
 from fem_reference._validation import check_positive
 
-__all__ = ["CustomModulus", "Interface", "Modulus", "OffsetPowerLawModulus", "PowerLawModulus", "interfaces_of"]
+__all__ = ["Interface", "Modulus", "OffsetPowerLawModulus", "PowerLawModulus", "check_exponent", "interfaces_of"]
 
 
 @runtime_checkable
@@ -50,7 +49,17 @@ class Modulus(Protocol):
         ...
 
 
-def _check_exponent(k: float) -> None:
+def check_exponent(k: float) -> None:
+    """Refuse a gradient exponent outside [0, 1).
+
+    Raises
+    ------
+    ValueError
+
+    Examples
+    --------
+    >>> check_exponent(0.4)
+    """
     if not 0 <= k < 1:
         raise ValueError(f"gradient exponent k = {k} is outside [0, 1): at k = 1 the surface displacement is unbounded")
 
@@ -111,7 +120,7 @@ class PowerLawModulus:
     def __post_init__(self) -> None:
         check_positive("reference modulus E0", self.E0)
         check_positive("characteristic depth c0", self.c0)
-        _check_exponent(self.k)
+        check_exponent(self.k)
 
     @property
     def surface_exponent(self) -> float:
@@ -152,7 +161,7 @@ class OffsetPowerLawModulus:
         check_positive("reference modulus E0", self.E0)
         check_positive("characteristic depth c0", self.c0)
         check_positive("surface offset z_s", self.z_s)
-        _check_exponent(self.k)
+        check_exponent(self.k)
 
     @property
     def surface_exponent(self) -> float:
@@ -172,44 +181,3 @@ class OffsetPowerLawModulus:
     def __call__(self, z: Array) -> Array:
         """E(z), shape of `z`."""
         return self.E0 * ((np.asarray(z, float) + self.z_s) / self.c0) ** self.k
-
-
-@dataclass(frozen=True, slots=True)
-class CustomModulus:
-    """Any positive E(z), with the exponents it has at the surface and at depth.
-
-    Parameters
-    ----------
-    function : callable
-        E(z) of an array of depths.
-    surface_exponent, depth_exponent : float
-        Exponents of E ~ z^m as z -> 0 and z -> infinity, in [0, 1).
-    surface_depth : float
-        Depth over which E leaves its surface law.
-    interfaces : tuple of Interface
-        Depths where E changes at once or within a short length.  Those that are not declared are searched for by
-        sampling, which can miss a layer thinner than 1/30 of its depth.
-
-    Examples
-    --------
-    >>> stiffening = CustomModulus(lambda z: 1.0 + z**0.5, 0.0, 0.5, surface_depth=0.1)
-    >>> float(stiffening(np.array(4.0)))
-    3.0
-    """
-
-    function: Callable[[Array], Array]
-    surface_exponent: float
-    depth_exponent: float
-    surface_depth: float
-    interfaces: tuple[Interface, ...] = ()
-
-    def __post_init__(self) -> None:
-        _check_exponent(self.surface_exponent)
-        _check_exponent(self.depth_exponent)
-        check_positive("surface depth", self.surface_depth)
-        if not (isinstance(self.interfaces, tuple) and all(isinstance(i, Interface) for i in self.interfaces)):
-            raise ValueError(f"interfaces = {self.interfaces!r} is not a tuple of Interface(depth, transition)")
-
-    def __call__(self, z: Array) -> Array:
-        """E(z), shape of `z`."""
-        return np.asarray(self.function(np.asarray(z, float)), float)

@@ -60,8 +60,8 @@ def check_exponents(modulus: Modulus) -> None:
 
     Examples
     --------
-    >>> from fem_reference.modulus import CustomModulus
-    >>> check_exponents(CustomModulus(np.sqrt, surface_exponent=0.0, depth_exponent=0.5, surface_depth=1.0))
+    >>> from fem_reference.depth_profiles import CustomProfile
+    >>> check_exponents(CustomProfile(np.sqrt, surface_exponent=0.0, depth_exponent=0.5, surface_depth=1.0))
     Traceback (most recent call last):
     ValueError: surface exponent 0 is declared, but E(z) rises as z^0.5 between the depths 1e-14 and 1e-12: ...
     """

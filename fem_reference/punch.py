@@ -11,7 +11,7 @@ import numpy as np
 
 from fem_reference._typing import Array
 from fem_reference._validation import check_positive
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["CustomPunch", "PowerPunch", "Punch"]
 
@@ -151,7 +151,8 @@ def check_contact(punch: Punch, edge_radius: float) -> None:
     if edge_radius > reach:
         raise NotConverged(
             f"the ball is smaller than the contact: it is a sphere up to r = {reach:.4g}, and the contact edge is at "
-            f"r = {edge_radius:.4g}"
+            f"r = {edge_radius:.4g}",
+            Failure.REACH,
         )
 
 
@@ -182,7 +183,8 @@ def check_without_asperities(punch: Punch, lowest: float, highest: float) -> Non
     if falls.size:
         raise NotConverged(
             f"the punch has r f'(r) falling at r = {r[falls[0]]:.3g}, as outside an asperity: its path may go on to a "
-            "deeper tension behind its first compressive load, and is not followed there"
+            "deeper tension behind its first compressive load, and is not followed there",
+            Failure.END,
         )
 
 

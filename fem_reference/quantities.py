@@ -6,10 +6,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal, Protocol
+from typing import Literal
 
-from fem_reference._contact.events import JUMP_IN, JUMP_OUT, LANDING, SEPARATED, Jump, energy_lost, event_energy
-from fem_reference._contact.path import Point
+from fem_reference._contact.events import JUMP_IN, JUMP_OUT, LANDING, SEPARATED, Events, energy_lost, event_energy
 
 __all__ = [
     "CRITICAL_MODULUS",
@@ -21,19 +20,6 @@ __all__ = [
     "further_losses",
     "quantity_named",
 ]
-
-
-class Events(Protocol):
-    """Points of a path at its events, and its jumps."""
-
-    def at(self, event: str) -> Point:
-        """Return the point at an event."""
-        ...
-
-    @property
-    def jumps(self) -> tuple[Jump, ...]:
-        """Every jump of a cycle of approach and retreat."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,14 +34,14 @@ class Quantity:
         Its value from the events of a path, in the units of the problem.
     kind : {"force", "length", "energy", "modulus"}
         A length near zero is measured by the length of the surface law.
-    parts : tuple of str
+    terms : tuple of str
         Quantities whose sum it is, each with the contact edge at one radius.
     """
 
     events: tuple[str, ...]
     functional: Callable[[Events], float]
     kind: Literal["force", "length", "energy", "modulus"]
-    parts: tuple[str, ...] = ()
+    terms: tuple[str, ...] = ()
 
 
 #: Energies lost by the jump into contact and the jump out of contact. Each needs the contact edge at one radius only,
@@ -73,7 +59,7 @@ TABLE = {
     "jump_out_gap": Quantity(("jump_out",), lambda e: e.at("jump_out").state.central_gap, "length"),
     "zero_load_displacement": Quantity(("zero_load",), lambda e: e.at("zero_load").state.displacement, "length"),
     "hysteresis_energy": Quantity(
-        (JUMP_OUT, LANDING), lambda e: math.fsum(energy_lost(e, jump) for jump in e.jumps), "energy", parts=LOSSES
+        (JUMP_OUT, LANDING), lambda e: math.fsum(energy_lost(e, jump) for jump in e.jumps), "energy", terms=LOSSES
     ),
     "jump_in_energy": Quantity((LANDING,), lambda e: energy_lost(e, (JUMP_IN, LANDING)), "energy"),
     "jump_out_energy": Quantity((JUMP_OUT,), lambda e: energy_lost(e, (JUMP_OUT, SEPARATED)), "energy"),

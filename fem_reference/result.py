@@ -38,7 +38,7 @@ class Solution:
     parts : mapping of str to float
         Contributions to `u_num` by cause: "mesh" (size and degree of the elements), "first layer",
         "interior and exterior" (extent of the mesh), "edge" (placement of the contact edge, size of the elements at the
-        apex), "tail" (displacement beyond the mesh) and "algebra" (rounding and the error of the conjugate
+        apex), "tail" (displacement beyond the mesh) and "rounding" (rounding and the error of the conjugate
         gradients, and the difference of `value` from the condensed one).
     """
 
@@ -82,8 +82,8 @@ class Solution:
         Examples
         --------
         >>> solution = Solution(1.0, 3e-9, 100, 3, 0.0, 0.1, (4, 5, 6), (1.0, 1.0, 1.0), {"mesh": 3e-9})
-        >>> solution.with_part("algebra", 1e-9).parts
-        {'mesh': 3e-09, 'algebra': 1e-09}
+        >>> solution.with_part("rounding", 1e-9).parts
+        {'mesh': 3e-09, 'rounding': 1e-09}
         """
         if not 0.0 <= error < math.inf:
             raise ValueError(f"error {error} of the part {name!r} is outside [0, inf): it is added to a bound")
@@ -113,6 +113,6 @@ class Solution:
         )
 
     def with_whole_system(self, uncondensed: UncondensedValue) -> Solution:
-        """Return the solution with the value of the whole system, whose algebraic error is added to the bound."""
-        added = self.with_part("algebra", uncondensed.algebra)
+        """Return the solution with the value of the whole system, whose rounding is added to the bound."""
+        added = self.with_part("rounding", uncondensed.rounding)
         return replace(added, value=uncondensed.value, iterations=uncondensed.iterations, residual=uncondensed.residual)

@@ -11,12 +11,16 @@ import numpy as np
 
 from fem_reference._typing import Array
 from fem_reference._validation import check_positive, check_tension
-from fem_reference.coating import CoatingModulus
-from fem_reference.depth_profiles import ExponentialModulus, TableModulus, TablePoisson
-from fem_reference.layers import StepProfile
-from fem_reference.modulus import CustomModulus, Interface, Modulus, OffsetPowerLawModulus, PowerLawModulus
+from fem_reference.depth_profiles import (
+    CustomProfile,
+    ExponentialProfile,
+    StepProfile,
+    TabulatedProfile,
+    TransitionProfile,
+)
+from fem_reference.modulus import Interface, Modulus, OffsetPowerLawModulus, PowerLawModulus
 from fem_reference.modulus_checks import check_exponents
-from fem_reference.poisson import CoatingPoisson, CustomPoisson, PoissonRatio, check_poisson
+from fem_reference.poisson import PoissonRatio, check_poisson
 
 __all__ = [
     "Coating",
@@ -29,6 +33,9 @@ __all__ = [
     "Solid",
     "TabulatedModulus",
 ]
+
+#: Ratio of neighbouring moduli of a table from which on elements are as short as the distance of the two rows.
+STEEP = 1.25
 
 
 @runtime_checkable
@@ -204,10 +211,16 @@ class Exponential(_OneRatio):
     nu: float
     surface_tension: float = 0.0
 
+    def __post_init__(self) -> None:
+        for name in ("E_surface", "E_depth", "length"):
+            check_positive(name, getattr(self, name))
+        _check_one_ratio(self.nu)
+        check_tension(self.surface_tension)
+
     @property
-    def modulus(self) -> ExponentialModulus:
+    def modulus(self) -> ExponentialProfile:
         """E(z)."""
-        return ExponentialModulus(self.E_surface, self.E_depth, self.length)
+        return ExponentialProfile(self.E_surface, self.E_depth, self.length)
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,19 +262,21 @@ class Coating:
         _check_one_ratio(self.nu_coating)
         if self.nu_substrate is not None:
             _check_one_ratio(self.nu_substrate)
+        for name in ("E_coating", "E_substrate"):
+            check_positive(name, getattr(self, name))
         self.modulus  # noqa: B018  # validates the rest
 
     @property
-    def modulus(self) -> CoatingModulus:
+    def modulus(self) -> TransitionProfile:
         """E(z)."""
-        return CoatingModulus(self.E_coating, self.E_substrate, self.thickness, self.transition)
+        return TransitionProfile(self.E_coating, self.E_substrate, self.thickness, self.transition)
 
     @property
-    def poisson(self) -> float | CoatingPoisson:
+    def poisson(self) -> float | TransitionProfile:
         """The one ratio, or that of depth."""
         if self.nu_substrate in (None, self.nu_coating):
             return self.nu_coating
-        return CoatingPoisson(self.nu_coating, float(self.nu_substrate or 0.0), self.thickness, self.transition)
+        return TransitionProfile(self.nu_coating, float(self.nu_substrate or 0.0), self.thickness, self.transition)
 
 
 @dataclass(frozen=True, slots=True)
@@ -360,21 +375,26 @@ class TabulatedModulus:
     moduli: Sequence[float]
     nu: float | Sequence[float]
     surface_tension: float = 0.0
-    modulus: TableModulus = field(init=False, compare=False)
-    poisson: float | TablePoisson = field(init=False, compare=False)
+    modulus: TabulatedProfile = field(init=False, compare=False)
+    poisson: float | TabulatedProfile = field(init=False, compare=False)
 
     def __post_init__(self) -> None:
         check_tension(self.surface_tension)
-        modulus = TableModulus(self.depths, self.moduli)
-        poisson: float | TablePoisson
+        modulus = TabulatedProfile(self.depths, self.moduli, "moduli", STEEP)
+        for row, E in enumerate(modulus.values):
+            if not E > 0:
+                raise ValueError(f"the modulus {E:g} in row {row} is outside (0, infinity)")
+        nu: float | tuple[float, ...]
+        poisson: float | TabulatedProfile
         if isinstance(self.nu, Sequence | np.ndarray):
-            column = TablePoisson(modulus.depths, self.nu)
-            nu: float | tuple[float, ...] = tuple(column.ratios)
-            poisson = column
+            poisson = TabulatedProfile(modulus.depths, self.nu, "ratios")
+            nu = tuple(poisson.values)
+            for ratio in nu:
+                check_poisson(ratio, 1.0)
         else:
             _check_one_ratio(self.nu)
             poisson = nu = self.nu
-        columns = (tuple(modulus.depths), tuple(modulus.moduli), nu, modulus, poisson)
+        columns = (modulus.depths, modulus.values, nu, modulus, poisson)
         for name, value in zip(("depths", "moduli", "nu", "modulus", "poisson"), columns, strict=True):
             object.__setattr__(self, name, value)
 
@@ -433,14 +453,14 @@ class CustomSolid:
         check_poisson(self.poisson, self.length)
 
     @property
-    def modulus(self) -> CustomModulus:
+    def modulus(self) -> CustomProfile:
         """E(z)."""
         exponents = self.surface_exponent, self.depth_exponent
-        return CustomModulus(self.E, *exponents, self.length, tuple(self.interfaces))  # type: ignore[arg-type]  # checked
+        return CustomProfile(self.E, *exponents, self.length, tuple(self.interfaces))  # type: ignore[arg-type]  # checked
 
     @property
-    def poisson(self) -> float | CustomPoisson:
+    def poisson(self) -> float | CustomProfile:
         """The one ratio, or that of depth."""
         if callable(self.nu):
-            return CustomPoisson(self.nu, tuple(self.interfaces))  # type: ignore[arg-type]  # checked
+            return CustomProfile(self.nu, interfaces=tuple(self.interfaces))  # type: ignore[arg-type]  # checked
         return self.nu

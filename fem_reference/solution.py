@@ -10,14 +10,14 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 
+from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.critical import stiffer_than_critical
-from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
+from fem_reference._contact.event_mesh import EventMesh, chosen, path_over_meshes
 from fem_reference._contact.events import JUMP_IN
 from fem_reference._contact.friction import FrictionName, with_friction
-from fem_reference._contact.mesh_choice import MeshChoice, chosen, path_over_meshes
 from fem_reference._contact.mesh_lengths import scales
-from fem_reference._contact.path import edge_is_resolved
-from fem_reference._contact.resolved import ResolvedEvents
+from fem_reference._contact.parts import EventsOnMeshes, events_on_meshes
+from fem_reference._contact.states import edge_is_resolved
 from fem_reference._contact.uncondensed import uncondensed_events
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
@@ -180,7 +180,7 @@ def _no_less_certain(
 
     On the finer mesh the bound may be larger: it is what the degrees happen to show.
     """
-    results = _summed(problem, rows, accuracy)
+    results = _by_terms(problem, rows, accuracy)
     coarser = coarser_accuracy(accuracy)
     if coarser is None:
         return results
@@ -189,7 +189,7 @@ def _no_less_certain(
     at_default: dict[str, Solution | NoSuchEvent] = {}
     if uncertain:
         with suppress(NotConverged):
-            at_default = _summed(problem, {name: rows[name] for name in uncertain}, coarser[1])
+            at_default = _by_terms(problem, {name: rows[name] for name in uncertain}, coarser[1])
     for name, alternative in at_default.items():
         if isinstance(alternative, Solution):
             seconds = solved[name].seconds + alternative.seconds
@@ -198,19 +198,21 @@ def _no_less_certain(
     return results
 
 
-def _summed(problem: Problem, rows: Mapping[str, Quantity], accuracy: float | str) -> dict[str, Solution | NoSuchEvent]:
-    """Compute quantities; where no mesh is fine at every contact edge, those of several edges by their parts."""
+def _by_terms(
+    problem: Problem, rows: Mapping[str, Quantity], accuracy: float | str
+) -> dict[str, Solution | NoSuchEvent]:
+    """Compute quantities; where no mesh is fine at every contact edge, those of several edges by their terms."""
     if scales(problem):
         return _solved_together(problem, rows, accuracy)
     single: dict[str, Quantity] = {}
     for name, row in rows.items():
-        single |= {term: quantity_named(term) for term in row.parts} or {name: row}
+        single |= {term: quantity_named(term) for term in row.terms} or {name: row}
     # A jump into contact before there is an edge gets a path without contact, on which no other event is.
     single = dict(sorted(single.items(), key=lambda item: item[1].events[0] == JUMP_IN))
     solved = _solved_together(problem, single, accuracy)
-    sums = {name: _sum(solved[term] for term in row.parts or (name,)) for name, row in rows.items()}
+    sums = {name: _sum(solved[term] for term in row.terms or (name,)) for name, row in rows.items()}
     for name, solution in sums.items():
-        if rows[name].parts and isinstance(solution, Solution):
+        if rows[name].terms and isinstance(solution, Solution):
             further = further_losses(path_over_meshes(problem, accuracy))
             if further:
                 sums[name] = _sum((solution, *_solved_together(problem, further, accuracy).values()))
@@ -249,14 +251,14 @@ def _solved_together(
     missed: dict[str, NotConverged] = {}
     for name, row in rows.items():
         try:
-            choice, spec, size = chosen(problem, row.events, accuracy, partial(_estimated, row), start)
+            mesh = chosen(problem, row.events, accuracy, partial(_estimated, row), start)
         except NoSuchEvent as reason:
             results[name] = reason.with_traceback(None)
         else:
             break
     else:
         return results
-    meshes = events_on_meshes(choice, spec, size)
+    meshes = events_on_meshes(mesh)
     for name, row in rows.items():
         if name not in results:
             try:
@@ -268,7 +270,7 @@ def _solved_together(
     solved = {name: solution for name, solution in results.items() if isinstance(solution, Solution)}
     unresolved = _unresolved(problem, rows, solved, missed, meshes.fine)
     # All events of the whole system are columns of one linear system.
-    events = uncondensed_events(choice, spec, size)
+    events = uncondensed_events(mesh)
     on_mesh = [name for name in solved if name not in unresolved]
     events.prepare(rows[name].functional for name in on_mesh)
     seconds = time.perf_counter() - begin
@@ -282,15 +284,15 @@ def _solved_together(
     return results
 
 
-def _estimated(row: Quantity, choice: MeshChoice, spec: MeshSpec, size: float) -> None:
+def _estimated(row: Quantity, mesh: EventMesh) -> None:
     """Solve a quantity on the condensed system of all meshes, which keep the states.
 
-    If the solid does not scale, also on the whole system, which may not resolve the rates at a narrow edge.
+    If one mesh does not carry the path, also on the whole system, which may not resolve the rates at a narrow edge.
     """
     with suppress(NoSuchEvent):
-        _solution(row, events_on_meshes(choice, spec, size))
-        if not choice.scaling:
-            uncondensed_events(choice, spec, size).prepare((row.functional,))
+        _solution(row, events_on_meshes(mesh))
+        if not mesh.meshes.one_for_all:
+            uncondensed_events(mesh).prepare((row.functional,))
 
 
 def _unresolved(
@@ -298,7 +300,7 @@ def _unresolved(
     rows: Mapping[str, Quantity],
     solved: Mapping[str, Solution],
     missed: Iterable[str],
-    path: ResolvedEvents,
+    path: CarriedEvents,
 ) -> dict[str, Quantity]:
     """Quantities whose contact edge is not resolved on the mesh of another event, or which that mesh has missed.
 

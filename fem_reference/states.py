@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fem_reference._contact.event_mesh import chosen, whole_path
 from fem_reference._contact.events import EVENTS
 from fem_reference._contact.friction import FrictionName, with_friction
-from fem_reference._contact.mesh_choice import MeshChoice, chosen, whole_path
-from fem_reference._contact.path import Point
+from fem_reference._contact.states import Point
 from fem_reference._contact.turning import turning_slowly
 from fem_reference._contact.uncondensed import uncondensed_events
 from fem_reference._elastic.mesh import MeshSpec
@@ -170,8 +170,8 @@ def event_state(
     if event not in EVENTS:
         raise ValueError(f"event {event!r} is unknown; choose one of {', '.join(EVENTS)}")
     with one_thread:
-        choice, spec, size = chosen(with_friction(problem, friction), (event,), accuracy, _traced)
-        return spec, uncondensed_events(choice, spec, size).at(event)
+        mesh = chosen(with_friction(problem, friction), (event,), accuracy, lambda mesh: mesh.events)
+        return mesh.spec, uncondensed_events(mesh).at(event)
 
 
 def profile(
@@ -227,8 +227,3 @@ def profile(
         gap = -y[-2] + problem.punch.height(s * y[-1]) + w
         pressure = problem.force.traction(s * y[-1], gap)
         return RadialField(s * y[-1], gap, pressure, w, point.state.displacement, point.state.load)
-
-
-def _traced(choice: MeshChoice, spec: MeshSpec, size: float) -> None:
-    """Find the path on a mesh, which is kept."""
-    choice.traced(spec, size)

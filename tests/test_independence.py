@@ -70,7 +70,7 @@ LAYERS = {
     ),
     "fem_reference": (
         ("_typing", "_threads", "_validation", "_presentation", "errors", "_law_between_points"),
-        ("modulus", "coating", "poisson", "depth_profiles", "modulus_checks", "layers", "solids", "neo_hookean"),
+        ("modulus", "poisson", "depth_profiles", "modulus_checks", "solids", "neo_hookean"),
         ("punch", "profiles", "laws", "tabulated_law"),
         ("_azimuth", "_face", "_vertical_line", "_normal_distance", "_body_of_revolution"),
         ("interaction", "problem", "accuracy"),

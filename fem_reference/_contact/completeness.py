@@ -12,8 +12,8 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from fem_reference._contact.hermite import Interval, Sample
-from fem_reference._contact.path import Point, branches_of, point_at
-from fem_reference.errors import NotConverged
+from fem_reference._contact.states import Point, branches_of, point_at
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["complete_branch", "complete_path", "displacement_range", "displacement_sample", "load_sample"]
 
@@ -77,7 +77,7 @@ def complete_path(points: Sequence[Point]) -> list[Point]:
     Parameters
     ----------
     points : sequence of Point
-        A path, as `fem_reference._contact.tracing.traced` returns it.
+        A path, as `fem_reference._contact.path.traced` returns it.
 
     Returns
     -------
@@ -99,7 +99,8 @@ def complete_path(points: Sequence[Point]) -> list[Point]:
         if a.load_rate * b.load_rate < 0.0 or a.displacement_rate * b.displacement_rate < 0.0:
             raise NotConverged(
                 f"the path turns at delta = {a.state.displacement:.6g}, where the contact edge is formed and this mesh "
-                "does not resolve it"
+                "does not resolve it",
+                Failure.MESH,
             )
     return [point for branch in branches for point in complete_branch(branch, tests)]
 
@@ -147,5 +148,6 @@ def complete_branch(
     at = points[min(inserted_at)].state.displacement
     raise NotConverged(
         f"near delta = {at:.6g} it cannot be decided whether the path has a pair of turning points, although "
-        f"{len(points)} samples were taken"
+        f"{len(points)} samples were taken",
+        Failure.FOLDS,
     )

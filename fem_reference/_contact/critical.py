@@ -17,13 +17,13 @@ import numpy as np
 from fem_reference._contact.bodies import condition_of
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import cusp_from, slowest
+from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.events import CUSP
 from fem_reference._contact.friction import BondedSolid
-from fem_reference._contact.mesh_choice import chosen
-from fem_reference._contact.path import Point
-from fem_reference._contact.tracing import traced
+from fem_reference._contact.path import traced
+from fem_reference._contact.states import Point
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference.errors import NoSuchEvent, NotConverged
+from fem_reference.errors import Failure, NoSuchEvent, NotConverged
 from fem_reference.problem import Problem
 from fem_reference.punch import radius_at_height
 from fem_reference.solids import OffsetPowerLaw, PowerLaw
@@ -119,15 +119,15 @@ def stiffer_than_critical(problem: Problem, accuracy: float | str) -> NearCritic
 
     E0 = _estimate(problem, solid)
     estimate = with_modulus(E0)
-    choice, spec, size = chosen(estimate, (CUSP,), accuracy)
-    contact = choice.contact(spec, size)
+    mesh = chosen(estimate, (CUSP,), accuracy)
+    contact = mesh.contact
 
     def trial(log_ratio: float) -> _Trial:
         stiffer = replace(contact, compliance=contact.compliance.stiffened(math.exp(log_ratio)))
         return _Trial(log_ratio, slowest(traced(stiffer)))
 
     E0 *= MARGIN * _stiffness(_cusp_between(*_bracket(trial), trial).branch.contact)
-    return NearCritical(with_modulus(E0), E0, (spec, size))
+    return NearCritical(with_modulus(E0), E0, (mesh.spec, mesh.size))
 
 
 def _estimate(problem: Problem, solid: PowerLaw | OffsetPowerLaw) -> float:
@@ -168,7 +168,7 @@ def _cusp_between(soft: _Trial, stiff: _Trial, trial: Callable[[float], _Trial])
                 return cusp
         middle = trial(0.5 * (soft.log_ratio + stiff.log_ratio))
         soft, stiff = (soft, middle) if middle.rate > 0.0 else (middle, stiff)
-    raise NotConverged("the modulus at which jumps begin was not found; take a finer accuracy")
+    raise NotConverged("the modulus at which jumps begin was not found", Failure.EVENT)
 
 
 def _stiffness(contact: Contact) -> float:

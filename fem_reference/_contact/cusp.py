@@ -18,10 +18,10 @@ import numpy as np
 from scipy import linalg
 
 from fem_reference._contact.controls import CentralGap, Control, GapRise, Size
-from fem_reference._contact.path import Branch, Point, point_at
+from fem_reference._contact.states import Branch, Point, point_at
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["DisplacementRates", "cusp_from", "displacement_rates", "slowest", "slowest_sample"]
 
@@ -162,8 +162,7 @@ def cusp_from(point: Point) -> Point:
         if abs(ratio) <= TOLERANCE and abs(shift) <= PLACE_TOLERANCE * unit:
             return point
     raise NotConverged(
-        f"the modulus at which jumps begin was not found near delta = {point.state.displacement:.6g}; take a finer "
-        "accuracy"
+        f"the modulus at which jumps begin was not found near delta = {point.state.displacement:.6g}", Failure.EVENT
     )
 
 

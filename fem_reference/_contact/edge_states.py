@@ -11,14 +11,15 @@ import math
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from typing import Protocol
 
 import numpy as np
 
+from fem_reference._contact.carried import projected
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import EdgeRadius, Size
 from fem_reference._contact.mesh_lengths import check_width
-from fem_reference._contact.path import (
+from fem_reference._contact.meshes import Meshes
+from fem_reference._contact.states import (
     NARROWER,
     WIDTH_SHARE,
     Branch,
@@ -28,10 +29,9 @@ from fem_reference._contact.path import (
     element_length,
     point_at,
 )
-from fem_reference._contact.resolved import projected
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._typing import Array
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["EdgeStates"]
 
@@ -66,22 +66,13 @@ LARGEST_MOVE = 0.1
 EXTREMUM_STEP = 0.02
 
 
-class _Meshes(Protocol):
-    """What makes meshes of a problem: `fem_reference._contact.mesh_choice.MeshChoice`."""
-
-    def spec_at(self, width: float, radius: float) -> MeshSpec: ...
-
-    def contact(self, spec: MeshSpec, size: float) -> Contact: ...
-
-
 @dataclass(slots=True)
 class EdgeStates:
     """Solver of states in contact by the radius of their edge.
 
     Attributes
     ----------
-    meshes : MeshChoice
-        Of a solid that does not scale.
+    meshes : Meshes
     start : Point
         A state with a contact edge on any mesh, to begin with.
     degree : int
@@ -94,7 +85,7 @@ class EdgeStates:
         States by the radius of their edge.
     """
 
-    meshes: _Meshes
+    meshes: Meshes
     start: Point
     degree: int
     density: float
@@ -113,12 +104,13 @@ class EdgeStates:
             if len(self.states) >= MOST_STATES:
                 raise NotConverged(
                     f"the path in contact needs more than {MOST_STATES} states with edges between "
-                    f"{min(self.states):.4g} and {max(self.states):.4g}"
+                    f"{min(self.states):.4g} and {max(self.states):.4g}",
+                    Failure.MESH,
                 )
-            self.states[radius] = self._on_neighbour_mesh(radius) or self.own(radius)[1]
+            self.states[radius] = self._on_neighbour_mesh(radius) or self.on_fine_mesh(radius)[1]
         return self.states[radius]
 
-    def own(self, radius: float) -> tuple[MeshSpec, Point]:
+    def on_fine_mesh(self, radius: float) -> tuple[MeshSpec, Point]:
         """Return the mesh that is fine at a radius, and the state with the contact edge there.
 
         Raises
@@ -138,7 +130,7 @@ class EdgeStates:
             check_width(width)
             if width >= spec.edge_width:
                 return spec, point
-        raise NotConverged(f"the width of the contact edge was not found at the radius {radius:.4g}")
+        raise NotConverged(f"the width of the contact edge was not found at the radius {radius:.4g}", Failure.MESH)
 
     def located(self, excess: Callable[[Point], float], slope: float) -> tuple[MeshSpec, float]:
         """Return the mesh that is fine at the contact edge of an event near the start, and the radius of that edge.
@@ -153,16 +145,16 @@ class EdgeStates:
         Raises
         ------
         NotConverged
-            As `own`, or if the event is not found.
+            As `on_fine_mesh`, or if the event is not found.
         """
         radius = self.start.edge_radius
         for _ in range(MOVES):
-            spec, self.start = self.own(radius)
+            spec, self.start = self.on_fine_mesh(radius)
             move = -excess(self.start) / slope
             if abs(move) <= 0.5 * WIDTH_SHARE * edge_width(self.start) * radius:
                 return spec, radius
             radius += float(np.clip(move, -LARGEST_MOVE * radius, LARGEST_MOVE * radius))
-        raise NotConverged(f"the contact edge of an event was not found near the radius {radius:.4g}")
+        raise NotConverged(f"the contact edge of an event was not found near the radius {radius:.4g}", Failure.EVENT)
 
     def extremum(self, value: Callable[[Point], float]) -> tuple[float, float]:
         """Return the radius at which a value is stationary near the start, and its second derivative there.
@@ -177,12 +169,12 @@ class EdgeStates:
         Raises
         ------
         NotConverged
-            As `own`, or if the extremum is not found.
+            As `on_fine_mesh`, or if the extremum is not found.
         """
         radius = self.start.edge_radius
         steps = EXTREMUM_STEP * np.arange(-2, 3)
         for _ in range(MOVES):
-            spec, self.start = self.own(radius)
+            spec, self.start = self.on_fine_mesh(radius)
             values = [value(self.similar(spec, radius * math.exp(x))) for x in steps]
             polynomial = np.polynomial.Polynomial.fit(steps, values, steps.size - 1)
             rate, bend = polynomial.deriv(), polynomial.deriv(2)
@@ -192,7 +184,7 @@ class EdgeStates:
                     x -= float(rate(x) / bend(x))
                 return radius * math.exp(x), float(bend(x)) / radius**2
             radius *= math.exp(float(np.clip(x, -LARGEST_MOVE, LARGEST_MOVE)))
-        raise NotConverged(f"the contact edge of an extremum was not found near the radius {radius:.4g}")
+        raise NotConverged(f"the contact edge of an extremum was not found near the radius {radius:.4g}", Failure.EVENT)
 
     def similar(self, spec: MeshSpec, radius: float) -> Point:
         """The state with the contact edge at a radius, on a mesh as fine at its edge as another one."""
@@ -238,7 +230,8 @@ def _state_from(nearest: Point, contact: Contact, radius: float) -> Point:
             if point.state.iterations <= MOST_STEPS:
                 return point
     raise NotConverged(
-        f"no equilibrium was found with the contact edge at {radius:.6g}, from that at {nearest.edge_radius:.6g}"
+        f"no equilibrium was found with the contact edge at {radius:.6g}, from that at {nearest.edge_radius:.6g}",
+        Failure.ITERATION,
     )
 
 

@@ -15,14 +15,14 @@ from typing import Self
 import numpy as np
 from scipy import linalg
 
+from fem_reference._contact.carried import carried, projected, projected_rate
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeRadius
 from fem_reference._contact.cusp import displacement_rates
 from fem_reference._contact.events import CUSP, JUMP_IN, JUMP_OUT, beginning_of, kind_of
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.newton import State
-from fem_reference._contact.path import Point, point_at
-from fem_reference._contact.resolved import carried, projected, projected_rate
+from fem_reference._contact.states import Point, point_at
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
 
@@ -67,13 +67,13 @@ class EventEquations:
         self.rate = projected_rate(start, self.contact, c) if self.is_fold else point.state.rate.copy()
         rates = displacement_rates(point) if name == CUSP else None
         self._change = None if rates is None else rates.change
-        # A point that is held keeps its parameter.
-        self._slope = (math.inf if point.held else self._excess_slope()) if rates is None else rates.modulus
+        # A pinned point keeps its parameter.
+        self._slope = (math.inf if point.pinned else self._excess_slope()) if rates is None else rates.modulus
 
     @property
     def is_fold(self) -> bool:
         """Whether a rate vanishes at the event."""
-        return not self.point.held and kind_of(self.name) in ("pull_off", JUMP_IN, JUMP_OUT, CUSP)
+        return not self.point.pinned and kind_of(self.name) in ("pull_off", JUMP_IN, JUMP_OUT, CUSP)
 
     @property
     def controls(self) -> tuple[float, float, float]:
@@ -194,7 +194,7 @@ class EventEquations:
 
     def _excess(self, events: Mapping[str, EventEquations]) -> float:
         """What vanishes at the event."""
-        if self.point.held:
+        if self.point.pinned:
             return 0.0
         beginning = beginning_of(self.name)
         if beginning is not None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import count, pairwise
 from typing import Protocol
@@ -17,8 +18,8 @@ from scipy.optimize import brentq
 from fem_reference._contact.completeness import complete_path
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import cusp_from, slowest
-from fem_reference._contact.path import Point, joined, point_at
-from fem_reference.errors import NoSuchEvent, NotConverged
+from fem_reference._contact.states import Point, joined, point_at
+from fem_reference.errors import Failure, NoSuchEvent, NotConverged
 
 __all__ = [
     "CUSP",
@@ -27,16 +28,18 @@ __all__ = [
     "JUMP_OUT",
     "LANDING",
     "SEPARATED",
+    "Anchor",
+    "Events",
     "Jump",
     "Pair",
     "PathEvents",
-    "anchor_of",
     "beginning_of",
     "beyond_pull_off",
     "energy_lost",
     "event_energy",
     "excess_of",
     "kind_of",
+    "slope_at",
 ]
 
 #: Relative tolerance of the parameter at an event; P is stationary there and delta moves by as little.
@@ -75,9 +78,35 @@ Jump = tuple[str, str]
 
 
 class Events(Protocol):
-    """Points of a path by the names of its events."""
+    """Points of a path at its events, and its jumps."""
 
-    def at(self, event: str) -> Point: ...
+    def at(self, event: str) -> Point:
+        """Return the point at an event."""
+        ...
+
+    @property
+    def jumps(self) -> tuple[Jump, ...]:
+        """Every jump of a cycle of approach and retreat."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Anchor:
+    """An event of a path, from which the same event on another mesh is found.
+
+    Attributes
+    ----------
+    point : Point
+        The state.
+    slope : float
+        Derivative there, by the parameter, of the function that vanishes (see `excess_of`).
+    radius_error : float
+        Relative error of the radius of the edge.
+    """
+
+    point: Point
+    slope: float
+    radius_error: float = 0.0
 
 
 def kind_of(event: str) -> str:
@@ -121,12 +150,12 @@ class PathEvents:
     Parameters
     ----------
     samples : sequence of Point
-        As `fem_reference._contact.tracing.traced` returns them.
+        As `fem_reference._contact.path.traced` returns them.
     """
 
     def __init__(self, samples: Sequence[Point]) -> None:
         self.samples = samples
-        self._anchors: dict[str, tuple[Point, float]] = {}
+        self._anchors: dict[str, Anchor] = {}
 
     @property
     def contact(self) -> Contact:
@@ -172,15 +201,16 @@ class PathEvents:
         point: Point = getattr(self, event)
         return point
 
-    def anchor(self, event: str) -> tuple[Point, float]:
-        """Return the state at an event, and the slope there of the function that vanishes (see `excess_of`)."""
+    def anchor(self, event: str) -> Anchor:
+        """Return an event as other meshes begin with it."""
         if event not in self._anchors:
-            self._anchors[event] = anchor_of(event, self.at(event))
+            point = self.at(event)
+            self._anchors[event] = Anchor(point, self.slope(event, point))
         return self._anchors[event]
 
-    def doubt(self, event: str) -> float:
-        """Return the relative error of the radius of the edge at an event."""
-        return 0.0
+    def slope(self, event: str, point: Point) -> float:
+        """Return the derivative, at an event, of the function that vanishes there."""
+        return slope_at(event, point)
 
     def minima(self, event: str) -> list[Point]:
         """Return every minimum of the load ("pull_off") or of the displacement ("jump_out") along the path."""
@@ -241,7 +271,8 @@ class PathEvents:
         folds = [point for point in self.points if point.displacement_rate <= 0.0]
         if folds:
             raise NotConverged(
-                f"the displacement has a fold near {folds[0].state.displacement:.6g}, where none should be"
+                f"the displacement has a fold near {folds[0].state.displacement:.6g}, where none should be",
+                Failure.EVENT,
             )
         return cusp_from(slowest(self.samples))
 
@@ -297,7 +328,8 @@ class PathEvents:
         if not outside:
             raise NotConverged(
                 f"two folds near delta = {self.jump_out.state.displacement:.6g} are equally low within the error of "
-                "the path: which of them is the last on retreat is not decided"
+                "the path: which of them is the last on retreat is not decided",
+                Failure.FOLDS,
             )
         return jumps
 
@@ -362,16 +394,16 @@ class PathEvents:
         return solved[root]
 
 
-def anchor_of(event: str, point: Point) -> tuple[Point, float]:
-    """Return the state at an event, and the slope there of the function that vanishes (see `excess_of`)."""
+def slope_at(event: str, point: Point) -> float:
+    """Return the slope, at the state of an event, of the function that vanishes there (see `excess_of`)."""
     if beginning_of(event) is not None:
-        return point, point.state.displacement_rate
+        return point.state.displacement_rate
     if event == "zero_load":
-        return point, point.state.load_rate
+        return point.state.load_rate
     unit = point.parameter if point.branch.touching else point.branch.contact.law.z0
     ahead = point_at(point, point.parameter + SLOPE_STEP * unit)
     excess = excess_of(event)
-    return point, (excess(ahead) - excess(point)) / (ahead.parameter - point.parameter)
+    return (excess(ahead) - excess(point)) / (ahead.parameter - point.parameter)
 
 
 def excess_of(event: str, level: float = 0.0) -> Callable[[Point], float]:

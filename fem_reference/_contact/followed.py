@@ -1,18 +1,17 @@
-"""Events of a solid that does not scale, and the meshes that are fine at their contact edges."""
+"""The path over meshes for each radius of the edge, and the meshes that are fine at the edges of its events."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cached_property
-from typing import Protocol
+from functools import cached_property, lru_cache
 
 from fem_reference._contact.bodies import are_one_power_law
 from fem_reference._contact.completeness import complete_path, displacement_range
-from fem_reference._contact.contact import Contact
+from fem_reference._contact.edge_path import FARTHER, EventsOfEdgePath, edge_path
 from fem_reference._contact.edge_states import EdgeStates
-from fem_reference._contact.events import JUMP_IN, LANDING, SEPARATED, PathEvents, beginning_of, excess_of
+from fem_reference._contact.events import JUMP_IN, LANDING, SEPARATED, Anchor, PathEvents, beginning_of, excess_of
 from fem_reference._contact.jkr_tension import last_turn
 from fem_reference._contact.mesh_lengths import (
     EDGE_PER_BALANCE,
@@ -22,16 +21,14 @@ from fem_reference._contact.mesh_lengths import (
     kinks_within,
     spot_length,
 )
-from fem_reference._contact.multimesh_events import MultimeshEvents
-from fem_reference._contact.multimesh_path import FARTHER, multimesh_path
-from fem_reference._contact.path import WIDTH_SHARE, Point, edge_width, equilibrium_points
-from fem_reference._contact.tracing import beginning
+from fem_reference._contact.meshes import Meshes
+from fem_reference._contact.path import beginning, equilibrium_points
+from fem_reference._contact.states import WIDTH_SHARE, Point, edge_width
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference.accuracy import SEARCH_DEGREE, Level
-from fem_reference.problem import Problem
+from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.tabulated_law import TabulatedLaw
 
-__all__ = ["FollowedPath"]
+__all__ = ["FollowedPath", "followed_path"]
 
 #: Difference of two minima, relative to the load or in lengths of the law, up to which their own meshes decide.
 TIE = 1e-2
@@ -63,40 +60,28 @@ BESIDE_EXTREMUM = 2e-4
 WIDEST_EDGE = 5.0
 
 
-class _Choice(Protocol):
-    """What makes meshes of a problem: `fem_reference._contact.mesh_choice.MeshChoice`."""
-
-    @property
-    def problem(self) -> Problem: ...
-
-    @property
-    def level(self) -> Level: ...
-
-    def spec_at(self, width: float, radius: float) -> MeshSpec: ...
-
-    def contact(self, spec: MeshSpec, size: float) -> Contact: ...
-
-
 class FollowedPath:
     """The path of a problem, each state in contact on a mesh that resolves its edge.
 
     Parameters
     ----------
-    choice : MeshChoice
-        Of a solid that does not scale.
-    first : tuple of MeshSpec and float
-        The mesh on which the path begins.
+    meshes : Meshes
+        Of a problem with a mesh for each radius of the edge.
     """
 
-    def __init__(self, choice: _Choice, initial: tuple[MeshSpec, float]) -> None:
-        self._choice, self._first = choice, initial
-        self._degree = SEARCH_DEGREE
+    def __init__(self, meshes: Meshes) -> None:
+        self._meshes = meshes
+
+    @cached_property
+    def _first(self) -> tuple[MeshSpec, float]:
+        """The mesh on which the path begins."""
+        return self._meshes.first()
 
     @cached_property
     def _approach(self) -> tuple[list[Point], Point]:
         """The path before contact, and its first state in contact, on the first mesh."""
         spec, size = self._first
-        points = equilibrium_points(self._choice.contact(replace(spec, order=self._degree), size))
+        points = equilibrium_points(self._meshes.contact(replace(spec, order=SEARCH_DEGREE), size))
         approach: list[Point] = []
         for point in points:
             if point.branch.touching:
@@ -119,23 +104,23 @@ class FollowedPath:
         return any(point.displacement_rate <= 0.0 for point in self._approach[0])
 
     @cached_property
-    def _whole(self) -> MultimeshEvents:
-        problem, turn = self._choice.problem, self._last_turn()
+    def _whole(self) -> EventsOfEdgePath:
+        problem, turn = self._meshes.problem, self._last_turn()
         # Edges beyond reach are refused here, and not after minutes.
         ratio = EDGE_PER_BALANCE / FARTHER if are_one_power_law(problem, kinks_within(problem)) else WIDEST_EDGE
         check_width(ratio * WIDTH_SHARE * spot_length(problem, self._first[1]) / turn)
         approach, contact_start = self._approach
-        states = EdgeStates(self._choice, contact_start, self._degree, self._choice.level.density)
+        states = EdgeStates(self._meshes, contact_start, SEARCH_DEGREE, self._meshes.level.density)
         highest = displacement_range(approach)[1]
-        touching = multimesh_path(states, contact_start.edge_radius, turn, kinks_within(problem), highest)
+        touching = edge_path(states, contact_start.edge_radius, turn, kinks_within(problem), highest)
         before = complete_path([*beginning(approach, touching), *approach])
-        return MultimeshEvents(before, touching, states)
+        return EventsOfEdgePath(before, touching, states)
 
     def _last_turn(self) -> float:
         """Radius beyond which neither load nor displacement turns back."""
         size = self._first[1]
-        spec = replace(self._choice.spec_at(WIDEST, size), density=SCAN_DENSITY, order=self._degree)
-        return last_turn(self._choice.contact(spec, size), size)
+        spec = replace(self._meshes.spec_at(WIDEST, size), density=SCAN_DENSITY, order=SEARCH_DEGREE)
+        return last_turn(self._meshes.contact(spec, size), size)
 
     def mesh(self, event: str) -> tuple[MeshSpec, float]:
         """Return the mesh that is fine at the contact edge of an event, and the radius of that edge.
@@ -150,8 +135,8 @@ class FollowedPath:
         if event == JUMP_IN and self._jumps_before_contact():
             return self._first
         located = [self._located(event, point) for point in self._lowest(event)]
-        mesh, point, slope, doubt = min(located, key=lambda mesh_and_point: _height(event, mesh_and_point[1]))
-        self._whole.take(event, point, slope, doubt)
+        mesh, anchor = min(located, key=lambda mesh_and_anchor: _height(event, mesh_and_anchor[1].point))
+        self._whole.relocate(event, anchor)
         return mesh
 
     def _lowest(self, event: str) -> Sequence[Point]:
@@ -159,46 +144,46 @@ class FollowedPath:
         deepest = self._whole.at(event)
         if event not in ("pull_off", "jump_out"):
             return [deepest]
-        unit = abs(deepest.state.load) if event == "pull_off" else self._choice.problem.law.z0
+        unit = abs(deepest.state.load) if event == "pull_off" else self._meshes.problem.law.z0
         limit = _height(event, deepest) + TIE * unit
         return [point for point in self._whole.minima(event) if _height(event, point) <= limit]
 
-    def _located(self, event: str, point: Point) -> tuple[tuple[MeshSpec, float], Point, float, float]:
-        """The mesh for the edge of an event, its state there, the slope of what vanishes, the doubt of the radius."""
+    def _located(self, event: str, point: Point) -> tuple[tuple[MeshSpec, float], Anchor]:
+        """The mesh for the edge of an event, and the event there."""
         slope, beginning = self._whole.slope(event, point), beginning_of(event)
-        # A further jump begins at an edge for which this mesh is not fine: its end is kept where the path has it.
-        held = beginning is not None and event not in (LANDING, SEPARATED)
+        # A further jump begins at an edge for which this mesh is not fine: its end stays where the path has it.
+        pinned = beginning is not None and event not in (LANDING, SEPARATED)
         if not point.branch.touching:
-            return self._first, replace(point, held=held), slope, 0.0
+            return self._first, Anchor(replace(point, pinned=pinned), slope)
         level = 0.0 if beginning is None else self._whole.at(beginning).state.displacement
         # Its own finest mesh decides where the edge is, because the rates on coarser ones are less certain.
-        order, density = self._choice.level.order, self._choice.level.density
+        order, density = self._meshes.level.order, self._meshes.level.density
         is_extremum = beginning is None and event != "zero_load"
         if is_extremum and edge_width(point) < NARROW_EDGE:
             return self._extremum(event, point)
-        states = EdgeStates(self._choice, point, order, density, EVENT_SHARE)
+        states = EdgeStates(self._meshes, point, order, density, EVENT_SHARE)
         excess = excess_of(event, level)
         spec, radius = states.located(excess, slope)
         if is_extremum:
             beside = states.similar(spec, radius * math.exp(BESIDE_EXTREMUM))
             rate = (_height(event, beside) - _height(event, states.start)) / BESIDE_EXTREMUM
             bend = slope * radius**2
-            doubt = abs((rate - radius * excess(states.start)) / bend - 0.5 * BESIDE_EXTREMUM)
-            if doubt > FARTHEST:
+            radius_error = abs((rate - radius * excess(states.start)) / bend - 0.5 * BESIDE_EXTREMUM)
+            if radius_error > FARTHEST:
                 return self._extremum(event, states.start)
-            return (spec, radius), states.start, slope, doubt
-        if held:
+            return (spec, radius), Anchor(states.start, slope, radius_error)
+        if pinned:
             radius -= excess(states.start) / slope
-            spec, point_there = states.own(radius)
-            return (spec, radius), replace(point_there, held=True), slope, 0.0
-        return (spec, radius), states.start, slope, 0.0
+            spec, point_there = states.on_fine_mesh(radius)
+            return (spec, radius), Anchor(replace(point_there, pinned=True), slope)
+        return (spec, radius), Anchor(states.start, slope)
 
-    def _extremum(self, event: str, point: Point) -> tuple[tuple[MeshSpec, float], Point, float, float]:
-        """As `_located`, by the values of states beside it; the doubt is the difference from other elements."""
-        order, density = self._choice.level.order, self._choice.level.density
+    def _extremum(self, event: str, point: Point) -> tuple[tuple[MeshSpec, float], Anchor]:
+        """As `_located`, by the values of states beside it; other elements tell the error of the radius."""
+        order, density = self._meshes.level.order, self._meshes.level.density
 
         def states_near(start: Point, order: int, density: float) -> EdgeStates:
-            return EdgeStates(self._choice, start, order, density, EVENT_SHARE)
+            return EdgeStates(self._meshes, start, order, density, EVENT_SHARE)
 
         def height(state: Point) -> float:
             return _height(event, state)
@@ -206,12 +191,19 @@ class FollowedPath:
         states = states_near(point, order, density)
         radius, slope = states.extremum(height)
         others = [(order - 1, density)]
-        if isinstance(self._choice.problem.law, TabulatedLaw):
+        if isinstance(self._meshes.problem.law, TabulatedLaw):
             others += [(order, ratio * density) for ratio in OTHER_LENGTHS]
         radii = [states_near(states.start, *other).extremum(height)[0] for other in others]
-        spec, point_there = states_near(states.start, order, density).own(radius)
-        doubt = sum(abs(math.log(radius / other)) for other in radii)
-        return (spec, radius), replace(point_there, held=True), slope, doubt
+        spec, point_there = states_near(states.start, order, density).on_fine_mesh(radius)
+        radius_error = sum(abs(math.log(radius / other)) for other in radii)
+        return (spec, radius), Anchor(replace(point_there, pinned=True), slope, radius_error)
+
+
+# Several problems are solved in turns where a parameter is varied.
+@lru_cache(maxsize=2)
+def followed_path(meshes: Meshes) -> FollowedPath:
+    """Return the path over meshes of a problem, followed once for all of its events."""
+    return FollowedPath(meshes)
 
 
 def _height(event: str, point: Point) -> float:

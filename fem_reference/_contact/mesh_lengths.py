@@ -19,7 +19,7 @@ from fem_reference._elastic.depth_scales import depth_scales
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import Level
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 from fem_reference.problem import Problem
 from fem_reference.punch import Punch, kinks_of, radius_at_height
 from fem_reference.solids import Solid
@@ -219,7 +219,8 @@ def kinks_within(problem: Problem) -> tuple[float, ...]:
     if len(within) > MOST_KINKS:
         raise NotConverged(
             f"the slope of the punch jumps at {len(within)} radii below {reach:.3g}, and the mesh follows at most "
-            f"{MOST_KINKS}; take fewer points of the profile, or a smooth curve through them as a CustomPunch"
+            f"{MOST_KINKS}",
+            Failure.KINKS,
         )
     return within
 
@@ -287,6 +288,6 @@ def check_width(width: float, smallest: float = NARROWEST) -> None:
     if width < smallest:
         raise NotConverged(
             f"the contact edge needs elements of {width:.1e} of its radius, and the smallest that are meshed have "
-            f"{smallest:g}: the adhesion is too strong for the solid at its surface; take a stiffer surface, a smaller "
-            "work of adhesion, or a longer range of the law"
+            f"{smallest:g}: the adhesion is too strong for the solid at its surface",
+            Failure.MESH,
         )

@@ -11,7 +11,7 @@ from scipy import linalg
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeRadius
 from fem_reference._typing import Array
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["State", "newton"]
 
@@ -145,7 +145,7 @@ def newton(contact: Contact, y: Array, fixed: Control, varied: Control) -> State
         y = y - _damping(contact, y, step) * step
         if contact.gap(y).min() <= law.singular_gap:
             break
-    raise NotConverged(f"Newton stopped at a residual of {size:.1e} lengths of the law")
+    raise NotConverged(f"Newton stopped at a residual of {size:.1e} lengths of the law", Failure.ITERATION)
 
 
 def _damping(contact: Contact, y: Array, step: Array) -> float:

@@ -1,4 +1,4 @@
-"""Continuation of the equilibrium path in one parameter, which changes in one sense only.
+"""The equilibrium path on one mesh, in one parameter, which changes in one sense only.
 
 Before contact the central gap H0 falls, and the mesh is scaled so that the gap at its node s = 1 is a little
 larger than H0: it follows the bottom of the gap even where contact nucleates on a spot much smaller than the
@@ -13,41 +13,20 @@ the edge moves over it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from scipy.optimize import brentq
 
+from fem_reference._contact.completeness import displacement_range
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import CentralGap, Control, EdgeGap, EdgeRadius, GapRise, Size
-from fem_reference._contact.newton import State, newton
+from fem_reference._contact.states import Branch, Point, continuation
 from fem_reference._elastic.compliance import FixedCompliance
-from fem_reference._typing import Array
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 from fem_reference.punch import kinks_of, radius_at_height
 
-__all__ = [
-    "BESIDE",
-    "EDGE_RISE",
-    "NARROWER",
-    "WIDTH_SHARE",
-    "Branch",
-    "Point",
-    "approach_branch",
-    "branches_of",
-    "contact_branch",
-    "continuation",
-    "edge_is_resolved",
-    "edge_width",
-    "element_length",
-    "equilibrium_points",
-    "first_edge_radius",
-    "joined",
-    "point_at",
-]
-
+__all__ = ["BESIDE", "EDGE_RISE", "beginning", "equilibrium_points", "traced"]
 
 #: Central gap where a path begins, in lengths of the law: the tension there is 1e-3 of its peak, Newton starts from no
 #: load. A very soft solid has no equilibrium there that Newton reaches (measured: from a Tabor number of 2e4 on).
@@ -61,142 +40,11 @@ FARTHER_START, FARTHEST_START = 4.0, 1e6
 #: parameter before any pull-off (a flat punch, n = 5 and more, pulls off 0.1 z0 below the gap of peak tension).
 EDGE_RISE = 0.05
 
-#: Largest step of the central gap, relative to the length of the law plus H0.
-GAP_STEP = 0.2
-
-#: Largest relative step of the edge radius: P and delta change by a few per cent of their range.
-SIZE_STEP = 0.1
-
 #: Distance from a kink of the punch, relative to its radius, at which a branch ends and the next begins.
 BESIDE = 1e-9
 
-#: Resolved edge width relative to the length over which the gap rises by the length of the law at the edge.
-WIDTH_SHARE = 0.18
-
-#: Ratio of edge widths from one mesh to the next where the width is not known.
-NARROWER = 0.25
-
-#: Ratio of the steepest slope of the gap to that at peak tension which the meshes of an edge resolve as they are.
-STEEPER = 4.0
-
-#: Step, relative to the largest, below which the path ends with NotConverged.
-SMALLEST_STEP = 1e-6
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Branch:
-    """A part of the path under one pair of controls: `fixed`, and `family` of the parameter."""
-
-    contact: Contact
-    fixed: Control
-    family: Callable[[float], Control]
-    touching: bool
-
-    def solve(self, parameter: float, y: Array) -> Point:
-        """Solve at a parameter from a starting vector."""
-        return Point(self, parameter, newton(self.contact, y, self.fixed, self.family(parameter)))
-
-    def largest_step(self, parameter: float) -> float:
-        """Largest sensible step of the parameter."""
-        if self.touching:
-            return SIZE_STEP * parameter
-        return GAP_STEP * (self.contact.law.z0 + max(parameter, 0.0))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Point:
-    """A state with the branch and the parameter it belongs to.
-
-    Attributes
-    ----------
-    rates : tuple of (float, float), optional
-        Changes of P and delta per unit of the parameter, where those of the state are not taken: along a path over
-        several meshes.
-    held : bool
-        Whether the parameter is kept on other meshes.  The point is an extremum by the values of its neighbours on
-        similar meshes, where its own rate, of a narrow edge that moves over elements, does not tell; or a jump ends
-        there that begins at an edge for which the mesh is not fine.
-    """
-
-    branch: Branch
-    parameter: float
-    state: State
-    rates: tuple[float, float] | None = None
-    held: bool = False
-
-    def predict(self, parameter: float, before: Point | None = None) -> Array:
-        """Extrapolate the state along its tangent, or by the cubic through it and the point before.
-
-        The size at most halves or doubles.
-        """
-        step = parameter - self.parameter
-        y = self.state.y + step * self.state.rate
-        if before is not None:
-            # Terms of Newton's form, with both points double.
-            length = self.parameter - before.parameter
-            chord = (self.state.y - before.state.y) / length
-            second = (self.state.rate - chord) / length
-            third = (self.state.rate - 2.0 * chord + before.state.rate) / length**2
-            y += step**2 * (second + (step + length) * third)
-        y[-1] = np.clip(y[-1], 0.5 * self.state.size, 2.0 * self.state.size)
-        return y
-
-    @property
-    def edge_radius(self) -> float:
-        """Radius of the largest tension; 0 before a contact edge exists."""
-        return self.parameter if self.branch.touching else 0.0
-
-    @property
-    def orientation(self) -> float:
-        """Sign of the parameter's change along the path."""
-        return 1.0 if self.branch.touching else -1.0
-
-    @property
-    def load_rate(self) -> float:
-        """Change of P along the path, per unit of the parameter's change."""
-        return self.orientation * self.state.load_rate if self.rates is None else self.rates[0]
-
-    @property
-    def displacement_rate(self) -> float:
-        """Change of delta along the path, per unit of the parameter's change."""
-        return self.orientation * self.state.displacement_rate if self.rates is None else self.rates[1]
-
-
-def continuation(point: Point, step: float, stop: float) -> Iterator[Point]:
-    """Continue a branch from a point towards `stop`, yielding every converged point after the first.
-
-    Raises
-    ------
-    NotConverged
-        When the step size has been reduced to `SMALLEST_STEP`.
-    """
-    direction = 1.0 if step > 0 else -1.0
-    before: Point | None = None
-    while (stop - point.parameter) * direction > 0:
-        largest = point.branch.largest_step(point.parameter)
-        step = direction * min(abs(step), largest, abs(stop - point.parameter))
-        target = stop if abs(stop - point.parameter - step) <= 1e-12 * abs(stop) else point.parameter + step
-        try:
-            new = point.branch.solve(target, point.predict(target, before))
-        except NotConverged as error:
-            before, step = None, 0.4 * step
-            if abs(step) < SMALLEST_STEP * largest:
-                raise NotConverged(
-                    f"the path stops at H0 = {point.state.central_gap:.6g}, delta = "
-                    f"{point.state.displacement:.6g}: {error}"
-                ) from error
-            continue
-        step *= 1.6 if new.state.iterations <= 4 else (0.7 if new.state.iterations > 7 else 1.0)
-        before, point = point, new
-        yield point
-
-
-def point_at(nearest: Point, parameter: float) -> Point:
-    """Return the point of a branch at a parameter, continued from a point near it."""
-    point = nearest
-    for following in continuation(nearest, parameter - nearest.parameter, parameter):
-        point = following
-    return point
+#: Lengths of the law by which a path begins below the displacement of its jump out of contact.
+FARTHER = 2.0
 
 
 def approach_branch(contact: Contact) -> Iterator[Point]:
@@ -228,7 +76,8 @@ def _farthest(branch: Branch, size: float) -> Point:
             if start > FARTHEST_START:
                 raise NotConverged(
                     f"no equilibrium was found at central gaps of up to {FARTHEST_START:g} lengths of the law, where "
-                    "the approach begins: the solid is too soft for the adhesion; take a stiffer one"
+                    "the approach begins: the solid is too soft for the adhesion",
+                    Failure.START,
                 ) from error
 
 
@@ -267,9 +116,7 @@ def first_edge_radius(point: Point) -> float:
     trace, force = contact.compliance.trace, contact.force
     above = np.flatnonzero(contact.gap(y) > force.peak_gap(y[-1] * trace.s))
     if above.size == 0 or above[0] == 0:
-        raise NotConverged(
-            "contact begins on a spot smaller than the mesh resolves: take a stiffer surface or less adhesion"
-        )
+        raise NotConverged("contact begins on a spot smaller than the mesh resolves", Failure.MESH)
 
     def excess(s: float) -> float:
         w = float(trace.evaluate(np.array([s]))[0] @ y[:-2])
@@ -279,59 +126,6 @@ def first_edge_radius(point: Point) -> float:
     return float(y[-1]) * float(brentq(excess, trace.s[above[0] - 1], trace.s[above[0]], xtol=1e-14))
 
 
-def edge_width(point: Point) -> float:
-    """Radial length over which the gap rises by the length of the law at the edge, relative to the edge radius.
-
-    It is that of the slope at the gap of peak tension, or `STEEPER` times that of the steepest slope in the length of
-    the law beyond, if that is shorter: for k near 1 the gap rises almost at once there.  Where the computed gap falls
-    at the edge, because the mesh is too coarse, the width is negative.
-    """
-    contact, y = point.branch.contact, point.state.y
-    radius, length = point.edge_radius, contact.law.z0
-    slope = -EdgeRadius(radius).parameter_rate(contact, y)
-    beside = np.flatnonzero(np.abs(y[-1] * contact.compliance.trace.s - radius) < radius)
-    s, gap = contact.compliance.trace.s[beside], contact.gap(y)[beside]
-    peak = contact.force.peak_gap(y[-1] * s)
-    at_edge = (gap > peak) & (gap < peak + length)
-    pairs = at_edge[:-1] & at_edge[1:]
-    steepest = float(np.max(np.diff(gap)[pairs] / np.diff(s)[pairs], initial=0.0)) / float(y[-1])
-    return length / (radius * (max(slope, steepest / STEEPER) if slope > 0.0 else slope))
-
-
-def element_length(point: Point, radius: float) -> float:
-    """Length of the element inside a radius on the mesh of a state."""
-    size, nodes = point.state.size, point.branch.contact.compliance.trace.nodes
-    outer = min(max(int(np.searchsorted(nodes, radius / size)), 1), nodes.size - 1)
-    return float(size * (nodes[outer] - nodes[outer - 1]))
-
-
-def edge_is_resolved(point: Point, share: float = 1.0) -> bool:
-    """Whether the elements at the contact edge are at most `share` times as long as it asks for, or there is none."""
-    if not point.branch.touching:
-        return True
-    radius = point.edge_radius
-    return element_length(point, radius) <= share * WIDTH_SHARE * edge_width(point) * radius
-
-
-def joined(a: Point, b: Point) -> bool:
-    """Whether the path is smooth between two neighbours: one branch, or meshes for two edges without a kink between."""
-    if a.branch is b.branch:
-        return True
-    low, high = sorted((a.edge_radius, b.edge_radius))
-    return low > 0.0 and not any(low < kink < high for kink in kinks_of(a.branch.contact.punch))
-
-
-def branches_of(points: Sequence[Point]) -> list[list[Point]]:
-    """Parts of a path in each of which neighbours are joined."""
-    branches = [list(points[:1])]
-    for a, b in pairwise(points):
-        if joined(a, b):
-            branches[-1].append(b)
-        else:
-            branches.append([b])
-    return branches
-
-
 def equilibrium_points(contact: Contact) -> Iterator[Point]:
     """Trace the whole equilibrium path from far away into contact, until the consumer stops."""
     point: Point | None = None
@@ -339,3 +133,52 @@ def equilibrium_points(contact: Contact) -> Iterator[Point]:
         yield point
     if point is not None:
         yield from contact_branch(point, 1e3 * radius_at_height(contact.punch, contact.law.z0))
+
+
+def traced(contact: Contact) -> list[Point]:
+    """Trace the path until the load is compressive again and every fold is on it, with the ends of both jumps.
+
+    Parameters
+    ----------
+    contact : Contact
+        The problem on one mesh.
+
+    Returns
+    -------
+    list of Point
+        In the order of the path, from far away into compression.
+
+    Raises
+    ------
+    NotConverged
+        If the path cannot be followed.
+    """
+    approach: list[Point] = []
+    touching: list[Point] = []
+    for point in equilibrium_points(contact):
+        (touching if point.branch.touching else approach).append(point)
+        settled = point.state.load > 0 and point.displacement_rate > 0 and point.load_rate > 0
+        # After a jump-in, the contact branch at the displacement of the jump belongs to the hysteresis cycle.
+        if touching and settled and point.state.displacement >= _highest_fold(approach, touching):
+            break
+    return [*beginning(approach, touching), *approach, *touching]
+
+
+def _highest_fold(approach: Sequence[Point], touching: Sequence[Point]) -> float:
+    """Bound of the displacements at which it turns from rising to falling."""
+    falling = [i for i, point in enumerate(touching) if point.displacement_rate < 0]
+    to_last_fold = touching[: falling[-1] + 1] if falling else touching[:1]
+    return max(displacement_range(approach)[1], displacement_range(to_last_fold)[1])
+
+
+def beginning(approach: Sequence[Point], touching: Sequence[Point]) -> list[Point]:
+    """Points before the first, out to the displacement where a jump out of contact ends."""
+    outermost, length = approach[0], approach[0].branch.contact.law.z0
+    falling = [i for i, point in enumerate(approach) if point.displacement_rate < 0]
+    segments = (approach[falling[0] :] if falling else approach[-1:], touching)
+    lowest = min(displacement_range(segment)[0] for segment in segments if segment)
+    if lowest > outermost.state.displacement:
+        return []
+    # The solid rises under tension: the displacement is below -H0.
+    farthest = FARTHER * length - lowest
+    return list(continuation(outermost, farthest - outermost.parameter, farthest))[::-1]

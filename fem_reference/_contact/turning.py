@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from fem_reference._contact.events import PathEvents
-from fem_reference._contact.path import Point, joined
+from fem_reference._contact.states import Point, joined
 
 __all__ = ["turning_slowly"]
 

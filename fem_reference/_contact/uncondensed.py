@@ -23,20 +23,19 @@ from functools import lru_cache
 import numpy as np
 
 from fem_reference._contact.bodies import meshed_bodies
+from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.event_equations import EventEquations
+from fem_reference._contact.event_mesh import EventMesh
 from fem_reference._contact.events import Jump, PathEvents, beginning_of
 from fem_reference._contact.full_system import FullSystem
-from fem_reference._contact.mesh_choice import MeshChoice
-from fem_reference._contact.path import Point
-from fem_reference._contact.resolved import ResolvedEvents
+from fem_reference._contact.states import Point
 from fem_reference._elastic.assembly import HalfSpace
 from fem_reference._elastic.compliance import Addend
 from fem_reference._elastic.condensation import surface_stiffness
-from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._linear.linear_solver import LinearResult, solve_cg
 from fem_reference._typing import Array
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["PointsAtEvents", "UncondensedEvents", "UncondensedValue", "uncondensed_events"]
 
@@ -89,7 +88,7 @@ class UncondensedValue:
     ----------
     value : float
         The quantity.
-    algebra : float
+    rounding : float
         Its distance from the value of the condensed path, plus what the displacement leaves of its load changes.
     iterations : int
         Conjugate-gradient iterations, the fewest of the events of the quantity; at least one.
@@ -98,7 +97,7 @@ class UncondensedValue:
     """
 
     value: float
-    algebra: float
+    rounding: float
     iterations: int
     residual: float
 
@@ -110,11 +109,11 @@ class PointsAtEvents:
     ----------
     points : mapping of str to Point
         By the names of the events.
-    path : PathEvents or ResolvedEvents
+    path : PathEvents or CarriedEvents
         The path.
     """
 
-    def __init__(self, points: Mapping[str, Point], path: PathEvents | ResolvedEvents) -> None:
+    def __init__(self, points: Mapping[str, Point], path: PathEvents | CarriedEvents) -> None:
         self.points, self._path = points, path
 
     def at(self, event: str) -> Point:
@@ -133,7 +132,7 @@ Functional = Callable[[PointsAtEvents], float]
 class _Condensed(dict[str, Point]):
     """Points of the condensed path; those that were requested are the keys."""
 
-    def __init__(self, path: PathEvents | ResolvedEvents) -> None:
+    def __init__(self, path: PathEvents | CarriedEvents) -> None:
         super().__init__()
         self._path = path
 
@@ -146,7 +145,7 @@ class UncondensedEvents:
 
     Parameters
     ----------
-    path : PathEvents or ResolvedEvents
+    path : PathEvents or CarriedEvents
         The condensed path, or its events.
     other : Contact
         The same problem with elements of another degree or size, with whose states Newton's method begins.
@@ -156,7 +155,7 @@ class UncondensedEvents:
 
     def __init__(
         self,
-        path: PathEvents | ResolvedEvents,
+        path: PathEvents | CarriedEvents,
         other: Contact,
         system: Callable[[], FullSystem],
     ) -> None:
@@ -181,13 +180,13 @@ class UncondensedEvents:
         if missing:
             # A jump ends at the displacement where it begins, which therefore comes first.
             for end in sorted(missing):
-                begin = None if missing[end].held else beginning_of(end)
+                begin = None if missing[end].pinned else beginning_of(end)
                 if begin is not None:
                     missing = {begin: condensed[begin], **missing}
             self._solve(missing)
 
     def value(self, functional: Functional) -> UncondensedValue:
-        """Return a quantity, with what is known of its algebraic error.
+        """Return a quantity, with what is known of its rounding.
 
         Raises
         ------
@@ -267,10 +266,13 @@ class _Newton:
         if not self._step <= ROUNDING_STEP:
             raise NotConverged(
                 f"the last Newton step of the whole system is {self._step:.1e} of its displacement, not "
-                f"{NEWTON_TOLERANCE:g}; take a finer accuracy"
+                f"{NEWTON_TOLERANCE:g}",
+                Failure.ITERATION,
             )
         if not all(self.iterations.values()):
-            raise NotConverged("the displacement of an event took no iteration of conjugate gradients; report the case")
+            raise NotConverged(
+                "the displacement of an event took no iteration of conjugate gradients", Failure.UNSOLVED
+            )
 
     def _newton_step(self) -> float:
         """Take a step of every event, from the displacement under its traction; return the largest."""
@@ -305,8 +307,8 @@ class _Newton:
             for body, load, norm in zip(self._system.bodies, loads, each_norm, strict=True)
         ]
         fewest = np.min([result.iterations for result in results], axis=0)
-        for name, (own, of_rate) in self._by_event(fewest[None, :].astype(float)).items():
-            self.iterations[name] += int(max(own[0], 0.0 if of_rate is None else of_rate[0]))
+        for name, (of_state, of_rate) in self._by_event(fewest[None, :].astype(float)).items():
+            self.iterations[name] += int(max(of_state[0], 0.0 if of_rate is None else of_rate[0]))
         return results
 
     @property
@@ -355,7 +357,8 @@ class _Newton:
             if not residual <= limit:
                 raise NotConverged(
                     f"the whole nonlinear system is left with a residual of {residual:.1e} of the traction, not "
-                    f"{limit:.0e}; take a finer accuracy"
+                    f"{limit:.0e}",
+                    Failure.ITERATION,
                 )
         return dict(zip(self._equations, map(float, residuals), strict=True))
 
@@ -384,14 +387,12 @@ def _left(half_space: HalfSpace, load: Array, u: Array) -> Array:
 
 # As many as there are paths: an entry holds surface displacements only.
 @lru_cache(maxsize=12)
-def uncondensed_events(choice: MeshChoice, spec: MeshSpec, size: float) -> UncondensedEvents:
+def uncondensed_events(mesh: EventMesh) -> UncondensedEvents:
     """Return the events of a problem on a mesh, solved without condensation when they are needed.
 
     Parameters
     ----------
-    choice : MeshChoice
-    spec, size
-        As for `MeshChoice.traced`.
+    mesh : EventMesh
 
     Returns
     -------
@@ -404,8 +405,8 @@ def uncondensed_events(choice: MeshChoice, spec: MeshSpec, size: float) -> Uncon
     """
 
     def system() -> FullSystem:
-        first, *others = meshed_bodies(choice.problem, spec, size)
-        return FullSystem(first.half_space, choice.problem.force, first.preconditioner, others)
+        problem = mesh.meshes.problem
+        first, *others = meshed_bodies(problem, mesh.spec, mesh.size)
+        return FullSystem(first.half_space, problem.force, first.preconditioner, others)
 
-    path = choice.traced(spec, size)
-    return UncondensedEvents(path, choice.lower_contact(spec, size), system)
+    return UncondensedEvents(mesh.events, mesh.lower_contact, system)

@@ -26,7 +26,7 @@ from fem_reference._elastic.surface_condition import FREE, SurfaceCondition
 from fem_reference._elastic.surface_tension import SurfaceTension
 from fem_reference._elastic.trace import Trace, trace_of
 from fem_reference._typing import Array
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 from fem_reference.modulus import Interface, Modulus, PowerLawModulus, interfaces_of
 from fem_reference.poisson import PoissonRatio
 
@@ -283,7 +283,8 @@ def _inverse(S: Array, half_space: HalfSpace | None) -> Array:
         if not relative <= LARGEST_ROUNDING:
             raise NotConverged(
                 f"rounding changes the compliance of the surface by {relative:.0e}, not {LARGEST_ROUNDING:.0e}: the "
-                "elements are too thin, or the stiffness is nearly singular; check modulus, mesh and nu"
+                "elements are too thin, or the stiffness is nearly singular",
+                Failure.STIFFNESS,
             )
     return X
 
@@ -424,7 +425,8 @@ def _refuse_thin_elements(grid: Grid, size: float, error: NotConverged) -> None:
         raise NotConverged(
             f"the solid changes so fast at the depth {size * grid.z[thinnest + 2]:.6g} that the elements there are "
             f"{thickness[thinnest]:.1e} of that depth thick, and rounding can spoil the stiffness of those below "
-            f"{SAFE_THICKNESS:g}; make the change longer, or sharp as between two layers"
+            f"{SAFE_THICKNESS:g}",
+            Failure.SOLID,
         ) from error
 
 

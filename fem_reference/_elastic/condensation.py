@@ -14,7 +14,7 @@ from fem_reference._elastic.dissection import Elimination, condensed_on, elimina
 from fem_reference._elastic.elasticity import element_places
 from fem_reference._elastic.scaling import unit_scaling
 from fem_reference._typing import Array
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["surface_stiffness"]
 
@@ -62,5 +62,5 @@ def surface_stiffness(half_space: HalfSpace, recoverable: bool = True) -> Array:
     try:
         linalg.cholesky(S, check_finite=False)
     except linalg.LinAlgError as error:
-        raise NotConverged("the surface stiffness is not positive definite; check modulus and mesh") from error
+        raise NotConverged("the surface stiffness is not positive definite", Failure.STIFFNESS) from error
     return S

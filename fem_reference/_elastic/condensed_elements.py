@@ -18,7 +18,7 @@ from skfem import Dofs
 
 from fem_reference._elastic.scaling import unit_scaling
 from fem_reference._typing import Array, Index
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["CondensedElements", "condensed_elements"]
 
@@ -98,7 +98,7 @@ def condensed_elements(
             # With Y of L Y = C the product C' B^-1 C is Y' Y: formed with B^-1 C it would lose ten times as much.
             L, failed = dpotrf(block.T, lower=1, overwrite_a=1, clean=0)
             if failed:
-                raise NotConverged("an element is not positive definite; check modulus, mesh and nu")
+                raise NotConverged("an element is not positive definite", Failure.STIFFNESS)
             Y, _ = dtrtrs(L, coupling.T, lower=1, overwrite_b=1)
             result.stiffness[element] -= Y.T @ Y
             if recoverable:

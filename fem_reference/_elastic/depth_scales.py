@@ -97,8 +97,8 @@ def depth_scales(modulus: Modulus, low: float, high: float, nu: float | PoissonR
 
     Examples
     --------
-    >>> from fem_reference.coating import CoatingModulus
-    >>> depth_scales(CoatingModulus(10.0, 1.0, thickness=3.0), 0.01, 100.0)
+    >>> from fem_reference.depth_profiles import TransitionProfile
+    >>> depth_scales(TransitionProfile(10.0, 1.0, thickness=3.0), 0.01, 100.0)
     DepthScales(lines=(3.0,), parts=())
     """
     lines: set[float] = set()

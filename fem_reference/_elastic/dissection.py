@@ -15,7 +15,7 @@ from scipy.linalg.lapack import dpotrf, dtrtrs
 from fem_reference._elastic.condensed_elements import CondensedElements
 from fem_reference._elastic.scaling import unit_scaling
 from fem_reference._typing import Array, Index
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["Elimination", "condensed_on", "eliminated"]
 
@@ -67,7 +67,7 @@ def eliminated(K: Array, count: int, recoverable: bool = False) -> tuple[Array, 
     # The upper triangle of a matrix whose rows are contiguous is the lower one of its transpose, as LAPACK has it.
     L, failed = dpotrf(K[count:, count:].T, lower=1)
     if failed:
-        raise NotConverged("the stiffness of a part of the mesh is not positive definite; check modulus, mesh and nu")
+        raise NotConverged("the stiffness of a part of the mesh is not positive definite", Failure.STIFFNESS)
     Y, _ = dtrtrs(L, K[:count, count:].T, lower=1)
     if recoverable:
         # The product of Y with itself would lose two to ten times as much (measured on four meshes).
@@ -195,14 +195,14 @@ class _Dissection:
         counts[at[in_right]] += right.counts[in_right]
         gone = (counts == self._counts[left.rows]) & ~self._retained[left.rows]
         # What stays of the left block ends, and what stays of the right one begins, with what both have.
-        own, both, gone = (np.flatnonzero(group) for group in (twin < 0, (twin >= 0) & ~gone, gone))
-        of_left = np.concatenate([own, both, gone])
+        only_left, both, gone = (np.flatnonzero(group) for group in (twin < 0, (twin >= 0) & ~gone, gone))
+        of_left = np.concatenate([only_left, both, gone])
         of_right = np.concatenate([twin[both], np.flatnonzero(at < 0), twin[gone]])
-        in_left, only_right = own.size + both.size, of_right[both.size : of_right.size - gone.size]
+        in_left, only_right = only_left.size + both.size, of_right[both.size : of_right.size - gone.size]
         count = in_left + only_right.size
         K, gathered = self._matrices(count + gone.size, max(of_left.size, of_right.size))
         K[:] = 0.0
-        stays = (left, of_left, slice(0, in_left)), (right, of_right, slice(own.size, count))
+        stays = (left, of_left, slice(0, in_left)), (right, of_right, slice(only_left.size, count))
         for block, order, there in stays:
             stay = there.stop - there.start
             ordered = block.K.take(order, 0, out=gathered[: order.size, : order.size], mode="clip").take(order, 1)

@@ -159,7 +159,7 @@ def stiffness(body: Body, first_layer: Index, depth_axis: int = 1) -> tuple[spar
     body : Body
         What to assemble.
     first_layer : ndarray of int
-        Elements touching the surface; they get the quadrature of the graded chart.
+        Elements touching the surface; they get the quadrature of the chart of the first layer.
     depth_axis : int
         Mesh coordinate that points into the solid in those elements.
 

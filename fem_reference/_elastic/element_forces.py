@@ -28,7 +28,7 @@ class ElementForces:
     Parameters
     ----------
     grid : Grid
-        The mesh; its first layer has the graded chart.
+        The mesh; its first layer has a chart.
     dofs : skfem.Dofs
         Numbering of its functions of `ElementQuadP`.
     modulus, nu

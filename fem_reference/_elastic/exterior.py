@@ -22,11 +22,11 @@ from fem_reference._elastic.dof_ordering import both_components, line_unknowns
 from fem_reference._elastic.elasticity import Body, element_places
 from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._elastic.line_functions import line_projection
-from fem_reference._elastic.mapping import ShellChart, graded_depth
+from fem_reference._elastic.mapping import ShellChart, first_layer_depth
 from fem_reference._elastic.mesh import Grid
 from fem_reference._elastic.tensor_elements import charted_stiffness
 from fem_reference._typing import Array
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 from fem_reference.modulus import Modulus, PowerLawModulus
 from fem_reference.modulus_checks import positive_modulus
 from fem_reference.poisson import PoissonRatio, poisson_at
@@ -117,8 +117,8 @@ def exterior_stiffness(
     A = _double(condensed[:m, :m], condensed[:m, m:], condensed[m:, m:], SHELL_RATIO ** (1.0 + k))
 
     def coordinate(y: Array) -> Array:
-        """From the graded first layer of the interior to that of the exterior."""
-        z = graded_depth(y, float(grid.z[1]), modulus.surface_exponent)[0]
+        """From the first layer of the interior to that of the exterior."""
+        z = first_layer_depth(y, float(grid.z[1]), modulus.surface_exponent)[0]
         return np.where(z < layer, layer * (z / layer) ** (1.0 - k), z)
 
     projection = np.kron(line_projection(fine, np.searchsorted(fine, t), order, coordinate), np.eye(2))[present]
@@ -136,9 +136,7 @@ def _double(A: Array, B: Array, D: Array, factor: float) -> Array:
         try:
             root = linalg.cholesky(D + factor * A, lower=True)
         except linalg.LinAlgError as error:
-            raise NotConverged(
-                "the stiffness of the exterior is not positive definite; check modulus and mesh"
-            ) from error
+            raise NotConverged("the stiffness of the exterior is not positive definite", Failure.STIFFNESS) from error
         inner = linalg.solve_triangular(root, B.T, lower=True)
         update = inner.T @ inner
         A = A - update
@@ -149,7 +147,7 @@ def _double(A: Array, B: Array, D: Array, factor: float) -> Array:
         # Rounding must not unbalance the two triangles: the doubling would amplify it.
         A, D = 0.5 * (A + A.T), 0.5 * (D + D.T)
         factor *= factor
-    raise NotConverged("the exterior shells did not converge by doubling; reduce the number of boundary elements")
+    raise NotConverged("the exterior shells did not converge by doubling", Failure.STIFFNESS)
 
 
 #: Octaves of depth above and below the end of the mesh where the modulus is compared with that of the exterior.

@@ -16,7 +16,7 @@ from skfem.mapping import Mapping, MappingIsoparametric
 
 from fem_reference._typing import Array
 
-__all__ = ["Chart", "ChartMapping", "InteriorChart", "ShellChart", "graded_depth"]
+__all__ = ["Chart", "ChartMapping", "InteriorChart", "ShellChart", "first_layer_depth"]
 
 
 class Chart(Protocol):
@@ -27,12 +27,12 @@ class Chart(Protocol):
         ...
 
 
-def graded_depth(y: Array, first: float, k: float) -> tuple[Array, Array]:
+def first_layer_depth(y: Array, first: float, k: float) -> tuple[Array, Array]:
     """z(y) and dz/dy: z = first (y/first)^(1/(1-k)) in the first layer, z = y below it.
 
     Examples
     --------
-    >>> z, slope = graded_depth(np.array([0.25, 2.0]), first=1.0, k=0.5)
+    >>> z, slope = first_layer_depth(np.array([0.25, 2.0]), first=1.0, k=0.5)
     >>> z, slope
     (array([0.0625, 2.    ]), array([0.5, 1. ]))
     """
@@ -46,7 +46,7 @@ def graded_depth(y: Array, first: float, k: float) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, slots=True)
 class InteriorChart:
-    """Identity below the first layer, graded inside it.
+    """Identity below the first layer, with a power of the depth inside it.
 
     Examples
     --------
@@ -60,7 +60,7 @@ class InteriorChart:
 
     def __call__(self, x: Array) -> tuple[Array, Array]:
         """Return image and Jacobian."""
-        z, slope = graded_depth(x[1], self.first, self.k)
+        z, slope = first_layer_depth(x[1], self.first, self.k)
         zero = np.zeros_like(z)
         return np.stack([x[0], z]), np.array([[np.ones_like(z), zero], [zero, slope]])
 
@@ -78,7 +78,7 @@ class ShellChart:
         t, rho = x
         a = self.extent
         side = t < a
-        z, slope = graded_depth(np.minimum(t, a), self.first, self.k)
+        z, slope = first_layer_depth(np.minimum(t, a), self.first, self.k)
         b = np.stack([np.where(side, a, 2.0 * a - t), np.where(side, z, a)])
         db = np.stack([np.where(side, 0.0, -1.0), np.where(side, slope, 0.0)])
         return rho * b, np.array([[rho * db[0], b[0]], [rho * db[1], b[1]]])

@@ -1,4 +1,4 @@
-"""Tensor-product meshes of the half-space, graded to a contact edge and to the surface.
+"""Tensor-product meshes of the half-space, fine at a contact edge and at the surface.
 
 Radii r >= 0 run along the surface, depth z >= 0 into the solid.  Radial nodes sit at s_e + d sinh(x) and
 depth nodes at d_z sinh(x) with x equally spaced: an element is about `density` times its distance from the
@@ -20,7 +20,7 @@ from fem_reference._elastic.depth_scales import DepthScales
 from fem_reference._elastic.nodes import depth_nodes, outer_nodes, radial_nodes, sinh_nodes
 from fem_reference._typing import Array
 
-__all__ = ["Grid", "MeshSpec", "graded_grid", "uniform_grid"]
+__all__ = ["Grid", "MeshSpec", "edge_grid", "uniform_grid"]
 
 _NO_SCALES = DepthScales()
 
@@ -62,7 +62,7 @@ class Grid:
         return MeshQuad.init_tensor(self.r, self.z)
 
 
-def graded_grid(
+def edge_grid(
     edge: float = 1.0,
     edge_width: float = 0.1,
     surface_depth: float = 0.05,
@@ -141,7 +141,7 @@ def uniform_grid(extent: float, count: int) -> Grid:
 
 @dataclass(frozen=True, slots=True)
 class MeshSpec:
-    """What a mesh in units of the edge radius is made of (see `graded_grid`), hashable.
+    """What a mesh in units of the edge radius is made of (see `edge_grid`), hashable.
 
     Attributes
     ----------
@@ -175,7 +175,7 @@ class MeshSpec:
 
     def grid(self) -> Grid:
         """Return the grid with its edge at s = 1."""
-        return graded_grid(
+        return edge_grid(
             1.0,
             self.edge_width,
             self.surface_depth,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fem_reference._typing import Array
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["unit_scaling"]
 
@@ -33,5 +33,5 @@ def unit_scaling(diagonal: Array) -> Array:
     array([0.5, 0.2])
     """
     if not np.all(diagonal > 0):
-        raise NotConverged("the stiffness has a non-positive diagonal entry; check modulus, mesh and nu")
+        raise NotConverged("the stiffness has a non-positive diagonal entry", Failure.STIFFNESS)
     return np.asarray(1.0 / np.sqrt(diagonal))

@@ -23,7 +23,7 @@ from fem_reference._elastic.elasticity import (
 )
 from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._elastic.line_functions import line_functions, line_slopes
-from fem_reference._elastic.mapping import graded_depth
+from fem_reference._elastic.mapping import first_layer_depth
 from fem_reference._elastic.mesh import Grid
 from fem_reference._typing import Array, Index
 from fem_reference.modulus import Modulus
@@ -128,7 +128,7 @@ def depth_integrals(
     for ends, points, weights in ((nodes[:2], u**3, 3.0 * u**2 * wu), (nodes[1:], x, w)):
         Z, slope = along(points, order)
         h = np.diff(ends)[:, None]
-        z, stretch = graded_depth(ends[:-1, None] + h * points, float(nodes[1]), modulus.surface_exponent)
+        z, stretch = first_layer_depth(ends[:-1, None] + h * points, float(nodes[1]), modulus.surface_exponent)
         measure, dZ = h * weights * stretch, slope / (h * stretch)[:, :, None]
         lame, shear = lame_parameters(modulus, nu, z)
         lame, shear = lame * measure, shear * measure
@@ -166,7 +166,7 @@ def tensor_stiffness(
     Parameters
     ----------
     grid : Grid
-        The mesh; its first layer has the graded chart.
+        The mesh; its first layer has a chart.
     dofs : skfem.Dofs
         Numbering of its functions of `ElementQuadP`.
     modulus, nu
@@ -224,7 +224,7 @@ def charted_stiffness(
     for elements, (X, W) in rules:
         if not elements.size:
             continue
-        # Transposed in the first layer, where the graded rule goes along the first coordinate.
+        # Transposed in the first layer, where the rule of the chart goes along the first coordinate.
         X = X[::-1] if elements is first_layer else X
         (r, z), J = body.chart(corner[:, elements, None] + sides[:, elements, None] * X[:, None, :])
         det = J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0]

@@ -10,10 +10,11 @@ from typing import cast
 
 import numpy as np
 
+from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.friction import FrictionName
-from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference._contact.mesh_lengths import scales
-from fem_reference._contact.path import EDGE_RISE, Point
+from fem_reference._contact.path import EDGE_RISE
+from fem_reference._contact.states import Point
 from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
 from fem_reference._elastic.elasticity import EXTRA_POINTS
 from fem_reference._elastic.mesh import MeshSpec
@@ -101,12 +102,8 @@ def linear_event(
     ValueError, NoSuchEvent, NotConverged
         As `fem_reference.event_state`.
     """
-    choice, spec, size = chosen(linear_problem(problem, friction), (event,), accuracy, _traced)
-    return LinearEvent(choice.traced(spec, size).at(event), spec, size)
-
-
-def _traced(choice: MeshChoice, spec: MeshSpec, size: float) -> None:
-    choice.traced(spec, size)
+    mesh = chosen(linear_problem(problem, friction), (event,), accuracy, lambda mesh: mesh.events)
+    return LinearEvent(mesh.events.at(event), mesh.spec, mesh.size)
 
 
 @dataclass(frozen=True, slots=True)

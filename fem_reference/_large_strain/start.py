@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference._contact.path import Point
+from fem_reference._contact.states import Point
 from fem_reference._large_strain.block import Block, linear_response
 from fem_reference._large_strain.equilibrium import State
 from fem_reference._large_strain.surface import Surface

@@ -8,10 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.friction import FrictionName
-from fem_reference._contact.mesh_choice import MeshChoice, chosen, followed_path
-from fem_reference._contact.path import Point, joined, point_at
-from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._contact.states import Point, joined, point_at
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent, linear_problem
 from fem_reference._large_strain.equilibrium import State
 from fem_reference._large_strain.error_parts import state_bounds
@@ -69,16 +68,11 @@ def path_states(
     NotConverged
         If a state before that is not found, or not on one of the meshes of its bounds.
     """
-
-    def followed(choice: MeshChoice, spec: MeshSpec, size: float) -> list[Point]:
-        path = choice.path(spec, size) if choice.scaling else followed_path(choice).events()
-        return list(path.points)
-
-    choice, spec, size = chosen(linear_problem(problem, friction), ("zero_load",), accuracy, followed)
+    mesh = chosen(linear_problem(problem, friction), ("zero_load",), accuracy, lambda mesh: mesh.whole_path.points)
     states: list[PathState] = []
     in_contact = False
-    for point in _refined(followed(choice, spec, size)):
-        linear = LinearEvent(point, spec, size)
+    for point in _refined(list(mesh.whole_path.points)):
+        linear = LinearEvent(point, mesh.spec, mesh.size)
         try:
             path_state = _state_at(linear, discretised(linear))
         except NotConverged as error:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigvalsh_tridiagonal
 
 from fem_reference._typing import Array, Index
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["Iterate", "conjugate_gradients", "definite_products", "products"]
 
@@ -79,7 +79,8 @@ def conjugate_gradients(
         if len(history) == iterations:
             raise NotConverged(
                 f"conjugate gradients left {float(np.sqrt(product / goal).max()):.1e} times their tolerance in "
-                f"{iterations} iterations; allow more iterations, or check the preconditioner and the mesh"
+                f"{iterations} iterations",
+                Failure.LINEAR,
             )
         image = matrix @ direction
         # A column that is finished stays as it is.
@@ -120,7 +121,8 @@ def definite_products(r: Array, left: Array) -> Array:
     if not np.all(is_definite):
         raise NotConverged(
             f"the preconditioner is not positive definite: a residual and what it makes of it have the product "
-            f"{product[~is_definite][0]:.1e}; check modulus and mesh"
+            f"{product[~is_definite][0]:.1e}",
+            Failure.LINEAR,
         )
     return product
 
@@ -137,7 +139,8 @@ def _check_symmetric(difference: Array, squares: Array) -> None:
     if not asymmetry <= ASYMMETRY:
         raise NotConverged(
             f"the preconditioner is not symmetric: the products of two residuals differ by {asymmetry:.1e}, not "
-            f"{ASYMMETRY:g}, from one order to the other"
+            f"{ASYMMETRY:g}, from one order to the other",
+            Failure.LINEAR,
         )
 
 
@@ -149,5 +152,6 @@ def _check_spectrum(lengths: Array, ratios: Array) -> None:
     if not LEAST_EIGENVALUE <= ritz[0] <= ritz[-1] <= LARGEST_EIGENVALUE:
         raise NotConverged(
             f"the preconditioner is no approximate inverse of the stiffness: its eigenvalues reach from {ritz[0]:.2g} "
-            f"to {ritz[-1]:.2g}, outside [{LEAST_EIGENVALUE:g}, {LARGEST_EIGENVALUE:g}]; check modulus and mesh"
+            f"to {ritz[-1]:.2g}, outside [{LEAST_EIGENVALUE:g}, {LARGEST_EIGENVALUE:g}]",
+            Failure.LINEAR,
         )

@@ -18,7 +18,7 @@ from fem_reference._linear.conjugate_gradients import conjugate_gradients, defin
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._linear.strips import factorise
 from fem_reference._typing import Array, Index
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["LinearResult", "relative_residual", "solve_cg", "solve_direct"]
 
@@ -144,7 +144,8 @@ def solve_cg(
     if not residual <= max(tolerance, rounding):
         raise NotConverged(
             f"conjugate gradients reached a residual of {residual:.1e} in {counts.max()} iterations, not "
-            f"{max(tolerance, rounding):.1e}; use the direct solver, or check modulus and mesh"
+            f"{max(tolerance, rounding):.1e}",
+            Failure.LINEAR,
         )
     return LinearResult(u.reshape(load.shape), left_over.reshape(load.shape), norm, counts, residual, seconds)
 
@@ -192,14 +193,15 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
         factors = factorise(A)
         x = factors.solve(b)
     except RuntimeError as error:
-        raise NotConverged(f"the stiffness matrix is singular ({error}); check modulus, mesh and nu") from error
+        raise NotConverged(f"the stiffness matrix is singular ({error})", Failure.STIFFNESS) from error
     seconds = time.perf_counter() - begin
     norm, r = float(np.linalg.norm(b)), b - A @ x
     residual = float(np.linalg.norm(r)) / norm if norm > 0 else 0.0
     if not residual <= TOLERANCE:
         raise NotConverged(
             f"the factorisation leaves a residual of {residual:.1e}, not {TOLERANCE:.1e}: the stiffness matrix is "
-            "nearly singular; check modulus, mesh and nu"
+            "nearly singular",
+            Failure.STIFFNESS,
         )
     storage = 12 * factors.nnz
     displacement, left_over = _expand(half_space, scale * x), _expand(half_space, r / scale)

@@ -20,7 +20,7 @@ from fem_reference._linear.algebraic_multigrid import pyamg
 from fem_reference._linear.hierarchy import hierarchy_bytes, vertex_hierarchy
 from fem_reference._linear.strips import sparse_bytes, strips_of
 from fem_reference._typing import Array, Index
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["ElasticPreconditioner"]
 
@@ -143,7 +143,8 @@ class ElasticPreconditioner:
             if not work >= SMALLEST_WORK * energy or (energy == 0.0 and np.any(left[vertices])):
                 raise NotConverged(
                     f"the correction by pyamg is none: the residual does the work {work:.1e} on it, and its energy is "
-                    f"{energy:.1e}; check modulus and mesh"
+                    f"{energy:.1e}",
+                    Failure.LINEAR,
                 )
             column[vertices] += correction
             left -= image

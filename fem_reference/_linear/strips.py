@@ -16,7 +16,7 @@ from scipy import sparse
 from scipy.sparse.linalg import SuperLU, splu
 
 from fem_reference._typing import Array, Index
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["StripSmoother", "Strips", "factorise", "sparse_bytes", "strips_of"]
 
@@ -107,7 +107,7 @@ def strips_of(matrix: sparse.csr_array, positions: Index) -> list[Strips]:
         try:
             factors = factorise(columns[inside])
         except RuntimeError as error:
-            raise NotConverged(f"a strip of the mesh is singular ({error}); check modulus and mesh") from error
+            raise NotConverged(f"a strip of the mesh is singular ({error})", Failure.STIFFNESS) from error
         strips.append(Strips(inside, lines, factors, columns[lines]))
     return strips
 

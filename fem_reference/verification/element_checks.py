@@ -8,7 +8,7 @@ import numpy as np
 
 from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.condensation import surface_stiffness
-from fem_reference._elastic.mesh import Grid, graded_grid, uniform_grid
+from fem_reference._elastic.mesh import Grid, edge_grid, uniform_grid
 from fem_reference._linear.linear_solver import solve_cg
 from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
 from fem_reference.verification.check import Check
@@ -66,7 +66,7 @@ def element_checks() -> list[Check]:
     []
     """
     rows = []
-    patch = graded_grid(extent=3.0, density=1.0)
+    patch = edge_grid(extent=3.0, density=1.0)
     for name, grid, modulus, field in (
         ("biaxial strain, k = 0", patch, PowerLawModulus(1.0, 1.0, 0.0), BIAXIAL),
         (f"confined column, k = {K}", uniform_grid(1.0, 1), PowerLawModulus(1.0, 1.0, K), column(K)),
@@ -75,7 +75,7 @@ def element_checks() -> list[Check]:
         size = 2 * (3 * grid.r.size - 2) * (3 * grid.z.size - 2)
         rows.append(Check("patch test", name, error, PATCH_LIMIT, size))
 
-    grid, case = graded_grid(edge_width=0.05, extent=16.0, density=0.9), f"k = {K}, nu = {NU}"
+    grid, case = edge_grid(edge_width=0.05, extent=16.0, density=0.9), f"k = {K}, nu = {NU}"
     half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, K), NU)
     matrix, unknowns = half_space.matrix, half_space.unknowns
     asymmetry = float(abs(matrix - matrix.T).max() / abs(matrix).max())

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from fem_reference._contact.path import Point
+from fem_reference._contact.states import Point
 
 
 class AnalyticBranch:

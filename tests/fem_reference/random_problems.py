@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from fem_reference import NotConverged, Solution, solve_together
-from fem_reference._contact.error_parts import events_on_meshes
-from fem_reference._contact.mesh_choice import chosen
-from fem_reference._contact.resolved import ResolvedEvents
+from fem_reference._contact.carried import CarriedEvents
+from fem_reference._contact.event_mesh import chosen
+from fem_reference._contact.parts import events_on_meshes
 from fem_reference.quantities import TABLE as QUANTITIES
 from tests.fem_reference.solved_together import problem_with
 from tests.random_tables import complete
@@ -64,16 +64,17 @@ def rows(number: int, accuracy: str = "quick") -> list[dict[str, object]]:
         solutions = solve_together(problem, NAMES, accuracy)
     except NotConverged:
         return [{**head, "quantity": name, "status": "NotConverged"} for name in NAMES]
-    choice, spec, size = chosen(problem, ("zero_load",), accuracy, events_on_meshes)
+    mesh = chosen(problem, ("zero_load",), accuracy, events_on_meshes)
+    spec = mesh.spec
     finer = replace(
         spec,
         order=spec.order + 1,
-        density=0.95 * choice.level.density,
+        density=0.95 * mesh.meshes.level.density,
         surface_depth=spec.surface_depth / 4.0,
         extent=2.0 * spec.extent,
         apex_width=0.25 * (spec.apex_width or 0.0),
     )
-    reference = ResolvedEvents(events_on_meshes(choice, spec, size).fine, choice.contact(finer, size))
+    reference = CarriedEvents(events_on_meshes(mesh).fine, mesh.meshes.contact(finer, mesh.size))
     table: list[dict[str, object]] = []
     for name, solution in solutions.items():
         row = {**head, "quantity": name, "status": type(solution).__name__}

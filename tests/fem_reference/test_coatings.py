@@ -13,12 +13,10 @@ from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.depth_scales import FIRST_END, DepthScales, depth_scales
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference.accuracy import level_for
-from fem_reference.coating import CoatingModulus
-from fem_reference.depth_profiles import TableModulus, TablePoisson
-from fem_reference.modulus import CustomModulus, OffsetPowerLawModulus, PowerLawModulus
-from fem_reference.poisson import CoatingPoisson, CustomPoisson
+from fem_reference.depth_profiles import CustomProfile, TabulatedProfile, TransitionProfile
+from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
 from tests.fem_reference.hankel_reference import pull_off, transform
-from tests.fem_reference.profile_solid import ProfileSolid
+from tests.fem_reference.profile_solid import ProfileSolid, table_of_moduli
 from tests.reference_values import REFERENCE_VALUES
 from tests.solvers.layered_jkr import Stack
 
@@ -35,16 +33,16 @@ def _exponential(z):
     return 1.0 + 10.0 * np.exp(-z / 2.0)
 
 
-EXPONENTIAL = CustomModulus(_exponential, 0.0, 0.0, surface_depth=2.0)
-STIFF, SOFT = CoatingModulus(10.0, 1.0, thickness=1.0), CoatingModulus(1.0, 10.0, thickness=1.0)
-SMOOTH = CoatingModulus(10.0, 1.0, thickness=1.0, transition=0.02)
+EXPONENTIAL = CustomProfile(_exponential, 0.0, 0.0, surface_depth=2.0)
+STIFF, SOFT = TransitionProfile(10.0, 1.0, thickness=1.0), TransitionProfile(1.0, 10.0, thickness=1.0)
+SMOOTH = TransitionProfile(10.0, 1.0, thickness=1.0, transition=0.02)
 PLAIN = PowerLawModulus(1.0, 1.0, 0.0)
-LAYERS_OF_NU = CoatingPoisson(0.2, 0.45, 1.0)
-TABLE, TABLE_OF_NU = TableModulus((0.0, 1.0, 2.0), (1.0, 1.5, 4.0)), TablePoisson((0.0, 2.0), (0.4, 0.1))
+LAYERS_OF_NU = TransitionProfile(0.2, 0.45, 1.0)
+TABLE, TABLE_OF_NU = table_of_moduli((0.0, 1.0, 2.0), (1.0, 1.5, 4.0)), TabulatedProfile((0.0, 2.0), (0.4, 0.1))
 
 
 #: Above the depth 3 a cubic that falls with the slope -3.75: 1/E doubles within 0.13.
-FALLING = TableModulus((0.0, 0.5, 1.0, 3.0), (2.0, 1.0, 3.0, 0.5))
+FALLING = table_of_moduli((0.0, 0.5, 1.0, 3.0), (2.0, 1.0, 3.0, 0.5))
 
 #: Relative error of the displacement of `FALLING` on the finest mesh of "default": 1.5e-9 measured.
 ELASTIC_ERROR = 1e-8
@@ -71,7 +69,7 @@ def test_hankel_transform_of_layers():
     unit = 2.0 / layer.surface.plane_strain
     values = transform(STIFF, LAYERS_OF_NU, xi, sharp=(1.0,))
     assert values == pytest.approx(unit * layer.relative_compliance(xi), rel=1e-9)
-    narrow = transform(CoatingModulus(10.0, 1.0, 1.0, 0.01), LAYERS_OF_NU, xi, sharp=(1.0,))
+    narrow = transform(TransitionProfile(10.0, 1.0, 1.0, 0.01), LAYERS_OF_NU, xi, sharp=(1.0,))
     assert narrow == pytest.approx(values, rel=2e-2)
 
 
@@ -120,7 +118,7 @@ def test_displacement_of_a_table_that_falls_to_a_small_modulus():
 @pytest.mark.parametrize("depth", [1.0, 0.75, FIRST_END * 1.5, 7.3e-4, 2.0**20])
 def test_jumps_of_a_callable(depth):
     """Wherever they are, to rounding; both declared and found."""
-    modulus = CustomModulus(lambda z: np.where(z < depth, 3.0, 2.0), 0.0, 0.0, surface_depth=depth)
+    modulus = CustomProfile(lambda z: np.where(z < depth, 3.0, 2.0), 0.0, 0.0, surface_depth=depth)
     if depth != FIRST_END * 1.5:  # the middle of an octave: the one place where a jump is not found
         lines = depth_scales(modulus, 1e-3 * depth, 1e3 * depth).lines
         assert lines == pytest.approx([depth], rel=1e-14)
@@ -129,9 +127,9 @@ def test_jumps_of_a_callable(depth):
 
 
 def test_layers_and_kinks():
-    sandwich = CustomModulus(lambda z: np.where((z < 1) | (z > 1.2), 1.0, 9.0), 0.0, 0.0, 1.0)
+    sandwich = CustomProfile(lambda z: np.where((z < 1) | (z > 1.2), 1.0, 9.0), 0.0, 0.0, 1.0)
     assert depth_scales(sandwich, 1e-2, 1e2).lines == pytest.approx([1.0, 1.2], rel=1e-14)
-    kink = CustomModulus(lambda z: 1.0 + np.minimum(z, 2.0), 0.0, 0.0, 1.0)
+    kink = CustomProfile(lambda z: 1.0 + np.minimum(z, 2.0), 0.0, 0.0, 1.0)
     scales = depth_scales(kink, 1e-2, 1e2)
     assert scales.lines == ()
     assert min(b - a for a, b in scales.parts) < 0.2
@@ -140,8 +138,8 @@ def test_layers_and_kinks():
 
 def test_error_of_the_exterior():
     """Falls with the square of the extent, of a modulus and of a Poisson ratio that change, and keeps its limit."""
-    assert exterior_error(PLAIN, 64.0, CustomPoisson(lambda z: 0.3 + 0.0 * z)) == 0.0
-    for least, *profiles in ((5e-5, EXPONENTIAL), (1e-7, PLAIN, CoatingPoisson(0.1, 0.4, 1.0))):
+    assert exterior_error(PLAIN, 64.0, CustomProfile(lambda z: 0.3 + 0.0 * z)) == 0.0
+    for least, *profiles in ((5e-5, EXPONENTIAL), (1e-7, PLAIN, TransitionProfile(0.1, 0.4, 1.0))):
         modulus, *poisson = profiles
         short, long = (exterior_error(modulus, extent, *poisson) for extent in (256.0, 1024.0))
         assert short / long == pytest.approx(16.0, rel=1e-2)
@@ -152,6 +150,6 @@ def test_error_of_the_exterior():
 
 def test_noise_is_refused():
     rng = np.random.default_rng(7)
-    noisy = CustomModulus(lambda z: 1.0 + 0.1 * rng.random(np.shape(z)), 0.0, 0.0, 1.0)
+    noisy = CustomProfile(lambda z: 1.0 + 0.1 * rng.random(np.shape(z)), 0.0, 0.0, 1.0)
     with pytest.raises(ValueError, match="smooth the data"):
         depth_scales(noisy, 0.5, 2.0)

@@ -7,7 +7,7 @@ from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import CentralGap, EdgeGap, EdgeRadius, GapRise, Size
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.newton import newton
-from fem_reference._contact.tracing import traced
+from fem_reference._contact.path import traced
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.errors import NotConverged

@@ -13,9 +13,9 @@ from fem_reference._contact import critical
 from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.cusp import cusp_from, displacement_rates, slowest
 from fem_reference._contact.events import CUSP, PathEvents
-from fem_reference._contact.mesh_choice import MeshChoice
-from fem_reference._contact.path import point_at
-from fem_reference._contact.tracing import traced
+from fem_reference._contact.meshes import Meshes
+from fem_reference._contact.path import traced
+from fem_reference._contact.states import point_at
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference.accuracy import level_for
 from tests.refusals import refused
@@ -34,7 +34,7 @@ MODULUS = TABOR ** (-9.0 / 5.0)
 def near(problem):
     """The modulus of a slightly stiffer problem, and its contact on a coarse mesh."""
     stiffer = stiffer_than_critical(problem, "quick")
-    return stiffer.E0, MeshChoice(stiffer.problem, level_for("quick")).contact(*stiffer.start)
+    return stiffer.E0, Meshes(stiffer.problem, level_for("quick")).contact(*stiffer.start)
 
 
 def at(problem, ratio):
@@ -79,7 +79,7 @@ def test_the_value_is_that_of_the_integral_equation():
     assert abs(solution.value - MODULUS) <= solution.u_num < 1e-5 * solution.value
     assert solution.u_num == pytest.approx(sum(solution.parts.values()))
     # The whole system and the condensed one have the same cusp.
-    assert solution.parts["algebra"] < 1e-9 * solution.value
+    assert solution.parts["rounding"] < 1e-9 * solution.value
     assert solution.value == pytest.approx(solution.values[-1], rel=1e-9)
 
 

@@ -14,12 +14,13 @@ from fem_reference._elastic.dissection import LEAF, condensed_on
 from fem_reference._elastic.elasticity import Body, element_places, gauss_product, lame_parameters, stiffness
 from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import ChartMapping, InteriorChart
-from fem_reference._elastic.mesh import Grid, MeshSpec, graded_grid, uniform_grid
+from fem_reference._elastic.mesh import Grid, MeshSpec, edge_grid, uniform_grid
 from fem_reference._elastic.trace import trace_of
-from fem_reference.depth_profiles import TableModulus
+from fem_reference.depth_profiles import CustomProfile
 from fem_reference.errors import NotConverged
-from fem_reference.modulus import CustomModulus, OffsetPowerLawModulus, PowerLawModulus
+from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
 from fem_reference.verification.load_vectors import smooth_load
+from tests.fem_reference.profile_solid import table_of_moduli
 from tests.refusals import refused
 
 #: Same Gauss points, other order of summation: measured 5e-15.
@@ -84,11 +85,11 @@ def test_batched_contraction_equals_bilinear_forms(nu):
 
 
 def test_rigid_translation_costs_nothing_and_matrix_is_symmetric():
-    _, matrix = _interior(graded_grid(extent=4.0), PowerLawModulus(1.0, 1.0, 0.4), 0.3, 4)
+    _, matrix = _interior(edge_grid(extent=4.0), PowerLawModulus(1.0, 1.0, 0.4), 0.3, 4)
     assert abs(matrix - matrix.T).max() <= 1e-13 * abs(matrix).max()
     translation = np.zeros(matrix.shape[0])
     # Vertex functions sum to 1.
-    body_basis = Basis(graded_grid(extent=4.0).quads(), ElementQuadP(4), intorder=2, disable_doflocs=True)
+    body_basis = Basis(edge_grid(extent=4.0).quads(), ElementQuadP(4), intorder=2, disable_doflocs=True)
     translation[2 * body_basis.nodal_dofs[0] + 1] = 1.0
     assert np.abs(matrix @ translation).max() <= 1e-12 * abs(matrix).max()
 
@@ -100,7 +101,7 @@ def test_nu_one_half_and_low_order_are_refused():
 
 
 def test_modulus_that_vanishes_is_refused():
-    refused("not positive", _interior, uniform_grid(1.0, 2), CustomModulus(np.zeros_like, 0.0, 0.0, 1.0), 0.3, 2)
+    refused("not positive", _interior, uniform_grid(1.0, 2), CustomProfile(np.zeros_like, 0.0, 0.0, 1.0), 0.3, 2)
 
 
 def test_the_exterior_resists_every_displacement_of_its_boundary():
@@ -254,6 +255,6 @@ def test_a_compliance_that_rounding_changes_is_refused(monkeypatch):
 @pytest.mark.parametrize("step", [1e-10, 1e-7])
 def test_a_step_too_thin_for_its_elements_is_refused_by_its_depth(step):
     """The first is lost in the shells of the exterior, the second in the surface stiffness."""
-    modulus = TableModulus((0.0, 2.0, 2.0 * (1.0 + step), 6.0), (1.0, 1.2, 0.0012, 0.0014))
+    modulus = table_of_moduli((0.0, 2.0, 2.0 * (1.0 + step), 6.0), (1.0, 1.2, 0.0012, 0.0014))
     spec = MeshSpec(0.05, 0.01, 64.0, 0.8, 5, scales=depth_scales(modulus, 1e-3, 64.0))
     refused(r"at the depth 2 .* 1e-05; ", compliance_for, modulus, 0.3, spec, 1.0, recoverable=True, error=NotConverged)

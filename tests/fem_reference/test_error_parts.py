@@ -6,9 +6,9 @@ from functools import lru_cache
 
 import pytest
 
-from fem_reference._contact.error_parts import PARTS, events_on_meshes
-from fem_reference._contact.mesh_choice import chosen
-from fem_reference._contact.resolved import ResolvedEvents
+from fem_reference._contact.carried import CarriedEvents
+from fem_reference._contact.event_mesh import chosen
+from fem_reference._contact.parts import PARTS, events_on_meshes
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.quantities import LOSSES, TABLE
 from tests.fem_reference.solved_together import PROBLEM, solved
@@ -23,21 +23,22 @@ def _chosen():
 
 @lru_cache(maxsize=1)
 def _meshes():
-    return events_on_meshes(*_chosen())
+    return events_on_meshes(_chosen())
 
 
 def _contact(spec):
-    choice, _, size = _chosen()
-    return choice.contact(spec, size)
+    mesh = _chosen()
+    return mesh.meshes.contact(spec, mesh.size)
 
 
 @lru_cache(maxsize=1)
 def _finer_events():
     """The same events on a mesh of another degree, on which every feature is finer too."""
-    choice, spec, _ = _chosen()
-    depth, density = spec.surface_depth / 4, 0.85 * choice.level.density
+    mesh = _chosen()
+    spec = mesh.spec
+    depth, density = spec.surface_depth / 4, 0.85 * mesh.meshes.level.density
     finer = replace(spec, order=7, density=density, surface_depth=depth, extent=4 * spec.extent)
-    return ResolvedEvents(_meshes().fine, _contact(finer))
+    return CarriedEvents(_meshes().fine, _contact(finer))
 
 
 @pytest.mark.parametrize("quantity", TABLE)
@@ -61,10 +62,13 @@ WORSE = {"surface_depth": 16.0, "extent": 1 / 16, "edge_width": 4.0}
 
 
 def test_every_part_responds_to_a_mesh_that_is_worse_in_every_feature():
-    choice, spec, size = _chosen()
+    mesh = _chosen()
+    spec = mesh.spec
     worse = replace(spec, **{name: factor * getattr(spec, name) for name, factor in WORSE.items()})
     functional = TABLE["jump_in_displacement"].functional
-    good, bad = (meshes.estimate(functional).parts for meshes in (_meshes(), events_on_meshes(choice, worse, size)))
+    good, bad = (
+        meshes.estimate(functional).parts for meshes in (_meshes(), events_on_meshes(replace(mesh, spec=worse)))
+    )
     assert all(bad[part] > 3.0 * good[part] for part in ("first layer", "interior and exterior", "edge", "tail"))
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.events import PathEvents
-from fem_reference._contact.tracing import traced
+from fem_reference._contact.path import traced
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.export import contact_field, draw, write_vtu

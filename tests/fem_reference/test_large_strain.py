@@ -24,7 +24,7 @@ from fem_reference import (
     solve_large_strain,
     trace_large_strain,
 )
-from fem_reference._elastic.mesh import graded_grid, uniform_grid
+from fem_reference._elastic.mesh import edge_grid, uniform_grid
 from fem_reference._elastic.trace import trace_of
 from fem_reference._large_strain import whole_path
 from fem_reference._large_strain.core import core_of
@@ -199,7 +199,7 @@ def test_a_manufactured_solution_converges_with_the_order_of_the_elements(nu, mi
     ("punch", "interaction"), [(PowerPunch(2.0, 1.0), "derjaguin"), (Ball(1.0), "derjaguin"), (Ball(1.0), "body")]
 )
 def test_the_surface_force_is_the_derivative_of_its_energy(punch, interaction):
-    grid = graded_grid(1.0, 0.25, 0.25, 4.0, 0.4)
+    grid = edge_grid(1.0, 0.25, 0.25, 4.0, 0.4)
     trace = trace_of(grid, 4)
     problem = sphere(0.01, 1.0, 0.3, punch=punch)
     force = interaction_of(punch, problem.law, interaction)

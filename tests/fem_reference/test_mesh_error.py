@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from fem_reference import NotConverged
-from fem_reference._contact.error_parts import PARTS, EventsOnMeshes
+from fem_reference._contact.degree_error import degree_error
 from fem_reference._contact.mesh_lengths import OTHER_LENGTHS
-from fem_reference._contact.uncertainty import degree_error
+from fem_reference._contact.parts import PARTS, EventsOnMeshes
 
 #: Sums and differences of numbers near 1, relative to the differences of 1e-3 between them.
 ROUNDED = 1e-10
@@ -72,7 +72,7 @@ ON_MESHES = {
 }  # fmt: skip
 EXPECTED = {
     "mesh": 0.0018913, "first layer": 1e-3, "interior and exterior": 3e-4, "edge": 4e-5, "tail": 6e-6,
-    "algebra": ROUNDING * FINE,
+    "rounding": ROUNDING * FINE,
 }  # fmt: skip
 
 

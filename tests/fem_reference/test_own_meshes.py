@@ -24,8 +24,10 @@ from fem_reference import (
 )
 from fem_reference._contact import completeness
 from fem_reference._contact.completeness import complete_path, displacement_range
+from fem_reference._contact.event_mesh import chosen, event_mesh
 from fem_reference._contact.events import PathEvents
-from fem_reference._contact.mesh_choice import MeshChoice, chosen
+from fem_reference._contact.meshes import Meshes
+from fem_reference._contact.width_search import search_path_on
 from fem_reference.accuracy import level_for
 from fem_reference.quantities import TABLE
 from tests.fem_reference.analytic_branch import AnalyticBranch
@@ -89,7 +91,7 @@ def test_the_jumps_of_a_cone_are_as_certain_together_as_alone():
     together = solve_together(CONE, NAMES, "quick")
     assert all(together[name].u_num <= 1e-4 * abs(together[name].value) for name in NAMES)
     alone = solve(CONE, JUMP_OUT, "quick")
-    assert abs(alone.value - together[JUMP_OUT].value) <= alone.parts["algebra"] + together[JUMP_OUT].parts["algebra"]
+    assert abs(alone.value - together[JUMP_OUT].value) <= alone.parts["rounding"] + together[JUMP_OUT].parts["rounding"]
 
 
 #: The edge is 1e-10 of its radius wide.
@@ -113,11 +115,11 @@ def test_an_edge_that_does_not_settle_is_searched_with_a_mesh_for_each_radius():
 
     punch = CustomPunch(lambda r: outside(r) ** 2 / 2.0, 2.0, outside, kinks=(0.05,))
     problem = Problem(PowerLaw(1.0, 1.0, 0.3, 0.3), punch, LennardJones(0.0005, 0.004))
-    choice, spec, size = MeshChoice(problem, level_for("quick")).adapted(("pull_off",))
-    assert choice.event == "pull_off"
-    assert spec.edge_width > 1e-3
-    finest = choice.traced(spec, size)
-    assert finest.at("pull_off").edge_radius == pytest.approx(size, rel=0.01)
+    mesh = event_mesh(Meshes(problem, level_for("quick")), ("pull_off",))
+    assert mesh.event == "pull_off"
+    assert mesh.spec.edge_width > 1e-3
+    finest = mesh.events
+    assert finest.at("pull_off").edge_radius == pytest.approx(mesh.size, rel=0.01)
     assert finest.at("pull_off").state.load == pytest.approx(-3.7757154e-3, rel=1e-5)
 
 
@@ -179,14 +181,14 @@ def test_a_level_reached_only_at_a_turning_point_between_samples_counts():
 
 def test_the_path_begins_beyond_the_jump_out_of_contact():
     """The jump out of a soft solid ends at a distance of 13 lengths of the law; on the coarsest mesh alone."""
-    choice, spec, size = chosen(problem_with(0.0, 8.0), ("zero_load",), "quick")
-    points = choice.search_path(spec, size).points
+    mesh = chosen(problem_with(0.0, 8.0), ("zero_load",), "quick")
+    points = search_path_on(mesh.meshes, mesh.spec, mesh.size).points
     assert points[0].state.displacement < min(p.state.displacement for p in points if p.branch.touching) < -12.0
 
 
 def test_a_power_law_has_the_same_mesh_at_neighbouring_radii():
     """A narrow edge has a mesh for each radius, and each mesh would need a condensation."""
-    narrow = MeshChoice(problem_with(0.0, 1500.0), level_for("default"))
-    assert not narrow.scaling
+    narrow = Meshes(problem_with(0.0, 1500.0), level_for("default"))
+    assert not narrow.one_for_all
     width = 1.01 * 2.0**-26
     assert len({narrow.spec_at(width, radius) for radius in (58.0, 58.5, 59.0)}) == 1

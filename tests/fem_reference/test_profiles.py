@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from fem_reference import MeasuredPunch, NotConverged, PowerLaw, PowerSum
-from fem_reference._contact.mesh_choice import chosen
+from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.mesh_lengths import kinks_within
-from fem_reference._elastic.mesh import MeshSpec, graded_grid
+from fem_reference._elastic.mesh import MeshSpec, edge_grid
 from fem_reference._elastic.trace import trace_of
 from tests.fem_reference.solved_together import sphere_on
 from tests.refusals import refused
@@ -19,19 +19,19 @@ SOFT = PowerLaw(1.0, 1.0, 0.0, 0.3)
 
 def test_mesh_lines_at_kinks():
     kinks = (0.2, 0.7, 1.0 + 1e-9, 3.0)
-    grid = graded_grid(apex_width=0.05, kinks=kinks)
+    grid = edge_grid(apex_width=0.05, kinks=kinks)
     assert set(kinks) <= set(grid.r)
     assert 1.0 not in grid.r  # the kink beside it is the line there
     assert np.diff(grid.r).min() > 1e-3
-    apart = graded_grid(apex_width=0.05, kinks=(0.2, 3.0)).r
+    apart = edge_grid(apex_width=0.05, kinks=(0.2, 3.0)).r
     assert {0.2, 1.0, 3.0} <= set(apart)
-    assert apart.size < 2 * graded_grid(apex_width=0.05).r.size
+    assert apart.size < 2 * edge_grid(apex_width=0.05).r.size
     spec = MeshSpec(0.1, 0.05, 100.0, 0.5, 4, kinks=(2.0,))
     assert 0.5 in spec.moved(4.0).grid().r
 
 
 def test_derivatives_of_the_surface_functions():
-    trace = trace_of(graded_grid(density=1.0), 6)
+    trace = trace_of(edge_grid(density=1.0), 6)
     s, h = np.array([0.01, 0.9, 1.3, 40.0]), 1e-6
     differences = (trace.evaluate(s * (1 + h)) - trace.evaluate(s * (1 - h))) / (2 * h * s[:, None])
     assert trace.slopes(s) == pytest.approx(differences, abs=1e-7 * np.abs(differences).max())

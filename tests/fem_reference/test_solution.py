@@ -25,8 +25,9 @@ from fem_reference import (
     solve_together,
     trace,
 )
-from fem_reference._contact.error_parts import PARTS
-from fem_reference._contact.mesh_choice import MeshChoice, chosen
+from fem_reference._contact import event_mesh
+from fem_reference._contact.event_mesh import EventMesh, chosen
+from fem_reference._contact.parts import PARTS
 from fem_reference.accuracy import ACCURACIES, level_for
 from tests.fem_reference.solved_together import PROBLEM, problem_with, solved, sphere_on
 from tests.reference_values import REFERENCE_VALUES
@@ -93,20 +94,20 @@ def test_finer_meshes_are_taken_where_a_path_cannot_be_traced(monkeypatch, trace
     """As that of n = 5, k = 0.6, mu = 3, whose contact begins on a spot a 500th of the rim."""
     tried = []
 
-    def adapted(choice, events, start=None):
-        tried.append(choice.level)
-        if traceable is None or choice.level != level_for(traceable):
+    def suitable(meshes, events, start=None):
+        tried.append(meshes.level)
+        if traceable is None or meshes.level != level_for(traceable):
             raise NotConverged("the path stops")
-        return choice, "the mesh", 1.0
+        return EventMesh(meshes, "the mesh", 1.0)
 
-    monkeypatch.setattr(MeshChoice, "adapted", adapted)
+    monkeypatch.setattr(event_mesh, "event_mesh", suitable)
     problem = problem_with(0.0, 1.0)
     if traceable is None:
         refused("the path stops", chosen, problem, ("pull_off",), "quick", error=NotConverged)
         assert tried == [level_for(name) for name in ACCURACIES]
     else:
-        choice, *mesh = chosen(problem, ("pull_off",), "quick")
-        assert (choice.level, mesh) == (level_for(traceable), ["the mesh", 1.0])
+        mesh = chosen(problem, ("pull_off",), "quick")
+        assert (mesh.meshes.level, mesh.spec, mesh.size) == (level_for(traceable), "the mesh", 1.0)
     if traceable == "quick":
         with pytest.raises(NotConverged):
             chosen(problem, ("pull_off",), "default")

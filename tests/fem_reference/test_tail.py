@@ -9,8 +9,8 @@ from scipy.integrate import quad
 
 from fem_reference import Mie, PowerPunch
 from fem_reference._contact.contact import Contact
+from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.far_rule import far_rule
-from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.tail import TailContact
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.interaction import Derjaguin
@@ -28,8 +28,8 @@ DISPLACEMENT, SIZE, AT_EDGE = -0.5, 1.5, 0.1
 def _contacts(k):
     """Contact, the same with the tail, and a displacement that falls to `AT_EDGE` at the end of the mesh."""
     problem = problem_with(k, 1.0)
-    choice, _, size = chosen(problem, ("pull_off",), "quick")
-    plain = choice.contact(SPEC, size)
+    mesh = chosen(problem, ("pull_off",), "quick")
+    plain = mesh.meshes.contact(SPEC, mesh.size)
     tail = TailContact(plain.force, plain.compliance, k)
     y = np.concatenate([np.full(plain.unknowns, AT_EDGE), [DISPLACEMENT, SIZE]])
     return problem, plain, tail, y

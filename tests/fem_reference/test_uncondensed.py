@@ -8,12 +8,12 @@ import pytest
 
 from fem_reference import NotConverged, solve
 from fem_reference._contact import uncondensed
+from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.event_equations import EventEquations
-from fem_reference._contact.events import PathEvents
+from fem_reference._contact.events import Anchor, PathEvents
 from fem_reference._contact.full_system import FullSystem
-from fem_reference._contact.resolved import ResolvedEvents
-from fem_reference._contact.tracing import traced
+from fem_reference._contact.path import traced
 from fem_reference._contact.uncondensed import UncondensedEvents, UncondensedValue
 from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.compliance import compliance_for
@@ -94,7 +94,7 @@ def test_the_value_is_that_of_the_whole_system_and_not_of_the_condensed_path(
         solution = events.value(row.functional)
         assert abs(wrong - right) > 10 * ALGEBRA, name
         assert solution.value == pytest.approx(right, abs=ALGEBRA), name
-        assert solution.algebra >= 0.99 * abs(wrong - right), name
+        assert solution.rounding >= 0.99 * abs(wrong - right), name
 
 
 def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeypatch):
@@ -106,7 +106,7 @@ def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeyp
     events = UncondensedEvents(soft_path, _soft_contact(), lambda: soft_system)
     for name, row in TABLE.items():
         solution, right = events.value(row.functional), row.functional(soft_path)
-        estimate = solution.algebra - abs(solution.value - right)
+        estimate = solution.rounding - abs(solution.value - right)
         assert estimate == pytest.approx(abs(solution.value - right), rel=SECOND_ORDER), name
 
 
@@ -144,10 +144,12 @@ def test_the_end_of_a_jump_moves_with_its_beginning(soft_path):
 
 def test_the_end_of_a_further_jump_is_kept_on_any_mesh(soft_path):
     """It begins at an edge for which the mesh is not fine, and is not looked for at its displacement."""
-    end = replace(soft_path.landing, held=True)
-    events = ResolvedEvents(SimpleNamespace(anchor=lambda event: (end, end.displacement_rate)), _soft_contact(1e-3))
+    end = replace(soft_path.landing, pinned=True)
+    events = CarriedEvents(
+        SimpleNamespace(anchor=lambda event: Anchor(end, end.displacement_rate)), _soft_contact(1e-3)
+    )
     landing = events.at("landing_2")
-    assert landing.held
+    assert landing.pinned
     assert landing.parameter == end.parameter
     assert landing.state.displacement != end.state.displacement
     equation = EventEquations("landing_2", end, _soft_contact())
@@ -158,9 +160,9 @@ def test_the_end_of_a_further_jump_is_kept_on_any_mesh(soft_path):
 
 
 def test_an_event_is_taken_beside_where_it_is(soft_path):
-    """The doubt of its radius, which is a part of the bound."""
-    doubtful = SimpleNamespace(anchor=soft_path.anchor, doubt=lambda event: 1e-3)
-    there, beside = (ResolvedEvents(doubtful, _soft_contact(), beside=share).at("pull_off") for share in (0.0, -1.0))
+    """By the error of its radius, which is a part of the bound."""
+    uncertain = SimpleNamespace(anchor=lambda event: replace(soft_path.anchor(event), radius_error=1e-3))
+    there, beside = (CarriedEvents(uncertain, _soft_contact(), beside=share).at("pull_off") for share in (0.0, -1.0))
     assert beside.parameter == pytest.approx((1.0 - 1e-3) * there.parameter, rel=1e-12)
     # An equilibrium of its own, with a larger load than the least one.
     assert beside.state.load > there.state.load
@@ -203,7 +205,7 @@ def test_a_coarse_displacement_is_repaired_in_the_steps_that_follow(soft_path, l
     functional = TABLE["pull_off_force"].functional
     value = UncondensedEvents(soft_path, lower, lambda: soft_system).value(functional)
     assert value.value == pytest.approx(functional(soft_path), abs=ALGEBRA)
-    assert value.algebra <= ALGEBRA
+    assert value.rounding <= ALGEBRA
 
 
 def test_a_move_along_the_path_keeps_the_equilibrium(soft_path):
@@ -222,13 +224,13 @@ def test_a_solution_holds_the_value_of_the_whole_system(solved, monkeypatch):
     problem, right = solved
     other = right.with_whole_system(UncondensedValue(right.value + 1.0, 0.5, 7, 1e-3))
     assert (other.value, other.iterations, other.residual) == (right.value + 1.0, 7, 1e-3)
-    assert other.parts["algebra"] == right.parts["algebra"] + 0.5
-    assert right.parts["algebra"] <= ALGEBRA
+    assert other.parts["rounding"] == right.parts["rounding"] + 0.5
+    assert right.parts["rounding"] <= ALGEBRA
     assert right.iterations > 5
     assert 0.0 < right.residual <= uncondensed.RESIDUAL_TOLERANCE
     assert right.u_num == pytest.approx(sum(right.parts.values()))
     _, point = event_state(problem, "pull_off", "quick")
-    assert -point.state.load == pytest.approx(right.value, abs=right.parts["algebra"])
+    assert -point.state.load == pytest.approx(right.value, abs=right.parts["rounding"])
     uncondensed.uncondensed_events.cache_clear()
 
     def softer(*arguments, **options):
@@ -242,7 +244,7 @@ def test_a_solution_holds_the_value_of_the_whole_system(solved, monkeypatch):
     moved = abs(wrong.value - right.value)
     assert wrong.values == right.values
     assert moved > 100 * ALGEBRA
-    assert wrong.parts["algebra"] >= 0.9 * moved
+    assert wrong.parts["rounding"] >= 0.9 * moved
 
 
 def test_facet_forms_on_elements_thinner_than_rounding_resolves():

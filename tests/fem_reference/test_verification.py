@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import integrate, special
 
-from fem_reference._elastic.mesh import graded_grid
+from fem_reference._elastic.mesh import edge_grid
 from fem_reference.modulus import PowerLawModulus
 from fem_reference.verification import manufactured
 from fem_reference.verification.checks import (
@@ -135,6 +135,6 @@ def test_impossible_grids_and_exponents_are_refused():
         ({"density": -1.0}, "density"),
         ({"edge": 200.0}, "must lie in the mesh"),
     ):
-        refused(message, graded_grid, **options)
+        refused(message, edge_grid, **options)
     for k in (-0.1, 1.0, float("nan")):
         refused("exponent", PowerLawModulus, 1.0, 1.0, k)

@@ -3,7 +3,7 @@
 An event of the path is solved again on each of the others.  No part is taken from another method, and none is a factor
 times another.
 
-* mesh: the same elements with two lower degrees (`fem_reference._contact.uncertainty`).  If the solid does not scale,
+* mesh: the same elements with two lower degrees (`fem_reference._contact.degree_error`).  If the solid does not scale,
   the lower one of both neighbours has the contact edge half an element further out as well.  A law from a table has
   kinks, whose error does not fall with the degree but depends on where they are in the elements: there the differences
   from elements of other lengths are added.
@@ -14,7 +14,7 @@ times another.
   at the radius where the values of states beside it have an extremum, and as far on the other side, where that was
   looked for.
 * tail: the displacement that the mesh leaves out, by its first term.
-* algebra: rounding of the quantity itself.  The whole system (`fem_reference._contact.uncondensed`) adds what its
+* rounding: that of the quantity itself.  The whole system (`fem_reference._contact.uncondensed`) adds what its
   displacement leaves of the traction, and its distance from the condensed system.
 """
 
@@ -26,22 +26,23 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.contact import Contact
-from fem_reference._contact.mesh_choice import MeshChoice
+from fem_reference._contact.degree_error import degree_error
+from fem_reference._contact.event_mesh import EventMesh
 from fem_reference._contact.mesh_lengths import OTHER_LENGTHS
-from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tail import TailContact
-from fem_reference._contact.uncertainty import degree_error
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import ENDS, FEATURES, variant
 from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.errors import NotConverged
+from fem_reference.problem import Problem
 from fem_reference.tabulated_law import TabulatedLaw
 
 __all__ = ["PARTS", "Estimate", "EventsOnMeshes", "events_on_meshes"]
 
 #: Names of the parts of a bound.
-PARTS = ("mesh", "first layer", "interior and exterior", "edge", "tail", "algebra")
+PARTS = ("mesh", "first layer", "interior and exterior", "edge", "tail", "rounding")
 
 #: Relative rounding of a quantity itself, whatever else its parts show (measured: 6e-15 of a force from one kernel of
 #: the BLAS to another, where nothing else was left).
@@ -50,7 +51,7 @@ ROUNDING = 1e-14
 #: Distance by which the contact edge is placed beside its node, in halves of the element beyond it.
 PLACEMENT = 0.5
 
-Functional = Callable[[ResolvedEvents], float]
+Functional = Callable[[CarriedEvents], float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,17 +76,17 @@ class EventsOnMeshes:
 
     Attributes
     ----------
-    fine : ResolvedEvents
+    fine : CarriedEvents
         With the highest degree.
-    lower, base : ResolvedEvents
+    lower, base : CarriedEvents
         With the degree below, and with the lowest.
     feature : callable
         Returns the events with a feature made coarser, of the lowest degree or, with True, of the highest.
-    placements : tuple of ResolvedEvents
+    placements : tuple of CarriedEvents
         With another placement of the contact edge.
-    resized : tuple of ResolvedEvents
+    resized : tuple of CarriedEvents
         With elements of other lengths, for a law with kinks.
-    tail : ResolvedEvents
+    tail : CarriedEvents
         With the displacement beyond the mesh.
     degrees : tuple of int
         Of `base`, `lower` and `fine`.
@@ -93,13 +94,13 @@ class EventsOnMeshes:
         Relative error asked for.
     """
 
-    fine: ResolvedEvents
-    lower: ResolvedEvents
-    base: ResolvedEvents
-    feature: Callable[[str, bool], ResolvedEvents]
-    placements: tuple[ResolvedEvents, ...]
-    resized: tuple[ResolvedEvents, ...]
-    tail: ResolvedEvents
+    fine: CarriedEvents
+    lower: CarriedEvents
+    base: CarriedEvents
+    feature: Callable[[str, bool], CarriedEvents]
+    placements: tuple[CarriedEvents, ...]
+    resized: tuple[CarriedEvents, ...]
+    tail: CarriedEvents
     degrees: tuple[int, int, int]
     accuracy: float
 
@@ -143,58 +144,60 @@ class EventsOnMeshes:
 
 # The quantities of one problem are requested one after the other, on the meshes of two kinds of events.
 @lru_cache(maxsize=4)
-def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsOnMeshes:
+def events_on_meshes(mesh: EventMesh) -> EventsOnMeshes:
     """Return the events of a problem on all meshes of an accuracy.
 
     Parameters
     ----------
-    choice : MeshChoice
-    spec, size
-        As `fem_reference._contact.mesh_choice.chosen` returns them.
+    mesh : EventMesh
+        The finest.
 
     Raises
     ------
     NotConverged
         If the path cannot be traced.
     """
-    fine = choice.traced(spec, size)
-    contact = fine.contact
+    fine, meshes, spec = mesh.events, mesh.meshes, mesh.spec
+    problem, contact = meshes.problem, fine.contact
     plain = replace(spec, order=SEARCH_DEGREE)
     # Another placement of the edge needs another mesh if the solid does not scale: that of the degree below.
-    placements = (-PLACEMENT, PLACEMENT) if choice.scaling else ()
-    doubts = (-1.0, 1.0) if fine.doubt(choice.event) > 0.0 else ()
+    placements = (-PLACEMENT, PLACEMENT) if meshes.one_for_all else ()
+    sides = (-1.0, 1.0) if mesh.event and fine.anchor(mesh.event).radius_error > 0.0 else ()
+
+    def on(other: MeshSpec) -> Contact:
+        return meshes.contact(other, mesh.size)
 
     @lru_cache(maxsize=2 * len(FEATURES))
-    def feature(name: str, full: bool) -> ResolvedEvents:
-        return ResolvedEvents(fine, choice.contact(variant(spec if full else plain, name), size))
+    def feature(name: str, full: bool) -> CarriedEvents:
+        return CarriedEvents(fine, on(variant(spec if full else plain, name)))
 
-    has_kinks = isinstance(choice.problem.law, TabulatedLaw)
+    has_kinks = isinstance(problem.law, TabulatedLaw)
     resized = [replace(spec, density=ratio * spec.density) for ratio in OTHER_LENGTHS if has_kinks]
     return EventsOnMeshes(
         fine,
-        ResolvedEvents(fine, choice.lower_contact(spec, size)),
-        ResolvedEvents(fine, choice.contact(plain, size)),
+        CarriedEvents(fine, mesh.lower_contact),
+        CarriedEvents(fine, on(plain)),
         feature,
         (
-            *(ResolvedEvents(fine, contact, placement) for placement in placements),
-            *(ResolvedEvents(fine, contact, beside=beside) for beside in doubts),
+            *(CarriedEvents(fine, contact, placement) for placement in placements),
+            *(CarriedEvents(fine, contact, beside=beside) for beside in sides),
         ),
         (
-            *(ResolvedEvents(fine, choice.contact(other, size)) for other in resized),
+            *(CarriedEvents(fine, on(other)) for other in resized),
             *(
-                ResolvedEvents(fine, replace(contact, force=force.finer))
+                CarriedEvents(fine, replace(contact, force=force.finer))
                 for force in [contact.force]
                 if force.finer is not force
             ),
         ),
-        ResolvedEvents(fine, _with_tail(contact, choice)),
+        CarriedEvents(fine, _with_tail(contact, problem)),
         (SEARCH_DEGREE, spec.order - 1, spec.order),
-        choice.level.accuracy,
+        meshes.level.accuracy,
     )
 
 
-def _with_tail(contact: Contact, choice: MeshChoice) -> Contact:
+def _with_tail(contact: Contact, problem: Problem) -> Contact:
     """The contact with the displacement beyond the mesh."""
     # Far away the body moves most whose displacement falls most slowly.
-    depth_exponent = min(solid.modulus.depth_exponent for solid in choice.problem.solids)
+    depth_exponent = min(solid.modulus.depth_exponent for solid in problem.solids)
     return TailContact(contact.force, contact.compliance, depth_exponent)

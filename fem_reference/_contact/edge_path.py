@@ -9,19 +9,22 @@ on a soft solid has one minimum of the load where the layer alone feels the cont
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
+from scipy.optimize import brentq
 
 from fem_reference._contact.completeness import complete_branch
 from fem_reference._contact.edge_states import EdgeStates
-from fem_reference._contact.hermite import Sample
-from fem_reference._contact.path import BESIDE, Point, branches_of
+from fem_reference._contact.events import Anchor, Pair, PathEvents, kind_of
+from fem_reference._contact.hermite import Interval, Sample
+from fem_reference._contact.path import BESIDE
+from fem_reference._contact.states import Point, branches_of
 from fem_reference._typing import Array
 
-__all__ = ["log_displacement_sample", "log_load_sample", "multimesh_path", "with_rates"]
+__all__ = ["FARTHER", "EventsOfEdgePath", "edge_path", "with_rates"]
 
 #: Change of the logarithm of the radius from one state to the next. The test of turning points asks for none between on
 #: cones at mu = 3 whose modulus falls to a fifth below the surface, and each state is found from the last.
@@ -40,8 +43,11 @@ RATE_POINTS = 5
 #: of the law: its elements are a third of it long, and the range of the law moves the extremes by less.
 FARTHER = 1.5
 
+#: Change of the logarithm of the radius for the slope of an interpolated function: it slows the secant method only.
+SLOPE_STEP = 1e-3
 
-def multimesh_path(
+
+def edge_path(
     states: EdgeStates, inner: float, last_turn: float, kinks: Sequence[float], highest: float
 ) -> list[Point]:
     """Return states in contact, so close that no pair of turning points is between two.
@@ -70,7 +76,7 @@ def multimesh_path(
             break
     length = points[0].branch.contact.law.z0
     tension = abs(min(point.state.load for point in points))
-    tests = ((log_displacement_sample, LARGEST_CHANGE * length), (log_load_sample, LARGEST_CHANGE * tension))
+    tests = ((_log_displacement_sample, LARGEST_CHANGE * length), (_log_load_sample, LARGEST_CHANGE * tension))
     return [
         point
         for branch in branches_of(points)
@@ -80,12 +86,12 @@ def multimesh_path(
     ]
 
 
-def log_displacement_sample(point: Point) -> Sample:
+def _log_displacement_sample(point: Point) -> Sample:
     """Displacement and its rate along the path in the logarithm of the radius."""
     return Sample(math.log(point.parameter), point.state.displacement, point.displacement_rate * point.parameter)
 
 
-def log_load_sample(point: Point) -> Sample:
+def _log_load_sample(point: Point) -> Sample:
     """Load and its rate along the path in the logarithm of the radius."""
     return Sample(math.log(point.parameter), point.state.load, point.load_rate * point.parameter)
 
@@ -133,3 +139,66 @@ def _settled(points: Sequence[Point], highest: float) -> bool:
     rising = newest.load > max(previous.load, 0.0) and newest.displacement > previous.displacement
     folds = [a.state.displacement for a, b in pairwise(points) if b.state.displacement < a.state.displacement]
     return rising and newest.displacement >= max(highest, *folds, previous.displacement)
+
+
+class EventsOfEdgePath(PathEvents):
+    """The events of a path, in contact those of the cubic through two neighbours and their rates.
+
+    Parameters
+    ----------
+    approach : sequence of Point
+        The complete path before contact, on one mesh.
+    touching : sequence of Point
+        As `edge_path` returns them.
+    states : EdgeStates
+        What solves on a mesh for each radius.
+    """
+
+    def __init__(self, approach: Sequence[Point], touching: Sequence[Point], states: EdgeStates) -> None:
+        super().__init__((*approach, *touching))
+        self._states = states
+        self._slopes: dict[Point, float] = {}
+
+    @property
+    def points(self) -> Sequence[Point]:
+        """The samples, which are complete."""
+        return self.samples
+
+    def between(self, a: Point, b: Point, parameter: float) -> Point:
+        """Return the state at a parameter between two neighbours."""
+        if not a.branch.touching:
+            return super().between(a, b, parameter)
+        rates = _interpolated(a, b, math.log(parameter)).rates
+        return replace(self._states.at(parameter), rates=rates)
+
+    def root(self, pair: Pair, function: Callable[[Point], float]) -> Point:
+        """Find the point between two neighbours where the function vanishes."""
+        a, b = pair
+        if not a.branch.touching:
+            return super().root(pair, function)
+
+        def value(x: float) -> float:
+            return function(_interpolated(a, b, x))
+
+        x = float(brentq(value, math.log(a.parameter), math.log(b.parameter)))
+        point = self.between(a, b, math.exp(x))
+        self._slopes[point] = (value(x + SLOPE_STEP) - value(x - SLOPE_STEP)) / (2.0 * SLOPE_STEP * point.parameter)
+        return point
+
+    def slope(self, event: str, point: Point) -> float:
+        """Return the derivative, at an event, of the function that vanishes there."""
+        return self._slopes[point] if point.branch.touching else super().slope(event, point)
+
+    def relocate(self, event: str, anchor: Anchor) -> None:
+        """Move an event to its state on the mesh that is fine at its edge, which the path has within its error."""
+        (vars(self) if event == kind_of(event) else self._further)[event] = anchor.point
+        self._slopes[anchor.point], self._anchors[event] = anchor.slope, anchor
+
+
+def _interpolated(a: Point, b: Point, x: float) -> Point:
+    """A point with the load and displacement between two neighbours, and their rates."""
+    load, displacement = (Interval(sample(a), sample(b), []) for sample in (_log_load_sample, _log_displacement_sample))
+    y, radius = a.state.y.copy(), math.exp(x)
+    y[-2] = displacement.value_at(x)
+    rates = load.rate_at(x) / radius, displacement.rate_at(x) / radius
+    return replace(a, parameter=radius, state=replace(a.state, y=y, load=load.value_at(x)), rates=rates)

@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import Protocol
+from functools import lru_cache
 
 from fem_reference._contact.cusp import slowest_sample
 from fem_reference._contact.events import CUSP, PathEvents, beyond_pull_off
@@ -21,14 +21,15 @@ from fem_reference._contact.mesh_lengths import (
     check_width,
     mesh_spec,
 )
-from fem_reference._contact.path import EDGE_RISE, NARROWER, WIDTH_SHARE, Point, edge_width
+from fem_reference._contact.meshes import Meshes
+from fem_reference._contact.path import EDGE_RISE, traced
+from fem_reference._contact.states import NARROWER, WIDTH_SHARE, Point, edge_width
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference.accuracy import Level
-from fem_reference.errors import NotConverged
-from fem_reference.problem import Problem
+from fem_reference.accuracy import SEARCH_DEGREE
+from fem_reference.errors import Failure, NotConverged
 from fem_reference.punch import radius_at_height
 
-__all__ = ["FAR_SHARE", "OneMesh"]
+__all__ = ["FAR_SHARE", "WidthSearch", "path_on", "search_path_on"]
 
 #: Share of the density far beyond the edge, where contact begins on a spot much smaller than the punch and the tension
 #: falls within an element otherwise: on the meshes of "quick" the path of n = 6.2, k = 0.53, mu = 2.9 stops there with
@@ -54,33 +55,56 @@ ESTIMATE = 1.5
 REFINEMENTS = 10
 
 
-class _Choice(Protocol):
-    """What traces a problem on a mesh: `fem_reference._contact.mesh_choice.MeshChoice`."""
+# The paths of one problem: the search for the width, on the meshes of two kinds of events.
+@lru_cache(maxsize=12)
+def _path_or_reason(meshes: Meshes, spec: MeshSpec, size: float) -> PathEvents | NotConverged:
+    """The path, or why it cannot be traced: the next quantity would try it again."""
+    try:
+        return PathEvents(tuple(traced(meshes.contact(spec, size))))
+    except NotConverged as error:
+        # Without its traceback, which would keep every frame of the path.
+        return NotConverged(error.reason, error.failure)
 
-    @property
-    def problem(self) -> Problem: ...
 
-    @property
-    def level(self) -> Level: ...
+def path_on(meshes: Meshes, spec: MeshSpec, size: float) -> PathEvents:
+    """Return the whole path on one mesh.
 
-    @property
-    def scaling(self) -> bool: ...
+    Raises
+    ------
+    NotConverged
+        If it cannot be traced there.
+    """
+    path = _path_or_reason(meshes, spec, size)
+    if isinstance(path, NotConverged):
+        raise path.with_traceback(None)
+    return path
 
-    def search_path(self, spec: MeshSpec, size: float) -> PathEvents: ...
+
+def search_path_on(meshes: Meshes, spec: MeshSpec, size: float) -> PathEvents:
+    """Return the whole path on one mesh with elements of the degree of a search, or with their own if that fails.
+
+    Raises
+    ------
+    NotConverged
+        If it cannot be traced with either.
+    """
+    with suppress(NotConverged):
+        return path_on(meshes, replace(spec, order=SEARCH_DEGREE), size)
+    return path_on(meshes, spec, size)
 
 
 @dataclass(slots=True)
-class OneMesh:
+class WidthSearch:
     """Search for the coarsest mesh on which the edges of a path are resolved.
 
     Parameters
     ----------
-    choice : MeshChoice
+    meshes : Meshes
     events : tuple of str
         Events that are needed: the edge of a part of the path that none of them needs may be sharper.
     """
 
-    choice: _Choice
+    meshes: Meshes
     events: tuple[str, ...]
     smallest: float = math.inf
     apex: float = math.inf
@@ -88,7 +112,7 @@ class OneMesh:
     failures: int = 0
     unresolved: int = 0
 
-    def found(self, start: tuple[MeshSpec, float] | None = None) -> tuple[MeshSpec, float]:
+    def mesh(self, start: tuple[MeshSpec, float] | None = None) -> tuple[MeshSpec, float]:
         """Return the mesh and the radius of its edge.
 
         Parameters
@@ -104,7 +128,7 @@ class OneMesh:
         spec, size = self._estimated() if start is None else start
         for _ in range(REFINEMENTS):
             try:
-                samples = self.choice.search_path(spec, size).samples
+                samples = search_path_on(self.meshes, spec, size).samples
             except NotConverged:
                 narrower = self._without_path(spec, size)
                 if narrower == spec or self.failures == FAILURES:
@@ -116,17 +140,17 @@ class OneMesh:
                 return spec, size
             spec = following
         raise NotConverged(
-            "the width of the contact edge was not found; the edge is narrower than the mesh can resolve"
+            "the width of the contact edge was not found: the edge is narrower than the mesh can resolve", Failure.MESH
         )
 
     def _first(self) -> tuple[MeshSpec, float]:
         """The mesh for the edge where law and solid balance."""
-        punch, law = self.choice.problem.punch, self.choice.problem.law
+        punch, law = self.meshes.problem.punch, self.meshes.problem.law
         self.smallest = radius_at_height(punch, EDGE_RISE * law.z0)
         # The folds merge before there is a sharp edge: the mesh of a solid that scales is fine at this radius, too.
-        at_spot = self.events == (CUSP,) and not self.choice.scaling
+        at_spot = self.events == (CUSP,) and not self.meshes.one_for_all
         size = self.smallest if at_spot else 2.0 * radius_at_height(punch, law.z0)
-        width = 0.5 * balance_length(self.choice.problem, size) / size
+        width = 0.5 * balance_length(self.meshes.problem, size) / size
         check_width(width, UNRESOLVED * NARROWEST_OF_ONE_MESH)
         return self._spec(width, size), size
 
@@ -134,15 +158,15 @@ class OneMesh:
         """The mesh for the edges of a path on elements that are too long: the search ends on what it accepts."""
         spec, size = self._first()
         with suppress(NotConverged):
-            samples = self.choice.search_path(replace(spec, density=ESTIMATE * spec.density), size).samples
+            samples = search_path_on(self.meshes, replace(spec, density=ESTIMATE * spec.density), size).samples
             if all(edge_width(point) > 0.0 for point in self._needed(samples) if point.branch.touching):
                 return self._following(spec, size, samples) or spec, size
         return spec, size
 
     def _spec(self, width: float, size: float) -> MeshSpec:
-        choice = self.choice
+        meshes = self.meshes
         width = max(width, NARROWEST_OF_ONE_MESH)
-        return mesh_spec(choice.problem, choice.level, width, size, self.smallest, self.far_share, self.apex)
+        return mesh_spec(meshes.problem, meshes.level, width, size, self.smallest, self.far_share, self.apex)
 
     def _without_path(self, spec: MeshSpec, size: float) -> MeshSpec:
         """The mesh to try where a path cannot be traced.
@@ -152,8 +176,8 @@ class OneMesh:
         """
         self.failures += 1
         self.unresolved += 1
-        balance = balance_length(self.choice.problem, size)
-        if self.choice.scaling:
+        balance = balance_length(self.meshes.problem, size)
+        if self.meshes.one_for_all:
             self.smallest, self.far_share = min(self.smallest, balance), FAR_SHARE * self.far_share
         else:
             self.apex = balance
@@ -163,11 +187,11 @@ class OneMesh:
         """The mesh to try after a path that was traced on one, or None if that one resolves it."""
         self.failures = 0
         points = self._needed(samples)
-        if self.choice.scaling:
+        if self.meshes.one_for_all:
             # Contact may begin on a spot much smaller than the punch, and the mesh shrinks with it.
             self.smallest = min(self.smallest, *(point.state.size for point in points))
-            law = self.choice.problem.law
-            if self.smallest < SMALL_SPOT * radius_at_height(self.choice.problem.punch, EDGE_RISE * law.z0):
+            law = self.meshes.problem.law
+            if self.smallest < SMALL_SPOT * radius_at_height(self.meshes.problem.punch, EDGE_RISE * law.z0):
                 self.far_share = min(self.far_share, FAR_SHARE)
         narrowest = min((edge_width(point) for point in points if point.branch.touching), default=1.0)
         if narrowest <= 0.0:

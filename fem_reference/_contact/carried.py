@@ -16,13 +16,13 @@ import numpy as np
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeGap, GapRise, Size
 from fem_reference._contact.cusp import cusp_from
-from fem_reference._contact.events import CUSP, Jump, PathEvents, anchor_of, beginning_of, excess_of
-from fem_reference._contact.path import WIDTH_SHARE, Branch, Point, edge_width, point_at
+from fem_reference._contact.events import CUSP, Anchor, Jump, PathEvents, beginning_of, excess_of, slope_at
+from fem_reference._contact.states import WIDTH_SHARE, Branch, Point, edge_width, point_at
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
-from fem_reference.errors import NotConverged
+from fem_reference.errors import Failure, NotConverged
 
-__all__ = ["ResolvedEvents", "carried", "projected", "projected_rate"]
+__all__ = ["CarriedEvents", "carried", "projected", "projected_rate"]
 
 #: Largest number of secant steps; two are usual, from an event that differs by 1e-6.
 SECANT_STEPS = 12
@@ -44,12 +44,12 @@ ELEMENT_SHARE = 0.5
 LARGEST_SHIFT = 0.3
 
 
-class ResolvedEvents:
+class CarriedEvents:
     """The events of a path on another mesh, each solved once.
 
     Parameters
     ----------
-    path : PathEvents or ResolvedEvents
+    path : PathEvents or CarriedEvents
         The complete path on the finest mesh, or on a mesh for each radius; or its events on the finest mesh.
     contact : Contact
         The same problem on another mesh.
@@ -57,11 +57,11 @@ class ResolvedEvents:
         Where the contact edge is put, in halves of the element beyond the node s = 1: with 1 the node s = 1 lies half
         an element beyond the edge.
     beside : float
-        Where an event is taken, in its doubts beside where it is.
+        Distance from the edge of an event at which the event is solved, in errors of the radius of that edge.
     """
 
     def __init__(
-        self, path: PathEvents | ResolvedEvents, contact: Contact, placement: float = 0.0, beside: float = 0.0
+        self, path: PathEvents | CarriedEvents, contact: Contact, placement: float = 0.0, beside: float = 0.0
     ) -> None:
         self._path, self.contact, self._placement, self._beside = path, contact, placement, beside
         self._points: dict[str, Point] = {}
@@ -79,24 +79,20 @@ class ResolvedEvents:
         if event not in self._points:
             if event == CUSP:
                 return self._points.setdefault(event, self._cusp())
-            original, slope = self._path.anchor(event)
-            beginning = None if original.held else beginning_of(event)
+            anchor = self._path.anchor(event)
+            beginning = None if anchor.point.pinned else beginning_of(event)
             level = 0.0 if beginning is None else self.at(beginning).state.displacement
-            point = self._solved(original, slope, excess_of(event, level))
+            point = self._solved(anchor.point, anchor.slope, excess_of(event, level))
             if self._beside:
-                shift = self._beside * self.doubt(event)
-                point = replace(point_at(point, (1.0 + shift) * point.parameter), held=point.held)
+                shift = self._beside * anchor.radius_error
+                point = replace(point_at(point, (1.0 + shift) * point.parameter), pinned=point.pinned)
             self._points[event] = point
         return self._points[event]
 
-    def doubt(self, event: str) -> float:
-        """Return the relative error of the radius of the edge at an event."""
-        return self._path.doubt(event)
-
-    def anchor(self, event: str) -> tuple[Point, float]:
-        """Return the state at an event, and the slope there of the function that vanishes (see `excess_of`)."""
-        point = self.at(event)
-        return (point, self._path.anchor(event)[1]) if point.held else anchor_of(event, point)
+    def anchor(self, event: str) -> Anchor:
+        """Return an event as other meshes begin with it."""
+        point, of_path = self.at(event), self._path.anchor(event)
+        return Anchor(point, of_path.slope if point.pinned else slope_at(event, point), of_path.radius_error)
 
     @property
     def jumps(self) -> tuple[Jump, ...]:
@@ -117,8 +113,8 @@ class ResolvedEvents:
             slope *= original.parameter / parameter
         unit = abs(parameter) if branch.touching else self.contact.law.z0
         point = branch.solve(parameter, y)
-        if original.held:
-            return replace(point, held=True)
+        if original.pinned:
+            return replace(point, pinned=True)
         value, before = excess(point), math.inf
         nearest, moved = (math.inf, point), 0.0
         for _ in range(SECANT_STEPS):
@@ -143,7 +139,9 @@ class ResolvedEvents:
                 slope = change / step
         # On a coarser mesh a rate may have several roots within an element, which are all the event there.
         if nearest[0] > ELEMENT_SHARE * _largest_shift(nearest[1]) or not _moves_over_elements(nearest[1]):
-            raise NotConverged(f"an event near delta = {original.state.displacement:.6g} was not found on another mesh")
+            raise NotConverged(
+                f"an event near delta = {original.state.displacement:.6g} was not found on another mesh", Failure.EVENT
+            )
         return nearest[1]
 
 

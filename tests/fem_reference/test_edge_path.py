@@ -10,11 +10,11 @@ import pytest
 
 from fem_reference import Coating, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve
 from fem_reference._contact import followed
-from fem_reference._contact import multimesh_path as multimesh_path_module
+from fem_reference._contact.edge_path import FARTHER, EventsOfEdgePath, edge_path
 from fem_reference._contact.edge_states import EdgeStates
+from fem_reference._contact.events import Anchor
 from fem_reference._contact.jkr_tension import jkr_curve
-from fem_reference._contact.mesh_choice import MeshChoice, followed_path
-from fem_reference._contact.multimesh_path import multimesh_path
+from fem_reference._contact.meshes import Meshes
 from fem_reference._contact.path import equilibrium_points
 from fem_reference.accuracy import level_for
 from tests.fem_reference.solved_together import sphere_on
@@ -49,7 +49,7 @@ def _bump(x):
     return math.exp(-(((x - AT) / NARROW) ** 2))
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class _Point:
     """Stands for a point of the path."""
 
@@ -58,7 +58,7 @@ class _Point:
     branch: SimpleNamespace
     rates: tuple[float, float] | None = None
     orientation: float = 1.0
-    held: bool = False
+    pinned: bool = False
 
     edge_radius = property(lambda self: self.parameter)
     load_rate = property(lambda self: self.rates[0])
@@ -83,10 +83,10 @@ def _minima(points):
 
 
 def _path(height, inner=0.5, last_turn=0.0, kinks=(), highest=0.0):
-    return multimesh_path(_States(height), inner, last_turn, kinks, highest)
+    return edge_path(_States(height), inner, last_turn, kinks, highest)
 
 
-def test_a_multimesh_path_goes_from_the_first_edge_into_compression():
+def test_a_path_over_meshes_goes_from_the_first_edge_into_compression():
     points = _path(0.0)
     radii = [point.edge_radius for point in points]
     assert radii == sorted(radii)
@@ -96,10 +96,10 @@ def test_a_multimesh_path_goes_from_the_first_edge_into_compression():
     assert _minima(points) == 1
 
 
-def test_a_multimesh_path_goes_on_while_tension_can_return():
+def test_a_path_over_meshes_goes_on_while_tension_can_return():
     end = _path(0.0)[-1]
     farther = _path(0.0, last_turn=2.0 * end.edge_radius)[-1]
-    assert farther.edge_radius >= 2.0 * multimesh_path_module.FARTHER * end.edge_radius
+    assert farther.edge_radius >= 2.0 * FARTHER * end.edge_radius
     higher = _path(0.0, highest=end.state.displacement + 1.0)[-1]
     assert higher.state.displacement >= end.state.displacement + 1.0
 
@@ -108,10 +108,20 @@ def test_a_second_minimum_is_found_between_states():
     assert _minima(_path(0.3)) == 2
 
 
+def test_an_event_moves_to_its_state_on_the_mesh_of_its_edge():
+    """Other meshes begin with it there, and take the error of its radius into their bound."""
+    events = EventsOfEdgePath([], _path(0.0), _States(0.0))
+    anchor = Anchor(_States(0.0).at(math.exp(2.1)), 0.7, 1e-3)
+    events.relocate("pull_off", anchor)
+    assert events.at("pull_off") is anchor.point
+    assert events.anchor("pull_off") is anchor
+    assert events.slope("pull_off", anchor.point) == 0.7
+
+
 @pytest.fixture
 def exact_states(monkeypatch):
     """States on meshes of their own are those of the polynomial, which has its minimum at x = 2."""
-    monkeypatch.setattr(EdgeStates, "own", lambda states, radius: (None, _States(0.0).at(radius)))
+    monkeypatch.setattr(EdgeStates, "on_fine_mesh", lambda states, radius: (None, _States(0.0).at(radius)))
     monkeypatch.setattr(EdgeStates, "similar", lambda states, spec, radius: _States(0.0).at(radius))
 
 
@@ -131,12 +141,11 @@ def test_rates_that_vanish_away_from_the_least_value_are_not_used(distance, used
     minimum = replace(_States(0.0).at(math.exp(2.0 + distance)), rates=(0.0, 0.0))
     monkeypatch.setattr(EdgeStates, "located", lambda states, excess, slope: (None, minimum.edge_radius))
     monkeypatch.setattr(followed, "edge_width", lambda point: 0.1)
-    choice = SimpleNamespace(level=level_for("default"), problem=sphere_on(PowerLaw(1.0, 1.0, 0.0, 0.3)))
-    path = followed.FollowedPath(choice, None)
+    path = followed.FollowedPath(Meshes(sphere_on(PowerLaw(1.0, 1.0, 0.0, 0.3)), level_for("default")))
     vars(path)["_whole"] = SimpleNamespace(slope=lambda event, point: 0.5 / point.edge_radius**2)
-    (_, radius), _, _, doubt = path._located("pull_off", minimum)
+    (_, radius), anchor = path._located("pull_off", minimum)
     assert math.log(radius) == pytest.approx(2.0 + used, abs=1e-9)
-    assert doubt == pytest.approx(abs(used), abs=1e-6)
+    assert anchor.radius_error == pytest.approx(abs(used), abs=1e-6)
 
 
 #: Tabor number, pull-off force in pi R w at k = 0 by the integral equation, all digits shown, and the largest relative
@@ -159,9 +168,9 @@ def test_both_sides_of_a_kink_are_on_the_path():
 
 def test_the_load_in_the_limit_of_a_short_range_is_that_of_jkr():
     """P = 4 E* a^3 / (3 R) - (8 pi w E* a^3)^(1/2), with elements of a third of the radius."""
-    choice = MeshChoice(HOMOGENEOUS, level_for("quick"))
-    spec, size = choice.first_mesh()
-    a, load, _ = jkr_curve(choice.contact(replace(spec, density=0.2, order=4), size), size)
+    meshes = Meshes(HOMOGENEOUS, level_for("quick"))
+    spec, size = meshes.first()
+    a, load, _ = jkr_curve(meshes.contact(replace(spec, density=0.2, order=4), size), size)
     tension, compression = np.sqrt(8.0 * math.pi * a**3), 4.0 / 3.0 * a**3
     assert np.max(np.abs(load - compression + tension) / (tension + compression)) < 0.1
 
@@ -171,7 +180,7 @@ def test_the_load_in_the_limit_of_a_short_range_is_that_of_jkr():
 )
 def test_a_stiff_coating_has_two_minima_of_the_load(range_of_law, forces, tolerance):
     """The pull-off force is that of the solid below, which a path that ended behind the first minimum missed."""
-    events = followed_path(MeshChoice(stiff_coating(1000.0, 100.0, range_of_law), level_for("quick"))).events()
+    events = followed.followed_path(Meshes(stiff_coating(1000.0, 100.0, range_of_law), level_for("quick"))).events()
     touching = [point for point in events.minima("pull_off") if point.branch.touching]
     assert [-point.state.load for point in touching] == pytest.approx(forces, rel=tolerance)
     assert events.pull_off is not touching[0]
@@ -188,15 +197,15 @@ def test_the_force_on_a_stiff_coating_is_certain_to_a_millionth():
 
 def test_contact_on_a_soft_coating_begins_where_it_jumps_in():
     """It begins on a spot of 1e-4 of the mesh, and the solid rises by several lengths of the law before it."""
-    followed = followed_path(MeshChoice(soft_coating(1.0), level_for("default")))
-    assert followed.events("jump_in").jump_in.state.displacement < -5.0 * 0.404
+    path = followed.followed_path(Meshes(soft_coating(1.0), level_for("default")))
+    assert path.events("jump_in").jump_in.state.displacement < -5.0 * 0.404
 
 
 def test_a_path_on_a_very_soft_solid_begins_farther_away():
     """At a Tabor number of 2e4 there is no equilibrium with the central gap that suits stiffer solids."""
     solid = Coating(1e-3, 1e-3, 1.0, 0.0, 0.3)
-    choice = MeshChoice(Problem(solid, PowerPunch(2.0, 3400.0), LennardJones(10.6, 0.404)), level_for("quick"))
-    start = next(equilibrium_points(choice.contact(*choice.first_mesh())))
+    meshes = Meshes(Problem(solid, PowerPunch(2.0, 3400.0), LennardJones(10.6, 0.404)), level_for("quick"))
+    start = next(equilibrium_points(meshes.contact(*meshes.first())))
     assert start.state.central_gap > 12.0 * 0.404
 
 
