@@ -48,6 +48,20 @@ class ComputationFailed(Exception):
     """
 
 
+def refuse(reason: str | None) -> None:
+    """Raise `NotApplicable` with the reason that `skip` of a model returns; nothing if there is none.
+
+    Examples
+    --------
+    >>> refuse(None)
+    >>> refuse("JKR has no jump into contact")
+    Traceback (most recent call last):
+    comparisons.model.NotApplicable: JKR has no jump into contact
+    """
+    if reason is not None:
+        raise NotApplicable(reason)
+
+
 @contextmanager
 def translated(package: ModuleType) -> Iterator[None]:
     """Turn the exceptions of a solver, `fscm` or `fem_reference`, into `NotApplicable` and `ComputationFailed`.
@@ -176,10 +190,10 @@ class RadialField:
 class Model(Protocol):
     """The contract of every model of this repository and of every external model.
 
-    Attributes are plain data; `evaluate` is a pure function of its arguments.  A model may have the attribute
-    `applies_to`, the domain for which it promises a result (`comparisons.domain`): it is not evaluated outside, and
-    inside `NotApplicable` counts as a failure.  A model of this repository has `checks_problems = True` if it checks
-    by itself which kinds of solids, punches and laws it takes (`comparisons.problem.evaluation`).
+    Attributes are plain data; `evaluate` is a pure function of its arguments.  A model of this repository has one
+    method more, ``skip(problem, quantity)``: why it does not take the quantity of the problem, or None.  An external
+    model may have the attribute `applies_to` instead, the domain for which it promises a result
+    (`comparisons.domain`).  A model is not evaluated outside of either.
 
     Examples
     --------
@@ -204,6 +218,22 @@ class Model(Protocol):
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity for the problem, or raise `NotApplicable` or `ComputationFailed`."""
+        ...
+
+
+@runtime_checkable
+class HasSkip(Protocol):
+    """A model of this repository.
+
+    Examples
+    --------
+    >>> from comparisons.registry import create
+    >>> isinstance(create("jkr"), HasSkip)
+    True
+    """
+
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return in one sentence why the model does not take a quantity of a problem; None if it does."""
         ...
 
 

@@ -320,6 +320,15 @@ class Problem:
         of_body = " of the whole punch (interaction = body)" if self.interaction == "body" else ""
         return f"{kinds[0]}, {kinds[1]} and {kinds[2]}{of_body}"
 
+    def beyond_numbers(self, model: str) -> str | None:
+        """Return why a model of n, k and mu does not take the problem, which has more; None if it has not."""
+        if self.is_of_the_paper():
+            return None
+        return (
+            f"{model} takes a power-law or homogeneous solid, or two of one k, with neither surface tension nor "
+            f"friction, a sphere, cone or power-law punch and the 9-3 law; this problem has {self.parts}"
+        )
+
     @property
     def numbers(self) -> dict[str, float]:
         """Values of n, k, mu and nu, without nu if it is not prescribed."""

@@ -180,8 +180,7 @@ def evaluate_task(task: Task) -> Row:
         if identity is None:
             return evaluate(task.model, task.quantity, problem)
         domain = identity.applies_to
-        if domain is not None and problem.is_of_the_paper() and not domain.contains(task.quantity, problem.numbers):
-            reason = domain.refusal(task.quantity)
+        if domain is not None and (reason := domain.skip(problem, task.quantity)):
             return _row(identity, task.quantity, problem, started, status="not-applicable", reason=reason)
         model = create(identity.spec, problem.nu)
         if (model.name, model.version) != (identity.name, identity.version):
