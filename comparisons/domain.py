@@ -21,7 +21,7 @@ from comparisons.data.toml_text import is_real
 from comparisons.data.validation import known_name, shown
 from comparisons.model import HasCurve, HasProfile, HasSkip, Model
 from comparisons.problem import PARAMETERS
-from comparisons.problem.problem import Problem
+from comparisons.problem.problem import Problem, beyond_numbers
 from comparisons.quantities import ALL_QUANTITIES, Kind
 
 #: The most tables of a domain.  A domain is to be read by people; thousands of points would be a table of results.
@@ -190,7 +190,7 @@ def skip(model: Model, problem: Problem, quantity: str) -> str | None:
     if kind is Kind.FIELD and not isinstance(model, HasProfile):
         return "the model does not know the surface at pull-off"
     domain = declared_domain(model)
-    return problem.beyond_numbers(model.name) or (None if domain is None else domain.skip(problem, quantity))
+    return beyond_numbers(problem, model.name) or (None if domain is None else domain.skip(problem, quantity))
 
 
 def _table(table: Mapping[Any, Any]) -> Range:

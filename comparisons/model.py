@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from types import ModuleType
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
@@ -82,8 +82,39 @@ def translated(package: ModuleType) -> Iterator[None]:
         raise ComputationFailed(str(failure)) from failure
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Effort:
+    """What a computation took: the last columns of a table of results.
+
+    Attributes
+    ----------
+    size : int
+        Number of unknowns of the discrete problem (0 for a closed form).
+    iterations : int
+        Newton or root-finding iterations (0 when none).
+    residual : float
+        Largest residual of the discrete equations at the solution (0 when none).
+    seconds : float
+        Wall-clock time of the computation.
+
+    Examples
+    --------
+    >>> Effort(size=3)
+    Effort(size=3, iterations=0, residual=0.0, seconds=0.0)
+    """
+
+    size: int | None = 0
+    iterations: int | None = 0
+    residual: float | None = 0.0
+    seconds: float = 0.0
+
+
+#: Names of these columns.
+EFFORT = tuple(column.name for column in fields(Effort))
+
+
 @dataclass(frozen=True, slots=True)
-class Result:
+class Result(Effort):
     """A value of a model with the bound on its numerical error.
 
     Attributes
@@ -93,14 +124,6 @@ class Result:
     u_num : float
         Bound on the numerical error of `value` (same unit, >= 0).  For a closed form this is the rounding
         and root-finding error.  The error of the model itself is not part of it.
-    size : int
-        Number of unknowns of the discrete problem (0 for a closed form).
-    iterations : int
-        Newton or root-finding iterations (0 when none).
-    residual : float
-        Largest residual of the discrete equations at the solution (0 when none).
-    seconds : float
-        Wall-clock time of the computation.
     reason : str
         One sentence on a further assumption of the value, for example an equivalent power law; empty if there is none.
 
@@ -112,10 +135,6 @@ class Result:
 
     value: float
     u_num: float
-    size: int = 0
-    iterations: int = 0
-    residual: float = 0.0
-    seconds: float = 0.0
     reason: str = ""
 
     def __post_init__(self) -> None:

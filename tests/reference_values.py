@@ -39,4 +39,11 @@ REFERENCE_VALUES = (
     ReferenceValue("jump_in_gap", 2.0, 0.6, 3.0, 1.83784, 5, _ELEMENTS),
     ReferenceValue("jump_in_displacement", 5.0, 0.4, 3.0, -3.51597, 5, _ELEMENTS),
     ReferenceValue("jump_in_gap", 5.0, 0.4, 3.0, 2.07692, 5, _ELEMENTS),
+    # The committed values of results/baseline/quick.csv, whose bounds are below 1e-7.
+    ReferenceValue("pull_off_displacement", 2.0, 0.4, 0.5, -0.207304, 6, _ELEMENTS),
+    ReferenceValue("zero_load_displacement", 2.0, 0.4, 0.5, 1.094981, 6, _ELEMENTS),
+    ReferenceValue("jump_out_displacement", 2.0, 0.4, 1.0, -1.61734, 5, _ELEMENTS),
+    ReferenceValue("jump_out_gap", 2.0, 0.4, 1.0, 0.103078, 6, _ELEMENTS),
+    ReferenceValue("hysteresis_energy", 2.0, 0.4, 1.0, 0.023488, 6, _ELEMENTS),
+    ReferenceValue("critical_tabor_number", 2.0, 0.4, 1.0, 0.782473, 6, _ELEMENTS),
 )

@@ -100,7 +100,7 @@ class DataModel:
         """Return the prediction, or raise `NotApplicable` for a case that the submission does not cover."""
         refuse(self.skip(problem, quantity))
         value, u_num = self.rows[quantity, problem.without_nu()]
-        unit = problem.units[QUANTITIES[quantity].scale] if problem.name else 1.0
+        unit = 1.0 if problem.is_dimensionless else problem.units[QUANTITIES[quantity].scale]
         return Result(value / unit, u_num / unit)
 
     def close(self) -> None:

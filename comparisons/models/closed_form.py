@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 
 from comparisons.model import Curve, Result, refuse
 from comparisons.problem import Problem
+from comparisons.problem.problem import beyond_numbers
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, Kind
 
 #: Distance of 1 to the next number.
@@ -73,7 +74,7 @@ class ClosedForm:
 
         By default it takes every problem of n, k and mu; a model with narrower equations adds its reasons.
         """
-        return self._undefined(quantity) or problem.beyond_numbers(self.name)
+        return self._undefined(quantity) or beyond_numbers(problem, self.name)
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity for the problem.

@@ -64,7 +64,7 @@ class FiniteElements(SolverModel):
         """Return why not: a cusp, a solid near that of Gibson, or a part that the solver refuses."""
         if reason := self._undefined(quantity) or no_critical_number(problem, quantity):
             return reason
-        if not problem.name:
+        if problem.is_dimensionless:
             return _beyond_elements(problem)
         return _refused(problem)
 
@@ -128,7 +128,7 @@ class FiniteElements(SolverModel):
 
     def physical(self, problem: Problem) -> tuple[Mapping[str, float], fem_reference.Problem]:
         """The units of the results, and the problem of the solver."""
-        physical = problem if problem.name else self._in_si(problem)
+        physical = self._in_si(problem) if problem.is_dimensionless else problem
         return physical.units, physical.build(fem_reference)
 
     def _in_si(self, problem: Problem) -> Problem:
@@ -209,7 +209,7 @@ class LargeStrain(SolverModel):
         """Return why not, unless a rigid punch is on a plane solid without surface tension and friction, in SI."""
         if reason := self._undefined(quantity) or no_critical_number(problem, quantity):
             return reason
-        if not problem.name:
+        if problem.is_dimensionless:
             return "n, k and mu do not state how large the strains are; give a problem file"
         stated = [*problem.surface, *(["punch_solid"] if problem.punch_solid else [])]
         stated += ["punch.R_solid"] if "R_solid" in problem.punch.values else []

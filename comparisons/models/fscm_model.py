@@ -154,10 +154,10 @@ class Atlas(SolverModel):
         if reason := super().skip(problem, quantity):
             return reason
         for name, (low, high) in BOX.items():
-            if not low <= problem.numbers[name] <= high:
+            value = getattr(problem, name)
+            if not low <= value <= high:
                 return (
-                    f"{name} = {problem.numbers[name]:g} is outside [{low:g}, {high:g}], the range of the atlas; fscm "
-                    "has a wider one"
+                    f"{name} = {value:g} is outside [{low:g}, {high:g}], the range of the atlas; fscm has a wider one"
                 )
         return None
 

@@ -9,9 +9,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.model import Curve, RadialField, Result, refuse, translated
+from comparisons.model import EFFORT, Curve, RadialField, Result, refuse, translated
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.problem import Problem
+from comparisons.problem.problem import beyond_numbers
 from comparisons.quantities import ALL_QUANTITIES, Kind
 
 _ONES = dict.fromkeys(("displacement", "gap", "load", "radius", "traction"), 1.0)
@@ -44,7 +45,7 @@ class SolverModel:
 
         By default it takes every problem of n, k and mu.
         """
-        return self._undefined(quantity) or problem.beyond_numbers(self.name)
+        return self._undefined(quantity) or beyond_numbers(problem, self.name)
 
     def _undefined(self, quantity: str) -> str | None:
         """Return why the solver does not compute a quantity; None if it does."""
@@ -93,10 +94,7 @@ def result_of(solution: Any, unit: float = 1.0) -> Result:
     return Result(
         value=solution.value / unit,
         u_num=solution.u_num / unit,
-        size=solution.size,
-        iterations=solution.iterations,
-        residual=solution.residual,
-        seconds=solution.seconds,
+        **{name: getattr(solution, name) for name in EFFORT if hasattr(solution, name)},
     )
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from pathlib import Path, PurePath
-from typing import Any, cast
+from typing import Any
 
 from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import GRID_TEXT, INPUTS, RECORD
@@ -123,8 +123,8 @@ class RunInputs:
         A solver finds out while it computes whether a problem has an event.
         """
         names = self.models or sorted({name for grid in self.cases.grids for name in grid.models})
-        ours = {name: cast(HasSkip, create(name)) for name in names if name in MODELS and name not in SOLVERS}
-        return {**ours, **self.domains}
+        ours = {name: create(name) for name in names if name in MODELS and name not in SOLVERS}
+        return {**{name: model for name, model in ours.items() if isinstance(model, HasSkip)}, **self.domains}
 
     def plan(self) -> list[Task]:
         """Return every task once, as `comparisons.runs.tasks.plan`."""

@@ -26,7 +26,7 @@ def unit_of(problem: Problem, quantity: str) -> str:
     'z0'
     """
     row = ALL_QUANTITIES[quantity]
-    return row.si_unit if problem.name else row.unit
+    return row.unit if problem.is_dimensionless else row.si_unit
 
 
 def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
@@ -85,7 +85,7 @@ def _with_equivalent_solid(problem: Problem, model: Model, quantity: str) -> Res
 def dimensionless_result(problem: Problem, quantity: str, result: Result) -> tuple[float, float, str] | None:
     """Return value, u_num and unit of a result in SI in the units of the paper; None where these are not defined."""
     row = QUANTITIES[quantity]
-    if not problem.name or row.scale == "number" or not problem.is_of_the_paper("punch"):
+    if problem.is_dimensionless or row.scale == "number" or not problem.is_of_the_paper("punch"):
         return None
     unit = problem.units[row.scale]
     return result.value / unit, result.u_num / unit, row.unit

@@ -9,6 +9,7 @@ from decimal import Decimal, localcontext
 import numpy as np
 import pytest
 
+import fscm
 from comparisons import create, registry
 from comparisons.description.strain_errors import ball_on
 from comparisons.model import NotApplicable
@@ -120,3 +121,13 @@ def test_monomial_bound_has_that_of_each_factor() -> None:
     both, square, inverse = monomial((3.0, 2.0), (5.0, -1.0)), monomial((3.0, 2.0)), monomial((5.0, -1.0))
     relative = square.u_num / square.value + inverse.u_num / inverse.value
     assert both.u_num / both.value == pytest.approx(relative, rel=1e-12, abs=0.0)
+
+
+def test_a_problem_of_fscm_stands_for_its_numbers(model: ClosedForm) -> None:
+    """As the gallery has it; without a size of the ball there are none of a ball."""
+    if isinstance(model, JKRSphere | JKRSurfaceTension):
+        return
+    problem = problem_of(model, 5.0)
+    quantity = next(name for name in QUANTITIES if model.skip(problem, name) is None)
+    posed = fscm.Problem(problem.n, problem.k, problem.mu)
+    assert model.evaluate(posed, quantity) == model.evaluate(problem, quantity)
