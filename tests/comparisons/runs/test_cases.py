@@ -82,7 +82,7 @@ def test_a_closed_form_is_compared_with_the_finite_elements_beside_the_fscm(tier
     }
     against_elements = {key for key in keys["fem"] if key[0] != "fem"}
     closed_forms = {key[0] for key in keys["fscm"]} - {*REFERENCES}
-    assert {key[0] for key in against_elements} == closed_forms >= {"jkr", "md-original", "schwarz"}
+    assert {key[0] for key in against_elements} >= closed_forms >= {"jkr", "md-original", "schwarz"}
     # Both errors of a pull-off force are in the table, beside each other.
     assert {key for key in against_elements if key[1] == "pull_off_force"} <= keys["fscm"]
     assert "fem" not in {grid.reference for grid in grids_for(grids(tier), ["jkr"])}
