@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -83,6 +84,7 @@ class _Sphere:
         flat = np.sqrt(2.0 * math.pi * x / at.k)
         return np.asarray(2.0 * x * at.c * self.displacement_slope(x) - 2.0 * at.k * flat) / math.pi
 
+    @lru_cache(maxsize=64)
     def radius_at(self, event: str) -> float:
         """Return x at an event, 0 where the contact is smaller than those of the series.
 
