@@ -84,7 +84,7 @@ class _Sphere:
         flat = np.sqrt(2.0 * math.pi * x / at.k)
         return np.asarray(2.0 * x * at.c * self.displacement_slope(x) - 2.0 * at.k * flat) / math.pi
 
-    @lru_cache(maxsize=64)
+    @lru_cache(maxsize=64)  # noqa: B019  # two numbers each, and a model asks for an event twice
     def radius_at(self, event: str) -> float:
         """Return x at an event, 0 where the contact is smaller than those of the series.
 

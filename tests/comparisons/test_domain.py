@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.domain import Domain
+from comparisons.domain import Domain, skip
 from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
 from comparisons.judging.summary import summarise
@@ -21,8 +21,10 @@ from comparisons.runs.frames import frame
 from comparisons.runs.tasks import Task, evaluate, evaluate_task
 from tests.comparisons.conftest import GATES, with_entries
 from tests.comparisons.grid_text import grid_text
+from tests.comparisons.problems import on_solid
 
 FORCE = {"quantities": ["pull_off_force"]}
+EXPONENTIAL = {"E_surface": 1e9, "E_depth": 3e9, "length": 1e-8, "nu": 0.3}
 
 
 @pytest.mark.parametrize(
@@ -84,6 +86,38 @@ def test_a_model_has_a_value_for_all_that_it_does_not_skip(name):
                 assert (row.status, row.reason) == ("not-applicable", reason)
     of_files = {"jkr-sphere", "jkr-sphere-projected", "jkr-surface-tension"}
     assert bool(taken) == (name not in of_files)
+
+
+class External:
+    """A model of the contract: n, k and mu, numbers alone."""
+
+    name, version, citation, domain = "external", "1", "none", "all"
+
+    def __init__(self, declared=None):
+        self.applies_to = declared
+
+    def evaluate(self, problem, quantity):
+        raise NotImplementedError
+
+
+@pytest.mark.parametrize(
+    ("problem", "quantity", "reason"),
+    [
+        (Problem.dimensionless(2, 0, 1), "pull_off_force", None),
+        (Problem.dimensionless(1, 0, 1), "pull_off_force", "outside the domain"),
+        (Problem.dimensionless(2, 0, 1), "jump_in_gap", "it has no jump_in_gap"),
+        (Problem.dimensionless(2, 0, 1), "force_curve", "no force-displacement curve"),
+        (Problem.dimensionless(2, 0, 1), "pull_off_gap", "the surface at pull-off"),
+        (on_solid("exponential", EXPONENTIAL), "pull_off_force", "this problem has a exponential solid"),
+    ],
+)
+def test_what_an_external_model_takes_follows_from_its_contract(problem, quantity, reason):
+    skipped = skip(External({**FORCE, "n": [2, 2]}), problem, quantity)
+    assert skipped is None if reason is None else reason in skipped
+
+
+def test_a_domain_of_n_k_and_mu_says_nothing_of_other_problems():
+    assert Domain.of({**FORCE, "n": [2, 2]}).skip(on_solid("exponential", EXPONENTIAL), "pull_off_force") is None
 
 
 def test_a_model_is_not_evaluated_outside_its_domain(toys, monkeypatch):
