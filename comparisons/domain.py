@@ -1,6 +1,6 @@
-"""Declared domain of a model: ranges of the parameters and quantities for which it promises a result.
+"""What a model takes: the method `skip` of ours, and the declared domain of an external one.
 
-A model declares its domain in the attribute `applies_to`, a table or a tuple of tables:
+An external model declares its domain in the attribute `applies_to`, a table or a tuple of tables:
 
     applies_to = {"quantities": ["pull_off_force"], "n": [2, 2], "k": [0, 0.9], "mu": [0.01, math.inf]}
 
@@ -19,8 +19,10 @@ from typing import Any
 
 from comparisons.data.toml_text import is_real
 from comparisons.data.validation import known_name, shown
+from comparisons.model import HasCurve, HasProfile, HasSkip, Model
 from comparisons.problem import PARAMETERS
-from comparisons.quantities import ALL_QUANTITIES
+from comparisons.problem.problem import Problem, beyond_numbers
+from comparisons.quantities import ALL_QUANTITIES, Kind
 
 #: The most tables of a domain.  A domain is to be read by people; thousands of points would be a table of results.
 MOST_TABLES = 20
@@ -123,14 +125,16 @@ class Domain:
         """
         return self.is_list or any(table.within(case) for table in self.of_quantity(quantity))
 
-    def refusal(self, quantity: str) -> str:
-        """Return why a quantity is not evaluated in a case that is not inside.
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why a quantity is not evaluated for a problem of n, k and mu that is not inside; None for others.
 
         Examples
         --------
-        >>> Domain.of({"quantities": ["jump_in_gap"], "n": [2, 2]}).refusal("jump_in_gap")
+        >>> Domain.of({"quantities": ["jump_in_gap"], "n": [2, 2]}).skip(Problem.dimensionless(1, 0, 1), "jump_in_gap")
         'outside the domain that the model declares: jump_in_gap for n = 2'
         """
+        if not problem.is_of_the_paper() or self.contains(quantity, problem.numbers):
+            return None
         tables = self.of_quantity(quantity)
         stated = "; ".join(map(str, tables)) if tables else f"it has no {quantity}"
         return f"outside the domain that the model declares: {stated}"
@@ -164,6 +168,29 @@ def declared_domain(model: object) -> Domain | None:
     """
     declared = getattr(model, "applies_to", None)
     return declared if declared is None or isinstance(declared, Domain) else Domain.of(declared)
+
+
+def skip(model: Model, problem: Problem, quantity: str) -> str | None:
+    """Return why a model does not take a quantity of a problem; None if it does.
+
+    An external model has no method `skip`: it knows n, k and mu alone, has a curve or a surface if it has the method,
+    and takes what is inside the domain that it declares.
+
+    Examples
+    --------
+    >>> from comparisons.models.jkr import JKR
+    >>> skip(JKR(), Problem.dimensionless(2, 0, 1), "jump_in_gap")
+    'jkr does not define jump_in_gap: its equations hold in contact only, where the gap is zero'
+    """
+    if isinstance(model, HasSkip):
+        return model.skip(problem, quantity)
+    kind = ALL_QUANTITIES[quantity].kind
+    if kind is Kind.CURVE and not isinstance(model, HasCurve):
+        return "the model has no force-displacement curve"
+    if kind is Kind.FIELD and not isinstance(model, HasProfile):
+        return "the model does not know the surface at pull-off"
+    domain = declared_domain(model)
+    return beyond_numbers(problem, model.name) or (None if domain is None else domain.skip(problem, quantity))
 
 
 def _table(table: Mapping[Any, Any]) -> Range:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from types import ModuleType
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
@@ -48,6 +48,20 @@ class ComputationFailed(Exception):
     """
 
 
+def refuse(reason: str | None) -> None:
+    """Raise `NotApplicable` with the reason that `skip` of a model returns; nothing if there is none.
+
+    Examples
+    --------
+    >>> refuse(None)
+    >>> refuse("JKR has no jump into contact")
+    Traceback (most recent call last):
+    comparisons.model.NotApplicable: JKR has no jump into contact
+    """
+    if reason is not None:
+        raise NotApplicable(reason)
+
+
 @contextmanager
 def translated(package: ModuleType) -> Iterator[None]:
     """Turn the exceptions of a solver, `fscm` or `fem_reference`, into `NotApplicable` and `ComputationFailed`.
@@ -68,8 +82,39 @@ def translated(package: ModuleType) -> Iterator[None]:
         raise ComputationFailed(str(failure)) from failure
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Effort:
+    """What a computation took: the last columns of a table of results.
+
+    Attributes
+    ----------
+    size : int
+        Number of unknowns of the discrete problem (0 for a closed form).
+    iterations : int
+        Newton or root-finding iterations (0 when none).
+    residual : float
+        Largest residual of the discrete equations at the solution (0 when none).
+    seconds : float
+        Wall-clock time of the computation.
+
+    Examples
+    --------
+    >>> Effort(size=3)
+    Effort(size=3, iterations=0, residual=0.0, seconds=0.0)
+    """
+
+    size: int | None = 0
+    iterations: int | None = 0
+    residual: float | None = 0.0
+    seconds: float = 0.0
+
+
+#: Names of these columns.
+EFFORT = tuple(column.name for column in fields(Effort))
+
+
 @dataclass(frozen=True, slots=True)
-class Result:
+class Result(Effort):
     """A value of a model with the bound on its numerical error.
 
     Attributes
@@ -79,14 +124,6 @@ class Result:
     u_num : float
         Bound on the numerical error of `value` (same unit, >= 0).  For a closed form this is the rounding
         and root-finding error.  The error of the model itself is not part of it.
-    size : int
-        Number of unknowns of the discrete problem (0 for a closed form).
-    iterations : int
-        Newton or root-finding iterations (0 when none).
-    residual : float
-        Largest residual of the discrete equations at the solution (0 when none).
-    seconds : float
-        Wall-clock time of the computation.
     reason : str
         One sentence on a further assumption of the value, for example an equivalent power law; empty if there is none.
 
@@ -98,10 +135,6 @@ class Result:
 
     value: float
     u_num: float
-    size: int = 0
-    iterations: int = 0
-    residual: float = 0.0
-    seconds: float = 0.0
     reason: str = ""
 
     def __post_init__(self) -> None:
@@ -176,10 +209,10 @@ class RadialField:
 class Model(Protocol):
     """The contract of every model of this repository and of every external model.
 
-    Attributes are plain data; `evaluate` is a pure function of its arguments.  A model may have the attribute
-    `applies_to`, the domain for which it promises a result (`comparisons.domain`): it is not evaluated outside, and
-    inside `NotApplicable` counts as a failure.  A model of this repository has `checks_problems = True` if it checks
-    by itself which kinds of solids, punches and laws it takes (`comparisons.problem.evaluation`).
+    Attributes are plain data; `evaluate` is a pure function of its arguments.  A model of this repository has one
+    method more, ``skip(problem, quantity)``: why it does not take the quantity of the problem, or None.  An external
+    model may have the attribute `applies_to` instead, the domain for which it promises a result
+    (`comparisons.domain`).  A model is not evaluated outside of either.
 
     Examples
     --------
@@ -204,6 +237,22 @@ class Model(Protocol):
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity for the problem, or raise `NotApplicable` or `ComputationFailed`."""
+        ...
+
+
+@runtime_checkable
+class HasSkip(Protocol):
+    """A model of this repository.
+
+    Examples
+    --------
+    >>> from comparisons.registry import create
+    >>> isinstance(create("jkr"), HasSkip)
+    True
+    """
+
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return in one sentence why the model does not take a quantity of a problem; None if it does."""
         ...
 
 

@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 from comparisons.data.toml_text import shipped
-from comparisons.model import HasCurve, HasProfile, Model, NotApplicable, Result
+from comparisons.model import HasCurve, HasProfile, Model, Result
 
 if TYPE_CHECKING:
     from comparisons.problem.problem import Problem
@@ -220,14 +220,10 @@ class CurveQuantity(Quantity):
         -2.0
         """
         if self.kind is Kind.CURVE:
-            if not isinstance(model, HasCurve):
-                raise NotApplicable("the model has no force-displacement curve")
-            curve = model.curve(problem)
+            curve = cast(HasCurve, model).curve(problem)
             x, y, u_distance, columns = curve.displacement, curve.load, curve.u_distance, curve.columns
         else:
-            if not isinstance(model, HasProfile):
-                raise NotApplicable("the model does not know the surface at pull-off")
-            x, y, u_distance = model.pull_off_profile(problem).shown(self.y.name)
+            x, y, u_distance = cast(HasProfile, model).pull_off_profile(problem).shown(self.y.name)
             columns = {}
         return Points(list(map(float, x)), list(map(float, y)), float(u_distance), columns)
 

@@ -13,30 +13,30 @@ from comparisons.domain import Domain, declared_domain
 from comparisons.external.model_source import AnyExternalModel, load_model, source_of
 from comparisons.model import Model
 
-#: Name -> "module:class", in the order of lists and tables.  The class is called without
-#: arguments, or with Poisson's ratio alone if it takes it.
+#: Name -> "module:class", in the order of lists, tables and styles (`comparisons.output.style`).  The class is called
+#: without arguments, or with Poisson's ratio alone if it takes it.
 MODELS = {
     "fscm": "comparisons.models.fscm_model:FullSelfConsistent",
-    "fscm-stieltjes": "comparisons.models.fscm_model:StieltjesModel",
-    "fscm-stieltjes-400": "comparisons.models.fscm_model:CoarseStieltjesModel",
+    "md-improved": "comparisons.models.cohesive_models:MaugisDugdaleImproved",
+    "md-original": "comparisons.models.cohesive_models:MaugisDugdaleOriginal",
     "fem": "comparisons.models.fem_model:FiniteElements",
     "jkr": "comparisons.models.jkr:JKR",
-    "md-original": "comparisons.models.cohesive_models:MaugisDugdaleOriginal",
-    "md-improved": "comparisons.models.cohesive_models:MaugisDugdaleImproved",
-    "dmt": "comparisons.models.dmt:DMT",
     "bradley": "comparisons.models.bradley:Bradley",
-    "semi-rigid": "comparisons.models.semi_rigid:SemiRigid",
     "double-hertz-n-k": "comparisons.models.cohesive_models:DoubleHertz",
+    "semi-rigid": "comparisons.models.semi_rigid:SemiRigid",
+    "fscm-stieltjes": "comparisons.models.fscm_model:StieltjesModel",
+    "fscm-stieltjes-400": "comparisons.models.fscm_model:CoarseStieltjesModel",
+    "dmt": "comparisons.models.dmt:DMT",
     "md-jin": "comparisons.models.cohesive_models:MaugisDugdaleJin",
     "dmt-strength": "comparisons.models.dmt:DMTStrength",
     "carpick-ogletree-salmeron": "comparisons.models.transition_formulas:CarpickOgletreeSalmeron",
     "pietrement-troyon": "comparisons.models.transition_formulas:PietrementTroyon",
     "schwarz": "comparisons.models.transition_formulas:Schwarz",
     "jump-asymptotes": "comparisons.models.jump_asymptotes:JumpAsymptotes",
+    "atlas": "comparisons.models.fscm_model:Atlas",
     "jkr-sphere": "comparisons.models.jkr_sphere:JKRSphere",
     "jkr-sphere-projected": "comparisons.models.jkr_sphere:JKRSphereProjected",
     "jkr-surface-tension": "comparisons.models.jkr_surface_tension:JKRSurfaceTension",
-    "atlas": "comparisons.models.fscm_model:Atlas",
     "fem-large-strain": "comparisons.models.fem_model:LargeStrain",
 }
 

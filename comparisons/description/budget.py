@@ -47,7 +47,7 @@ def budget(problem: Problem, model: str = "fscm") -> Json | None:
     >>> -0.2 < budget(gel)["total"]["error"] < -0.04
     True
     """
-    if not problem.name or model not in MODELS:
+    if problem.is_dimensionless or model not in MODELS:
         return None
     avoided = (_OF_BALLS if problem.punch.kind == "ball" else _OF_ALL).get(model, ())
     errors = estimates(problem) | {name: error_of((0.0, 0.0)) for name in avoided}
@@ -110,7 +110,7 @@ def line_of_results(problems: Iterable[Problem], results: pd.DataFrame) -> str |
     results : DataFrame
         Rows of results, with ``model``, ``quantity``, ``problem``, ``value`` and ``u_num``.
     """
-    by_name = {problem.name: problem for problem in problems if problem.name}
+    by_name = {problem.name: problem for problem in problems if not problem.is_dimensionless}
     if not by_name:
         return None
     forces = results[results["quantity"].eq("pull_off_force") & results["value"].notna()]

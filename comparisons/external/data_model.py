@@ -23,7 +23,7 @@ from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, validated
 from comparisons.domain import Domain
 from comparisons.external.text_rules import model_name, one_line
-from comparisons.model import NotApplicable, Result
+from comparisons.model import Result, refuse
 from comparisons.numerics.number_text import case_text
 from comparisons.problem import Problem
 from comparisons.problem.variation import problems_of
@@ -74,7 +74,6 @@ class DataModel:
 
     #: Its manifest lists the cases.
     applies_to = Domain(())
-    checks_problems = True
 
     def __init__(self, folder: Path) -> None:
         try:
@@ -92,13 +91,16 @@ class DataModel:
         self.citation = f"{manifest['author']}{source} ({manifest['licence']})"
         self.hashed = f"the predictions, a CSV with {len(self.rows)} rows"
 
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not for a case that the submission does not cover."""
+        covered = (quantity, problem.without_nu()) in self.rows
+        return None if covered else "the submission does not cover this case"
+
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the prediction, or raise `NotApplicable` for a case that the submission does not cover."""
-        key = quantity, problem.without_nu()
-        if key not in self.rows:
-            raise NotApplicable("the submission does not cover this case")
-        value, u_num = self.rows[key]
-        unit = problem.units[QUANTITIES[quantity].scale] if problem.name else 1.0
+        refuse(self.skip(problem, quantity))
+        value, u_num = self.rows[quantity, problem.without_nu()]
+        unit = 1.0 if problem.is_dimensionless else problem.units[QUANTITIES[quantity].scale]
         return Result(value / unit, u_num / unit)
 
     def close(self) -> None:

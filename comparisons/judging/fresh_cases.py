@@ -11,15 +11,15 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 from zlib import crc32
 
 from comparisons.console.progress import log
 from comparisons.data.contained_paths import path_inside
-from comparisons.domain import Domain, declared_domain
 from comparisons.judging.fresh_points import REACH, named_problem, sample
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.selection import cases_of, promised, relevant
+from comparisons.model import HasSkip
 from comparisons.problem import Problem
 from comparisons.problem.problem import split_name
 from comparisons.registry import create
@@ -109,7 +109,7 @@ def draw(
     gates: Sequence[Gate],
     grids: Sequence[Grid],
     models: Sequence[str],
-    domains: Mapping[str, Domain],
+    taken: Mapping[str, HasSkip],
     count: int,
     seed: int,
 ) -> FreshCases:
@@ -122,8 +122,8 @@ def draw(
     ----------
     gates, grids, models
         Of the run.
-    domains : mapping of str to Domain
-        The domains that models declare; for others the cases are between the standing ones.
+    taken : mapping of str to HasSkip
+        What models take, as of `promised`; for others the cases are between the standing ones.
     count : int
         Cases for each model and gate.
     seed : int
@@ -148,7 +148,7 @@ def draw(
         avoided = [case for grid in grids if gate.quantity in grid.quantities for case in grid.cases]
         seeds = [seed, crc32(f"{gate.id} {gate.candidate}".encode())]
         is_of_values = gate.metric in _METRICS and not gate.rival and not gate.reference_at
-        drawn = sample(gate, domains.get(gate.candidate), standing, avoided, count, seeds) if is_of_values else None
+        drawn = sample(gate, taken.get(gate.candidate), standing, avoided, count, seeds) if is_of_values else None
         if drawn is None:
             passed_over += 1
             continue
@@ -194,4 +194,4 @@ def _reference(gate: Gate, case: Problem) -> str:
     width = min(abs(limit) for limit in (gate.lower, gate.upper) if math.isfinite(limit))
     if gate.reference != _FSCM or gate.candidate == _ATLAS or gate.metric == "en" or width < _WIDER * _ATLAS_BOUND:
         return gate.reference
-    return _ATLAS if promised(declared_domain(create(_ATLAS)), gate.quantity, case) else gate.reference
+    return _ATLAS if promised(cast(HasSkip, create(_ATLAS)), gate.quantity, case) else gate.reference

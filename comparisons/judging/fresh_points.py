@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from comparisons.domain import NO_LIMITS, Domain
 from comparisons.judging.gates import Gate
 from comparisons.judging.selection import promised
+from comparisons.model import HasSkip
 from comparisons.problem import Problem
 from comparisons.problem.problem import split_name
 from comparisons.problem.variation import parse_variations, problems_of
@@ -42,18 +43,19 @@ _DIGITS = 6
 
 def sample(
     gate: Gate,
-    domain: Domain | None,
+    taken: HasSkip | None,
     standing: Sequence[Problem],
     avoided: Sequence[Problem],
     count: int,
     seed: list[int],
 ) -> tuple[list[Problem], set[Problem]] | None:
-    """Draw cases for a gate from the domain of a model, or from between the standing cases where it states none.
+    """Draw cases for a gate from what a model takes, or from between the standing cases where it does not state it.
 
     Parameters
     ----------
     gate : Gate
-    domain : Domain or None
+    taken : HasSkip or None
+        As of `promised`.
     standing : sequence of Problem
         Of the gate.
     avoided : sequence of Problem
@@ -69,16 +71,17 @@ def sample(
     """
     groups = groupby(sorted(standing, key=_family_of), _family_of)
     families = [_Family(gate, list(cases), avoided) for _, cases in groups]
-    if all(family.reach and not family.points(family.frame(domain), 1, seed) for family in families):
+    if all(family.reach and not family.points(family.frame(taken), 1, seed) for family in families):
         return None
-    boxes = [(family, *space) for family in families for space in family.boxes(domain)]
+    boxes = [(family, *space) for family in families for space in family.boxes(taken)]
     drawn = [family.points(box, count, [*seed, number]) for number, (family, box, _) in enumerate(boxes)]
     spaces = [(family, tested, points) for (family, _, tested), points in zip(boxes, drawn, strict=True) if points]
     cases: list[Problem] = []
-    untested = {case for case in standing if promised(domain, gate.quantity, case) is not False}
+    untested = {case for case in standing if promised(taken, gate.quantity, case) is not False}
     shares = _shares([len(tested) for _, tested, _ in spaces], count, seed)
     for (family, tested, points), share in zip(spaces, shares, strict=True):
-        fresh = list(islice(family.problems_at(points), share))
+        problems = (case for case in family.problems_at(points) if promised(taken, gate.quantity, case) is not False)
+        fresh = list(islice(problems, share))
         cases += fresh
         untested -= {*tested} if fresh else set()
     return sorted(dict.fromkeys(cases)), untested
@@ -111,17 +114,20 @@ class _Family:
         reach = {name: REACH.get(name, ends) for name, ends in self._hull.items()}
         self.reach: _Box = {name: ends for name, ends in reach.items() if ends[0] < ends[1]}
 
-    def frame(self, domain: Domain | None) -> _Box:
-        """Return the largest box that the gate leaves to any domain, or to models that declare none."""
-        return self._limited(self._hull if domain is None else {})
+    def frame(self, taken: HasSkip | None) -> _Box:
+        """Return the largest box that the gate leaves to any model, or to those that do not state what they take."""
+        return self._limited(self._hull if taken is None else {})
 
-    def boxes(self, domain: Domain | None) -> Iterator[tuple[_Box, list[Problem]]]:
+    def boxes(self, taken: HasSkip | None) -> Iterator[tuple[_Box, list[Problem]]]:
         """Yield the boxes in which fresh cases are drawn, each with the standing cases that they test."""
-        # A domain restricts n, k and mu alone.
-        if domain is None or not self.reach.keys() & REACH.keys():
+        # It restricts n, k and mu alone.
+        if taken is None or not self.reach.keys() & REACH.keys():
             yield self.frame(None), self._standing
             return
-        for table in domain.of_quantity(self._gate.quantity):
+        if not isinstance(taken, Domain):
+            yield self._around([case for case in self._standing if promised(taken, self._gate.quantity, case)])
+            return
+        for table in taken.of_quantity(self._gate.quantity):
             tested = [case for case in self._standing if table.within(case.parameters)]
             yield self._limited({name: table.limits.get(name, NO_LIMITS) for name in self.reach}), tested
 
@@ -153,6 +159,12 @@ class _Family:
         for point in points:
             with suppress(ValueError):
                 yield _problem_at(self._standing[0], point)
+
+    def _around(self, tested: list[Problem]) -> tuple[_Box, list[Problem]]:
+        """Return a box about standing cases: a parameter in which they differ is drawn from all of its reach."""
+        values = {name: {_numbers(case)[name] for case in tested} for name in self.reach}
+        one_value = {name: (min(numbers), max(numbers)) for name, numbers in values.items() if len(numbers) == 1}
+        return (self._limited(one_value) if tested else {}), tested
 
     def _limited(self, box: _Box) -> _Box:
         """Return the part of a box that the gate is about and in which fresh cases are drawn."""

@@ -12,11 +12,11 @@ from dataclasses import asdict, dataclass, replace
 
 import pandas as pd
 
-from comparisons.domain import Domain
 from comparisons.judging.decision import Verdict, crossing, decide, expecting_failure
 from comparisons.judging.gates import Gate
 from comparisons.judging.metrics import CaseError, GateResults, UnusableResult, case_error, reference_range, rows_by_key
 from comparisons.judging.selection import cases_of, promised, relevant
+from comparisons.model import HasSkip
 from comparisons.numerics.number_text import exact
 from comparisons.problem import Problem
 from comparisons.runs.cases import Grid
@@ -70,7 +70,7 @@ def judge(
     rows: pd.DataFrame,
     curves: pd.DataFrame | None = None,
     models: Sequence[str] | None = None,
-    domains: Mapping[str, Domain] | None = None,
+    taken: Mapping[str, HasSkip] | None = None,
 ) -> pd.DataFrame:
     """Judge stored results.
 
@@ -85,8 +85,8 @@ def judge(
         Stored curves (`comparisons.runs.frames.CURVE_COLUMNS`).
     models : sequence of str, optional
         Models that were given in place of those each grid names.
-    domains : mapping of str to Domain, optional
-        The domains that models declare: inside "not applicable" is a failure, and outside it is not counted.
+    taken : mapping of str to HasSkip, optional
+        What models take, as of `promised`: inside "not applicable" is a failure, and outside it is not counted.
 
     Returns
     -------
@@ -97,8 +97,8 @@ def judge(
     compared = rows_by_key([rows] if curves is None else [rows, curves], judged_gates)
     judged: list[Judged] = []
     for gate in judged_gates:
-        domain = (domains or {}).get(gate.candidate)
-        judged += _judge_gate(GateResults(gate, compared), cases_of(gate, grids, models), domain)
+        of_candidate = (taken or {}).get(gate.candidate)
+        judged += _judge_gate(GateResults(gate, compared), cases_of(gate, grids, models), of_candidate)
     return verdict_table(judged)
 
 
@@ -107,9 +107,9 @@ def verdict_table(judged: Iterable[Judged]) -> pd.DataFrame:
     return without_empty_problem(pd.DataFrame([asdict(row) for row in judged], columns=list(Judged.__slots__)))
 
 
-def _judge_gate(results: GateResults, cases: Sequence[Problem], domain: Domain | None) -> Iterator[Judged]:
+def _judge_gate(results: GateResults, cases: Sequence[Problem], taken: HasSkip | None) -> Iterator[Judged]:
     gate, scale = results.gate, reference_range(results, cases)
-    judged = [_judge_case(results, case, scale, domain) for case in cases]
+    judged = [_judge_case(results, case, scale, taken) for case in cases]
     yield from judged
     if refusal := _refusal(gate, judged):
         yield replace(_whole(gate, refusal), verdict=Verdict.FAIL)
@@ -130,16 +130,16 @@ def _refusal(gate: Gate, judged: Sequence[Judged]) -> str:
     )
 
 
-def _judge_case(results: GateResults, case: Problem, scale: float, domain: Domain | None) -> Judged:
+def _judge_case(results: GateResults, case: Problem, scale: float, taken: HasSkip | None) -> Judged:
     gate = results.gate
     evaluated, status = problem_for(gate.candidate, case), results.status("candidate", case)
-    is_inside = promised(domain, gate.quantity, evaluated)
-    if is_inside is False or (domain is not None and is_inside is None and status == "not-applicable"):
+    is_inside = promised(taken, gate.quantity, evaluated)
+    if is_inside is False or (taken is not None and is_inside is None and status == "not-applicable"):
         status = OUTSIDE
     n, k, mu, nu, problem = evaluated.key
     judged = replace(_whole(gate, ""), n=n, k=k, mu=mu, nu=nu, problem=problem, status=status)
-    if domain is not None and is_inside is False:
-        return replace(judged, verdict=Verdict.NOT_APPLICABLE, reason=domain.refusal(gate.quantity))
+    if taken is not None and is_inside is False:
+        return replace(judged, verdict=Verdict.NOT_APPLICABLE, reason=taken.skip(evaluated, gate.quantity) or "")
     try:
         error = case_error(results, case, scale)
     except UnusableResult as unusable:

@@ -19,6 +19,7 @@ from comparisons.judging.judge import Judged, verdict_table
 from comparisons.judging.summary import coverage, coverage_text, worst_first
 from comparisons.numerics.number_text import error_text
 from comparisons.problem import PARAMETERS
+from comparisons.registry import MODELS, create
 from comparisons.runs.frames import with_problem
 
 #: How the ids of these gates begin.
@@ -149,11 +150,12 @@ def card_lines(
     card : mapping or None
         What the run has recorded of an external model; None for a model of this package.
     domain : Domain or None
-        The domain that it declares.
+        The domain that an external model declares.
     """
     rows_of_model = verdicts[verdicts["candidate"] == name]
-    stated = "it declares none (applies_to), and is evaluated in every case" if domain is None else str(domain)
-    lines = [("domain", stated)]
+    undeclared = "it declares none (applies_to), and is evaluated in every case"
+    of_ours = create(name).domain if name in MODELS else undeclared
+    lines = [("domain", of_ours if domain is None else str(domain))]
     for gate, rows in without_card_gates(rows_of_model).groupby("gate", sort=False):
         covered = coverage_text(coverage(rows["status"]))
         lines.append((str(gate), f"{roll_up(rows['verdict'])}" + (f", a value in {covered}" if covered else "")))

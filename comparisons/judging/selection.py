@@ -8,6 +8,7 @@ from dataclasses import replace
 from comparisons.console.progress import log
 from comparisons.domain import Domain
 from comparisons.judging.gates import GIVEN, Gate, load_gates, of_tier
+from comparisons.model import HasSkip
 from comparisons.problem import Problem
 from comparisons.runs.cases import FOR_GIVEN_MODELS, Grid
 from comparisons.runs.rows import Key
@@ -54,10 +55,11 @@ def key_of(gate: Gate, role: str, case: Problem) -> Key:
     return model, gate.quantity, *problem.key
 
 
-def promised(domain: Domain | None, quantity: str, case: Problem) -> bool | None:
-    """Whether a quantity is inside a domain in a case; None where the domain does not state it.
+def promised(taken: HasSkip | None, quantity: str, case: Problem) -> bool | None:
+    """Whether a model promises a quantity in a case; None where it does not state it.
 
-    It does not where it is a list of cases that the model itself has, or where n, k and mu do not state the problem.
+    `taken` is the domain that an external model declares, or a model of this package.  It does not state it where the
+    domain is a list of cases that the model itself has, or where n, k and mu do not state the problem.
 
     Examples
     --------
@@ -65,9 +67,9 @@ def promised(domain: Domain | None, quantity: str, case: Problem) -> bool | None
     >>> promised(domain, "pull_off_force", Problem.dimensionless(1, 0, 1))
     False
     """
-    if domain is None or domain.is_list or not case.is_of_the_paper():
+    if taken is None or (isinstance(taken, Domain) and taken.is_list) or not case.is_of_the_paper():
         return None
-    return domain.contains(quantity, case.numbers)
+    return taken.skip(case, quantity) is None
 
 
 def needed_keys(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> set[Key]:

@@ -8,9 +8,10 @@ from __future__ import annotations
 import math
 from typing import Any, ClassVar
 
-from comparisons.model import Curve, NotApplicable, Result
+from comparisons.model import Curve, Result, refuse
 from comparisons.problem import Problem
-from comparisons.quantities import ALL_QUANTITIES, QUANTITIES
+from comparisons.problem.problem import beyond_numbers
+from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, Kind
 
 #: Distance of 1 to the next number.
 EPS = 2.0**-52
@@ -21,12 +22,6 @@ FACTOR_ROUNDING = 16.0 * EPS
 
 #: Points of a curve.
 POINTS = 401
-
-#: Ranges of parameters as `comparisons.domain` reads them; None is no limit.
-Limits = dict[str, list[Any]]
-
-#: Quantities that `pull_off_profile` returns.
-FIELDS = ("pull_off_pressure", "pull_off_gap")
 
 
 def monomial(*factors: tuple[float, float]) -> Result:
@@ -49,7 +44,7 @@ def monomial(*factors: tuple[float, float]) -> Result:
 
 
 class ClosedForm:
-    """Base of the closed forms: it checks the problem and calls the method of the quantity.
+    """Base of the closed forms: it calls the method of a quantity that the model takes.
 
     A closed form computes the quantities for which it has a method: `pull_off_force` and the other numbers by their
     names, which return a `Result`, `force_curve`, and `pull_off_profile` for both fields.
@@ -58,15 +53,8 @@ class ClosedForm:
     ----------
     name, version, citation, domain : str
         As in `comparisons.model.Model`.
-    limits : dict or None
-        Ranges of n, k and mu in which every quantity has a value; None if the model does not declare its domain.
-    narrower : dict
-        Further ranges of single quantities.
     undefined : str
         Why the model does not define the other quantities.
-    neglects_surface : bool
-        Whether the model has neither surface tension nor friction: `comparisons.problem.evaluation` evaluates it
-        without them, and says so.
 
     Examples
     --------
@@ -79,22 +67,14 @@ class ClosedForm:
     version: ClassVar[str] = "1"
     citation: ClassVar[str]
     domain: ClassVar[str]
-    limits: ClassVar[Limits | None] = {}
-    narrower: ClassVar[dict[str, Limits]] = {}
-    neglects_surface: ClassVar[bool] = True
     undefined: ClassVar[str] = "its equations hold in contact only, where the gap is zero"
 
-    @property
-    def applies_to(self) -> list[dict[str, Any]] | None:
-        """The declared domain (`comparisons.domain`): the quantities that have a method, by their ranges."""
-        if self.limits is None:
-            return None
-        tables: dict[str, dict[str, Any]] = {}
-        for quantity in ALL_QUANTITIES:
-            if hasattr(self, "pull_off_profile" if quantity in FIELDS else quantity):
-                limits = self.limits | self.narrower.get(quantity, {})
-                tables.setdefault(str(limits), {"quantities": [], **limits})["quantities"].append(quantity)
-        return list(tables.values())
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why the model does not take a quantity of a problem; None if it does.
+
+        By default it takes every problem of n, k and mu; a model with narrower equations adds its reasons.
+        """
+        return self._undefined(quantity) or beyond_numbers(problem, self.name)
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity for the problem.
@@ -104,7 +84,7 @@ class ClosedForm:
         ValueError
             If `quantity` is not in the registry of quantities.
         NotApplicable
-            If the model does not define the quantity, or does not hold for the problem.
+            If the model does not take it, or if the problem has no such event.
         ComputationFailed
             If a root was not found.
         """
@@ -116,15 +96,16 @@ class ClosedForm:
         """Return the force-displacement curve, or raise as `evaluate` does."""
         return self._call("force_curve", problem)
 
-    def check(self, problem: Problem) -> None:
-        """Raise `NotApplicable` where the model does not hold for the problem; by default it holds for every one."""
+    def _undefined(self, quantity: str) -> str | None:
+        """Return why the model does not define a quantity; None if it has the method."""
+        is_field = ALL_QUANTITIES[quantity].kind is Kind.FIELD
+        if hasattr(self, "pull_off_profile" if is_field else quantity):
+            return None
+        return f"{self.name} does not define {quantity}: {self.undefined}"
 
     def _call(self, quantity: str, problem: Problem) -> Any:
-        self.check(problem)
-        method = getattr(self, quantity, None)
-        if method is None:
-            raise NotApplicable(f"{self.name} does not define {quantity}: {self.undefined}")
-        return method(problem)
+        refuse(self.skip(problem, quantity))
+        return getattr(self, quantity)(problem)
 
 
 class ContactBranch(ClosedForm):

@@ -17,12 +17,10 @@ zone, away from the contact edge, for a large n.
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 import numpy as np
 
-from comparisons.model import Curve, NotApplicable, Result
-from comparisons.models.closed_form import EPS, FIELDS, POINTS, ContactBranch, Limits
+from comparisons.model import Curve, Result, refuse
+from comparisons.models.closed_form import EPS, POINTS, ContactBranch
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import STATE_ROUNDING, CohesiveEvents, Event
 from comparisons.models.cohesive_profiles import CohesiveProfiles, cohesive_profiles
@@ -30,6 +28,7 @@ from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
+from comparisons.quantities import ALL_QUANTITIES, Kind
 
 #: The curve starts at a = 0 and then at this fraction of its largest contact radius.
 _FIRST_RADIUS = 1e-4
@@ -40,8 +39,6 @@ _NEAR = 3.0
 class CohesiveModel(ContactBranch):
     """Events, curve and surface of a contact with a cohesive zone; the largest traction is the cohesive stress."""
 
-    narrower: ClassVar[dict[str, Limits]] = {field: {"k": [0, 0.9999]} for field in FIELDS}
-
     def cohesive_stress(self, problem: Problem) -> float:
         """sigma_0 in dgamma / z0; by default 16 sqrt(3) / 27, the largest tension of the 9-3 law (Eq. 73)."""
         return THEORETICAL_STRENGTH
@@ -49,6 +46,14 @@ class CohesiveModel(ContactBranch):
     def decay(self, problem: Problem) -> float:
         """How fast the traction decays from the contact edge (`CohesiveContact`); 0: it is constant."""
         return 0.0
+
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not, for a surface whose edge is that of JKR."""
+        if (reason := super().skip(problem, quantity)) or ALL_QUANTITIES[quantity].kind is not Kind.FIELD:
+            return reason
+        if not self._is_jkr(problem):
+            return None
+        return f"{self.name} has no cohesive zone at k = {problem.k:g} and mu = {problem.mu:g}: its edge is JKR's"
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity for the problem, or raise as `ClosedForm.evaluate`."""
@@ -104,10 +109,9 @@ class CohesiveModel(ContactBranch):
         Raises
         ------
         NotApplicable
-            As `evaluate`; also at k = 1 with sigma_0 mu >= 1, where the edge of the contact is singular.
+            As `evaluate`; also where the cohesive zone is narrower than a rounding.
         """
-        if self._is_jkr(problem):
-            raise NotApplicable(f"{self.name} has no cohesive zone at k = 1 and mu = {problem.mu}: its edge is JKR's")
+        refuse(self.skip(problem, "pull_off_gap"))
         events = self._events(problem)
         scales = GradedPunch.of(problem).scales(problem.mu)
         return cohesive_profiles(events.contact, events.pull_off().state, scales, points)
@@ -147,7 +151,6 @@ class MaugisDugdaleImproved(CohesiveModel):
     name = "md-improved"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 63-78; Zheng & Yu, J. Colloid Interface Sci. 310 (2007) 27-34"
     domain = "n > 2/3, 0 <= k <= 1; cohesive stress eta(n)"
-    limits: ClassVar[Limits | None] = {"n": [0.667, None]}
 
     def cohesive_stress(self, problem: Problem) -> float:
         """sigma_0 = eta(n), in dgamma / z0."""

@@ -14,8 +14,6 @@ import math
 
 from scipy.special import gammaln, zeta
 
-from comparisons.model import NotApplicable
-
 #: Largest tension of the 9-3 law (Eq. 73).
 THEORETICAL_STRENGTH = 16.0 * math.sqrt(3.0) / 27.0
 
@@ -55,7 +53,7 @@ def eta(n: float) -> float:
 
     Raises
     ------
-    NotApplicable
+    ValueError
         If n <= 2/3.
 
     Examples
@@ -64,7 +62,7 @@ def eta(n: float) -> float:
     [0.347, 0.499, 0.588, 0.803]
     """
     if not n > SMALLEST_SHAPE_INDEX:
-        raise NotApplicable(f"eta(n) is not defined at n = {n}: for n <= 2/3 the rigid pull-off force is infinite")
+        raise ValueError(f"eta(n) is not defined at n = {n}: for n <= 2/3 the rigid pull-off force is infinite")
     e = 1.0 - 2.0 / n
     sum_logs = sum(_log1p_over(e / j) / j for j in range(3, 9))
     return math.exp(-_log1p_over(e / 8.0) / 8.0 + _even_term(e) - (2.0 + e) / 6.0 * sum_logs)

@@ -18,7 +18,7 @@ from typing import ClassVar
 import numpy as np
 
 from comparisons.model import Curve, Result
-from comparisons.models.closed_form import FACTOR_ROUNDING, POINTS, ClosedForm, Limits, monomial
+from comparisons.models.closed_form import FACTOR_ROUNDING, POINTS, ClosedForm, monomial
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
@@ -49,7 +49,6 @@ class DMT(ClosedForm):
         "Zhu, Zheng, Huang & Yu, Eqs. 75-77; Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53 (1975) 314-326"
     )
     domain = "n > 2/3, 0 <= k <= 1; cohesive stress eta(n); exact pull-off as mu -> 0"
-    limits: ClassVar[Limits | None] = {"n": [0.667, None]}
     undefined: ClassVar[str] = "its displacement grows with the contact radius throughout, so it has no folds"
 
     def cohesive_stress(self, problem: Problem) -> float:
@@ -62,8 +61,6 @@ class DMT(ClosedForm):
 
     def pull_off_displacement(self, problem: Problem) -> Result:
         """Zero: the pull-off sits at the point of first contact."""
-        # Refuses what is not a power law.
-        self.cohesive_stress(problem), GradedPunch.of(problem)
         return Result(0.0, 0.0)
 
     def zero_load_displacement(self, problem: Problem) -> Result:

@@ -13,8 +13,8 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import fem_reference
-from comparisons.model import Curve, NotApplicable, RadialField, Result, translated
-from comparisons.models.solver import SolverModel, curve_of, result_of, surface_of
+from comparisons.model import Curve, RadialField, Result, refuse, translated
+from comparisons.models.solver import SolverModel, curve_of, no_critical_number, result_of, surface_of
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.problem import Problem, Section
 from comparisons.quantities import QUANTITIES
@@ -52,7 +52,6 @@ class FiniteElements(SolverModel):
     """
 
     name: ClassVar[str] = "fem"
-    checks_problems: ClassVar[bool] = True
     citation: ClassVar[str] = "This package: axisymmetric elements on the graded half-space, solved with pyamg"
     domain: ClassVar[str] = "n >= 1, 0 <= k <= 0.9, 0 <= nu < 0.5; power-law punch and 9-3 law"
     package = fem_reference
@@ -60,6 +59,14 @@ class FiniteElements(SolverModel):
 
     def __init__(self, poisson_ratio: float = 0.3) -> None:
         self._poisson_ratio = poisson_ratio
+
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not: a cusp, a solid near that of Gibson, or a part that the solver refuses."""
+        if reason := self._undefined(quantity) or no_critical_number(problem, quantity):
+            return reason
+        if problem.is_dimensionless:
+            return _beyond_elements(problem)
+        return _refused(problem)
 
     def _result(self, problem: Problem, quantity: str) -> Result:
         if quantity == "critical_tabor_number":
@@ -71,7 +78,7 @@ class FiniteElements(SolverModel):
     def _critical_tabor_number(self, problem: Problem) -> Result:
         """Return the Tabor number of the modulus at which jumps begin; that of the problem is not used."""
         physical = self._in_si(Problem.dimensionless(problem.n, problem.k, 1.0))
-        solution = fem_reference.solve(built(physical), fem_reference.CRITICAL_MODULUS)
+        solution = fem_reference.solve(physical.build(fem_reference), fem_reference.CRITICAL_MODULUS)
         # Eq. 29 is steeper at the lower end of the bound of the modulus.
         moduli = solution.value, solution.value - solution.u_num
         value, highest = (physical.with_value("solid.E0", E0).posed.mu for E0 in moduli)
@@ -95,6 +102,7 @@ class FiniteElements(SolverModel):
         """
         from fem_reference import export  # loads Matplotlib
 
+        refuse(self.skip(problem, "pull_off_force"))
         units, body = self.physical(problem)
         with translated(fem_reference):
             spec, point = fem_reference.event_state(body, event)
@@ -115,21 +123,15 @@ class FiniteElements(SolverModel):
 
     def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, and as its uncertainty the distance of two meshes."""
+        refuse(self.skip(problem, "pull_off_gap"))
         return _surface_at_pull_off(self._poisson_ratio, problem)
 
     def physical(self, problem: Problem) -> tuple[Mapping[str, float], fem_reference.Problem]:
         """The units of the results, and the problem of the solver."""
-        physical = problem if problem.name else self._in_si(problem)
-        return physical.units, built(physical)
+        physical = self._in_si(problem) if problem.is_dimensionless else problem
+        return physical.units, physical.build(fem_reference)
 
     def _in_si(self, problem: Problem) -> Problem:
-        if problem.n < 1.0:
-            raise NotApplicable(f"the finite elements need n >= 1, not n = {problem.n:g}: a cusp has no finite slope")
-        if problem.k > LARGEST_K:
-            raise NotApplicable(
-                f"the finite elements need k <= {LARGEST_K:g}, not k = {problem.k:g}: towards the Gibson solid the "
-                "contact has an edge too narrow for their mesh"
-            )
         solid: Any = problem.posed.in_units(nu=self._poisson_ratio, **_LENGTHS, **_LAW).solid
         moduli = Section("power-law", {"E0": solid.E0, "c0": solid.c0, "k": solid.k, "nu": solid.nu})
         punch = Section("power-law", {"n": problem.n, "Q": _LENGTHS["Q"]})
@@ -152,19 +154,25 @@ def _friction(problem: Problem) -> dict[str, Any]:
     return {} if stated is None else {"friction": stated}
 
 
-def built(problem: Problem) -> fem_reference.Problem:
-    """Return the problem of a file for the solver.
+def _beyond_elements(problem: Problem) -> str | None:
+    """Return why the elements do not take n and k; None if they do."""
+    if problem.n < 1.0:
+        return f"the finite elements need n >= 1, not n = {problem.n:g}: a cusp has no finite slope"
+    if problem.k > LARGEST_K:
+        return (
+            f"the finite elements need k <= {LARGEST_K:g}, not k = {problem.k:g}: towards the Gibson solid the "
+            "contact has an edge too narrow for their mesh"
+        )
+    return None
 
-    Raises
-    ------
-    NotApplicable
-        If the solver refuses a part of it.
-    """
+
+def _refused(problem: Problem) -> str | None:
+    """Return why the solver refuses a part of the problem of a file; None if it does not."""
     try:
-        body: fem_reference.Problem = problem.build(fem_reference)
+        problem.build(fem_reference)
     except ValueError as error:
-        raise NotApplicable(f"the finite elements do not take this problem: {error}") from None
-    return body
+        return f"the finite elements do not take this problem: {error}"
+    return None
 
 
 class LargeStrain(SolverModel):
@@ -193,10 +201,24 @@ class LargeStrain(SolverModel):
     )
     package = fem_reference
     quantities = fem_reference.LARGE_STRAIN_QUANTITIES
-    checks_problems: ClassVar[bool] = True
 
     def __init__(self, interaction: InteractionName = "auto") -> None:
         self._interaction = interaction
+
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not, unless a rigid punch is on a plane solid without surface tension and friction, in SI."""
+        if reason := self._undefined(quantity) or no_critical_number(problem, quantity):
+            return reason
+        if problem.is_dimensionless:
+            return "n, k and mu do not state how large the strains are; give a problem file"
+        stated = [*problem.surface, *(["punch_solid"] if problem.punch_solid else [])]
+        stated += ["punch.R_solid"] if "R_solid" in problem.punch.values else []
+        if not stated:
+            return _refused(_compressible(problem))
+        return (
+            f"finite strain is for a rigid punch on a plane solid without surface tension and friction: leave out "
+            f"{', '.join(stated)}, or take small strains"
+        )
 
     def _result(self, problem: Problem, quantity: str) -> Result:
         solution = fem_reference.solve_large_strain(_body(problem), quantity, interaction=self._stated(problem))
@@ -214,16 +236,12 @@ class LargeStrain(SolverModel):
 
 def _body(problem: Problem) -> fem_reference.Problem:
     """Return the problem of the solver, whose homogeneous solid may be incompressible."""
-    if not problem.name:
-        raise NotApplicable("n, k and mu do not state how large the strains are; give a problem file")
-    stated = [*problem.surface, *(["punch_solid"] if problem.punch_solid else [])]
-    stated += ["punch.R_solid"] if "R_solid" in problem.punch.values else []
-    if stated:
-        raise NotApplicable(
-            f"finite strain is for a rigid punch on a plane solid without surface tension and friction: leave out "
-            f"{', '.join(stated)}, or take small strains"
-        )
+    body: fem_reference.Problem = _compressible(problem).build(fem_reference)
     if problem.solid.kind != "homogeneous":
-        return built(problem)
-    solid = fem_reference.NeoHookean(problem.solid["E"], problem.solid["nu"])
-    return replace(built(problem.with_value("solid.nu", 0.0)), solid=solid)
+        return body
+    return replace(body, solid=fem_reference.NeoHookean(problem.solid["E"], problem.solid["nu"]))
+
+
+def _compressible(problem: Problem) -> Problem:
+    """Return the problem with nu = 0 in place of that of a homogeneous solid, which small strains need below 0.5."""
+    return problem.with_value("solid.nu", 0.0) if problem.solid.kind == "homogeneous" else problem

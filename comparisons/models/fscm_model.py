@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import fscm
-from comparisons.model import ComputationFailed, Curve, NotApplicable, RadialField, Result, translated
+from comparisons.model import ComputationFailed, Curve, RadialField, Result, refuse, translated
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
-from comparisons.models.solver import SolverModel, curve_of, result_of, surface_of
+from comparisons.models.solver import SolverModel, curve_of, no_critical_number, result_of, surface_of
 from comparisons.problem import Problem
 from fscm.interpolation.coordinates import BOX
 from fscm.interpolation.storage import data_digest
@@ -36,49 +36,51 @@ class FullSelfConsistent(SolverModel):
     """
 
     name: ClassVar[str] = "fscm"
-    checks_problems: ClassVar[bool] = True
     citation: ClassVar[str] = "Zhu, Zheng, Huang & Yu, Eqs. 24-33, by adaptive panels and product integration"
     domain: ClassVar[str] = "n > 2/3, 0 <= k <= 1; to the digits of u_num where the cohesive edge is wider than 1e-6"
     package = fscm
     quantities = fscm.QUANTITIES
 
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not: every solid, punch and law is taken, but no friction."""
+        if problem.solid.get("friction", "none") != "none":
+            return 'the integral equation has no friction; friction = "bonded" is for fem'
+        return self._undefined(quantity) or no_critical_number(problem, quantity)
+
     def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, and as its uncertainty the distance of the two meshes."""
+        refuse(self.skip(problem, "pull_off_gap"))
         with translated(fscm):
             if problem.posed.k == 1.0:
                 return gibson_profile(problem.posed)
-            _check(problem)
+            _check_size(problem)
             event = fscm.Analysis(problem.posed).event("pull_off")
         return surface_of(radial_field(event.check), radial_field(event.value))
 
     def _result(self, problem: Problem, quantity: str) -> Result:
-        _check(problem)
+        _check_size(problem)
         return result_of(fscm.solve(problem.posed, quantity))
 
     def _curve(self, problem: Problem) -> Curve:
         if problem.posed.k == 1.0:
             return gibson_curve(problem.posed)
-        _check(problem)
+        _check_size(problem)
         path = fscm.trace(problem.posed, longest_step=_STEP)
         curve = curve_of(path)
         curve.columns.update({name: getattr(path, name).astype(float) for name in _MARKS})
         return curve
 
 
-def _check(problem: Problem) -> None:
-    """Refuse friction, and a ball that is smaller than its contact before its path is traced."""
-    if problem.solid.get("friction", "none") != "none":
-        raise NotApplicable('the integral equation has no friction; friction = "bonded" is for fem')
+def _check_size(problem: Problem) -> None:
+    """Raise `ComputationFailed` for a ball that is smaller than its contact, before its path is traced."""
     if problem.punch.kind != "ball" or problem.posed.mu < _LIKE_JKR:
         return
     if problem.is_of_the_paper("solid") and problem.posed.k == 0.0:
         # Imported here: other problems do not need it.
         from comparisons.models.jkr_sphere import JKRSphereProjected
 
-        try:
-            JKRSphereProjected().evaluate(problem, "pull_off_force")
-        except NotApplicable as reason:
-            raise ComputationFailed(str(reason)) from None
+        if reason := JKRSphereProjected().skip(problem, "pull_off_force"):
+            raise ComputationFailed(reason)
 
 
 class StieltjesModel(SolverModel):
@@ -94,17 +96,18 @@ class StieltjesModel(SolverModel):
     quantities = STIELTJES_QUANTITIES
     segments: ClassVar[int] = 2500
 
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not at k = 1."""
+        if reason := super().skip(problem, quantity):
+            return reason
+        return f"the Stieltjes scheme is for k < 1, not k = {problem.k:g}" if problem.k >= 1.0 else None
+
     def _result(self, problem: Problem, quantity: str) -> Result:
-        return result_of(stieltjes_solution(self._posed(problem), quantity, self.segments))
+        return result_of(stieltjes_solution(problem.posed, quantity, self.segments))
 
     def _curve(self, problem: Problem) -> Curve:
-        central_gap, displacement, load = StieltjesScheme(self._posed(problem), self.segments).curve()
+        central_gap, displacement, load = StieltjesScheme(problem.posed, self.segments).curve()
         return Curve(displacement=displacement, load=load, columns={"central_gap": central_gap})
-
-    def _posed(self, problem: Problem) -> fscm.Problem:
-        if problem.k >= 1.0:
-            raise NotApplicable(f"the Stieltjes scheme is for k < 1, not k = {problem.k:g}")
-        return problem.posed
 
 
 class CoarseStieltjesModel(StieltjesModel):
@@ -141,18 +144,23 @@ class Atlas(SolverModel):
     domain: ClassVar[str] = "1 <= n <= 6, 0 <= k <= 0.8, 0.01 <= mu <= 10"
     package = fscm
     quantities = fscm.ATLAS_QUANTITIES
-    applies_to: ClassVar[dict[str, list[Any]]] = {
-        "quantities": list(fscm.ATLAS_QUANTITIES),
-        **{name: list(ends) for name, ends in BOX.items()},
-    }
 
     def __init__(self) -> None:
         # Another fit is another model.
         self.version = f"1+{data_digest()}"
 
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not outside the box of the series."""
+        if reason := super().skip(problem, quantity):
+            return reason
+        for name, (low, high) in BOX.items():
+            value = getattr(problem, name)
+            if not low <= value <= high:
+                return (
+                    f"{name} = {value:g} is outside [{low:g}, {high:g}], the range of the atlas; fscm has a wider one"
+                )
+        return None
+
     def _result(self, problem: Problem, quantity: str) -> Result:
-        try:
-            value, bound = fscm.atlas(problem.n, problem.k, problem.mu, quantity)
-        except fscm.OutsideAtlas as reason:
-            raise NotApplicable(str(reason)) from reason
+        value, bound = fscm.atlas(problem.n, problem.k, problem.mu, quantity)
         return Result(float(value), float(bound))

@@ -24,8 +24,8 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from comparisons.model import Curve, NotApplicable, Result
-from comparisons.models.closed_form import EPS, POINTS, ContactBranch, Limits
+from comparisons.model import Curve, Result
+from comparisons.models.closed_form import EPS, POINTS, ContactBranch
 from comparisons.problem import Problem
 
 #: Largest contact radius in radii of the ball, as in both references.
@@ -115,19 +115,21 @@ class _Ball:
         adhesive = np.sqrt(8.0 * math.pi * self.softness * self.release(x) * x**3)
         return (_sneddon(x) - adhesive) / (math.pi * self.softness)
 
+    def target(self, event: str) -> float:
+        """Return theta sqrt(2 pi x) of an event."""
+        return _EVENTS[event][2] * math.sqrt(2.0 * math.pi * self.softness)
+
+    def last_radius(self, event: str) -> tuple[float, bool]:
+        """Return where the rise of the function of an event ends, and whether it rises to theta sqrt(2 pi x)."""
+        values = _EVENTS[event][0](_RADII, self.release)
+        last = int(np.argmax(values))
+        return float(_RADII[last]), bool(values[last] >= self.target(event))
+
     def at(self, event: str) -> float:
         """Return alpha where the rising function of an event is theta sqrt(2 pi x)."""
-        rise, start, theta = _EVENTS[event]
-        target = theta * math.sqrt(2.0 * math.pi * self.softness)
-        first = (target / start) ** (2.0 / 3.0)
-        values = rise(_RADII, self.release)
-        last = int(np.argmax(values))
-        if values[last] < target:
-            raise NotApplicable(
-                f"the ball is smaller than the contact, which reaches beyond {_RADII[last]:.2g} of its radius; "
-                "check the modulus and the work of adhesion"
-            )
-        ends = min(first, _RADII[last]) / 1e3, float(_RADII[last])
+        rise, start, _ = _EVENTS[event]
+        target, last = self.target(event), self.last_radius(event)[0]
+        ends = min((target / start) ** (2.0 / 3.0), last) / 1e3, last
         tolerances = {"xtol": 1e-300, "rtol": 4.0 * EPS}
         return float(scipy.optimize.brentq(lambda a: float(rise(a, self.release)) - target, *ends, **tolerances))
 
@@ -151,17 +153,25 @@ class JKRSphere(ContactBranch):
         "adhesion counted for the true area of contact"
     )
     domain = "a ball on a homogeneous solid, contact radius up to 0.95 R; small strains, mu -> infinity"
-    checks_problems: ClassVar[bool] = True
-    limits: ClassVar[Limits | None] = None
     #: The area of a sphere over its projection grows as the secant of its slope.
     release: ClassVar[Release] = Release(0.5)
 
-    def check(self, problem: Problem) -> None:
-        """Raise `NotApplicable` unless the punch is a ball and the solid homogeneous."""
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not, unless a ball that is larger than its contact is on a homogeneous solid."""
         if problem.punch.kind != "ball":
-            raise NotApplicable(f"{self.name} is for the punch of the kind ball, not for {problem.punch.kind}")
+            return f"{self.name} is for the punch of the kind ball, not for {problem.punch.kind}"
         if not problem.is_of_the_paper("solid") or problem.posed.k != 0.0:
-            raise NotApplicable(f"{self.name} is for a homogeneous solid, not for the {problem.solid.kind} solid given")
+            return f"{self.name} is for a homogeneous solid, not for the {problem.solid.kind} solid given"
+        if undefined := self._undefined(quantity):
+            return undefined
+        event = next((name for name in _EVENTS if quantity == f"{name}_displacement"), "pull_off")
+        last, is_reached = _Ball.of(problem, self.release).last_radius(event)
+        if is_reached:
+            return None
+        return (
+            f"the ball is smaller than the contact, which reaches beyond {last:.2g} of its radius; "
+            "check the modulus and the work of adhesion"
+        )
 
     def pull_off_force(self, problem: Problem) -> Result:
         """-min P."""
@@ -214,11 +224,11 @@ class JKRSphereProjected(JKRSphere):
     domain = "a ball on a homogeneous solid, contact radius up to 0.95 R; exact for vertical gaps as mu -> infinity"
     release: ClassVar[Release] = Release(0.0)
 
-    def check(self, problem: Problem) -> None:
-        """Raise `NotApplicable` for a force of the whole body as well, which counts the true area."""
-        super().check(problem)
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not for a force of the whole body as well, which counts the true area."""
         if problem.interaction == "body":
-            raise NotApplicable(
+            return (
                 f"{self.name} counts the work of adhesion for the projected area, as vertical gaps do: for interaction "
                 "= body take jkr-sphere"
             )
+        return super().skip(problem, quantity)

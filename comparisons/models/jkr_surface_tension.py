@@ -14,14 +14,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from functools import lru_cache
 
 import numpy as np
 import scipy
 from numpy.typing import ArrayLike
 
-from comparisons.model import Array, Curve, NotApplicable, Result
-from comparisons.models.closed_form import EPS, POINTS, ContactBranch, Limits
+from comparisons.model import Array, Curve, Result
+from comparisons.models.closed_form import EPS, POINTS, ContactBranch
 from comparisons.models.surface_tension import LARGEST, SERIES_ERROR, contact
 from comparisons.problem import Problem
 
@@ -84,8 +84,12 @@ class _Sphere:
         flat = np.sqrt(2.0 * math.pi * x / at.k)
         return np.asarray(2.0 * x * at.c * self.displacement_slope(x) - 2.0 * at.k * flat) / math.pi
 
+    @lru_cache(maxsize=64)  # noqa: B019  # two numbers each, and a model asks for an event twice
     def radius_at(self, event: str) -> float:
-        """Return x where the rising function of an event is zero: a slope, or the load beyond its minimum."""
+        """Return x at an event, 0 where the contact is smaller than those of the series.
+
+        There a rising function is zero: a slope, or the load beyond its minimum.
+        """
         rising: dict[str, Callable[[ArrayLike], Array]] = {
             "pull_off": self.load_slope,
             "jump_out": self.displacement_slope,
@@ -95,10 +99,7 @@ class _Sphere:
         radii = np.geomspace(first, _LARGEST, _SEARCH)
         negative = np.flatnonzero(rising[event](radii) < 0.0)
         if not len(negative):
-            raise NotApplicable(
-                f"the contact is smaller than {1.0 / LARGEST:g} of the length 2 Y/E* of the surface tension Y: the "
-                "solid is a liquid, whose pull-off force is pi R w"
-            )
+            return 0.0
         ends = radii[negative[-1]], radii[negative[-1] + 1]
         return float(scipy.optimize.brentq(lambda x: float(rising[event](x)), *ends, xtol=1e-300, rtol=4.0 * EPS))
 
@@ -122,19 +123,25 @@ class JKRSurfaceTension(ContactBranch):
         "the solved integral equation"
     )
     domain = "a rigid sphere on a homogeneous solid with surface tension Y, 2 Y/(E* a) up to 1e5; mu -> infinity"
-    checks_problems: ClassVar[bool] = True
-    neglects_surface: ClassVar[bool] = False
-    limits: ClassVar[Limits | None] = None
 
-    def check(self, problem: Problem) -> None:
-        """Raise `NotApplicable` unless a rigid sphere is on one homogeneous solid that states its surface tension."""
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not, unless a rigid sphere is on one homogeneous solid that states its surface tension."""
         if problem.punch.kind != "sphere" or problem.punch_solid is not None or "solid.friction" in problem.surface:
-            raise NotApplicable(f"{self.name} is for a rigid sphere without friction; this problem has {problem.parts}")
+            return f"{self.name} is for a rigid sphere without friction; this problem has {problem.parts}"
         elastic = problem.without("solid.surface_tension")
         if not elastic.is_of_the_paper("solid") or elastic.posed.k != 0.0:
-            raise NotApplicable(f"{self.name} is for a homogeneous solid; this problem has {problem.parts}")
+            return f"{self.name} is for a homogeneous solid; this problem has {problem.parts}"
         if "surface_tension" not in problem.solid.values:
-            raise NotApplicable(f"{self.name} needs surface_tension in [solid]; without it, it is jkr")
+            return f"{self.name} needs surface_tension in [solid]; without it, it is jkr"
+        if undefined := self._undefined(quantity):
+            return undefined
+        event = "jump_out" if quantity == "jump_out_displacement" else "pull_off"
+        if _Sphere.of(problem).radius_at(event) > 0.0:
+            return None
+        return (
+            f"the contact is smaller than {1.0 / LARGEST:g} of the length 2 Y/E* of the surface tension Y: the "
+            "solid is a liquid, whose pull-off force is pi R w"
+        )
 
     def pull_off_force(self, problem: Problem) -> Result:
         """-min P."""

@@ -22,8 +22,8 @@ from typing import ClassVar
 import scipy
 from scipy.special import beta
 
-from comparisons.model import NotApplicable, Result
-from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, ClosedForm, Limits
+from comparisons.model import Result
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, ClosedForm
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, attraction_coefficient
@@ -42,22 +42,30 @@ class JumpAsymptotes(ClosedForm):
     name = "jump-asymptotes"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 43-55 and Sec. 3.3; the energy of the cycle: docs/theory.md"
     domain = "n > 2/3, 0 <= k <= 1; where the asymptote of the jump-in lies above that of the jump-out"
-    limits: ClassVar[Limits | None] = None
     undefined: ClassVar[str] = "its branches are those of semi-rigid and jkr, which have their own values"
 
     jump_in_displacement = staticmethod(SemiRigid().jump_in_displacement)
     jump_in_gap = staticmethod(SemiRigid().jump_in_gap)
     jump_out_displacement = staticmethod(JKR().jump_out_displacement)
 
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not, where the asymptote of the jump-in is not above that of the jump-out."""
+        if (reason := super().skip(problem, quantity)) or quantity == "jump_out_displacement":
+            return reason
+        if (reason := SemiRigid().skip(problem, "jump_in_gap")) or quantity != "hysteresis_energy":
+            return reason
+        jump_in, jump_out = self.jump_in_displacement(problem).value, self.jump_out_displacement(problem).value
+        if jump_in > jump_out:
+            return None
+        return (
+            f"at mu = {problem.mu:g} the asymptote of the jump-in, {jump_in:.4g}, is not above that of the "
+            f"jump-out, {jump_out:.4g}: there is no cycle between them"
+        )
+
     def hysteresis_energy(self, problem: Problem) -> Result:
         """Energy that the two jumps lose."""
         n, k = float(problem.n), float(problem.k)
         jump_in, jump_out = self.jump_in_displacement(problem).value, self.jump_out_displacement(problem).value
-        if not jump_in > jump_out:
-            raise NotApplicable(
-                f"at mu = {problem.mu:g} the asymptote of the jump-in, {jump_in:.4g}, is not above that of the "
-                f"jump-out, {jump_out:.4g}: there is no cycle between them"
-            )
         approach, approach_scale = _far_energy(problem, jump_out)
         contact, contact_scale = _contact_energy(GradedPunch(n, k), jump_in / problem.mu)
         scale = GradedPunch(n, k).scales(problem.mu)

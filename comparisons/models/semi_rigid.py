@@ -16,9 +16,9 @@ from typing import ClassVar
 import numpy as np
 from scipy.special import beta, gamma
 
-from comparisons.model import FARTHEST_GAP, Curve, NotApplicable, Result
+from comparisons.model import FARTHEST_GAP, Curve, Result
 from comparisons.models.bradley import rigid_load
-from comparisons.models.closed_form import EPS, POINTS, ClosedForm, Limits, monomial
+from comparisons.models.closed_form import EPS, POINTS, ClosedForm, monomial
 from comparisons.problem import Problem
 
 
@@ -71,17 +71,25 @@ class SemiRigid(ClosedForm):
     name = "semi-rigid"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 40-48; Greenwood, Philos. Mag. 89 (2009) 945-965"
     domain = "n > (1-k)/3, 0 <= k <= 1; asymptotic for a jump-in at a large central gap"
-    limits: ClassVar[Limits | None] = None
     undefined: ClassVar[str] = "it describes only the approach up to the jump-in, where deformations are small"
+
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not, where the fold is not out of contact."""
+        if (reason := super().skip(problem, quantity)) or quantity == "force_curve":
+            return reason
+        gap = _fold_of(problem).value - 1.0
+        if gap > 0.0:
+            return None
+        return f"Eq. 46 gives the central gap {gap:.3g} at mu = {problem.mu}, but the asymptote needs a positive one"
 
     def jump_in_gap(self, problem: Problem) -> Result:
         """Central gap at the fold (Eq. 46)."""
-        fold = _positive_fold(problem)
+        fold = _fold_of(problem)
         return Result(fold.value - 1.0, fold.u_num + EPS)
 
     def jump_in_displacement(self, problem: Problem) -> Result:
         """Displacement at the fold (Eqs. 47-48)."""
-        fold = _positive_fold(problem)
+        fold = _fold_of(problem)
         b = (1.0 - problem.k) / problem.n
         factor = (4.0 - b) / (3.0 - b)
         return Result(1.0 - factor * fold.value, factor * fold.u_num + 4.0 * EPS * factor * fold.value + EPS)
@@ -111,12 +119,6 @@ class SemiRigid(ClosedForm):
         )
 
 
-def _positive_fold(problem: Problem) -> Result:
-    """H0 + 1 at the fold, refused when it is not out of contact."""
-    fold = _fold(float(problem.n), float(problem.k), float(problem.mu))
-    if fold.value <= 1.0:
-        raise NotApplicable(
-            f"Eq. 46 gives the central gap {fold.value - 1.0:.3g} at mu = {problem.mu}, "
-            "but the asymptote needs a positive one"
-        )
-    return fold
+def _fold_of(problem: Problem) -> Result:
+    """H0 + 1 at the fold of a problem."""
+    return _fold(float(problem.n), float(problem.k), float(problem.mu))

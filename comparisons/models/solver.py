@@ -9,15 +9,19 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.model import Curve, NotApplicable, RadialField, Result, translated
+from comparisons.model import EFFORT, Curve, RadialField, Result, refuse, translated
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.problem import Problem
+from comparisons.problem.problem import beyond_numbers
+from comparisons.quantities import ALL_QUANTITIES, Kind
 
 _ONES = dict.fromkeys(("displacement", "gap", "load", "radius", "traction"), 1.0)
 
 
 class SolverModel:
-    """A model whose quantities a solver computes; a subclass has `_result`, and `_curve` if it has a curve.
+    """A model whose quantities a solver computes.
+
+    A subclass has `_result`; `_curve` if it has a curve, and `pull_off_profile` if it has the surface at pull-off.
 
     Attributes
     ----------
@@ -36,15 +40,32 @@ class SolverModel:
     package: ModuleType
     quantities: Collection[str]
 
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why the solver does not take a quantity of a problem; None if it does.
+
+        By default it takes every problem of n, k and mu.
+        """
+        return self._undefined(quantity) or beyond_numbers(problem, self.name)
+
+    def _undefined(self, quantity: str) -> str | None:
+        """Return why the solver does not compute a quantity; None if it does."""
+        kind = ALL_QUANTITIES[quantity].kind if quantity in ALL_QUANTITIES else Kind.SCALAR
+        if kind is Kind.FIELD:
+            return None if hasattr(self, "pull_off_profile") else "the model does not know the surface at pull-off"
+        if kind is Kind.CURVE:
+            has_curve = type(self)._curve is not SolverModel._curve
+            return None if has_curve else f"{self.name} has values at events and no force-displacement curve"
+        return None if quantity in self.quantities else f"{self.name} does not compute {quantity}"
+
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity, or raise as in `comparisons.model.Model`."""
-        if quantity not in self.quantities:
-            raise NotApplicable(f"{self.name} does not compute {quantity}")
+        refuse(self.skip(problem, quantity))
         with translated(self.package):
             return self._result(problem, quantity)
 
     def curve(self, problem: Problem) -> Curve:
         """Return the equilibrium path from far away into contact, or raise as `evaluate`."""
+        refuse(self.skip(problem, "force_curve"))
         with translated(self.package):
             return self._curve(problem)
 
@@ -52,7 +73,14 @@ class SolverModel:
         raise NotImplementedError
 
     def _curve(self, problem: Problem) -> Curve:
-        raise NotApplicable(f"{self.name} has values at events and no force-displacement curve")
+        raise NotImplementedError
+
+
+def no_critical_number(problem: Problem, quantity: str) -> str | None:
+    """Return why a problem has no critical Tabor number, if that is the quantity; None otherwise."""
+    if quantity != "critical_tabor_number" or problem.is_of_the_paper():
+        return None
+    return "the critical Tabor number is that of a power-law solid and punch with the 9-3 law"
 
 
 def result_of(solution: Any, unit: float = 1.0) -> Result:
@@ -66,10 +94,7 @@ def result_of(solution: Any, unit: float = 1.0) -> Result:
     return Result(
         value=solution.value / unit,
         u_num=solution.u_num / unit,
-        size=solution.size,
-        iterations=solution.iterations,
-        residual=solution.residual,
-        seconds=solution.seconds,
+        **{name: getattr(solution, name) for name in EFFORT if hasattr(solution, name)},
     )
 
 

@@ -39,8 +39,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.model import Curve, NotApplicable, Result
-from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, POINTS, ClosedForm, ContactBranch, Limits
+from comparisons.model import Curve, Result
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, POINTS, ClosedForm, ContactBranch
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
@@ -91,15 +91,16 @@ def short_range_share(alpha: float) -> float:
 class _HomogeneousSphere(ClosedForm):
     """A formula for n = 2 and k = 0 alone."""
 
-    limits: ClassVar[Limits | None] = {"n": [2, 2], "k": [0, 0]}
-
-    def check(self, problem: Problem) -> None:
-        """Raise `NotApplicable` unless n = 2 and k = 0."""
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not, unless n = 2 and k = 0."""
+        if reason := super().skip(problem, quantity):
+            return reason
         for name, value, only in (("n", problem.n, 2.0), ("k", problem.k, 0.0)):
             if float(value) != only:
-                raise NotApplicable(
+                return (
                     f"{self.name} is for n = 2 and k = 0, a sphere on a homogeneous solid, not for {name} = {value:g}"
                 )
+        return None
 
 
 class CarpickOgletreeSalmeron(_HomogeneousSphere):
@@ -141,11 +142,19 @@ class PietrementTroyon(_HomogeneousSphere):
     domain = (
         "n = 2, k = 0; displacements for alpha >= 0.01 (mu >= 0.0082); fit to Maugis-Dugdale with lambda = 1.157 mu"
     )
-    narrower: ClassVar[dict[str, Limits]] = {
-        quantity: {"mu": [0.0083, None]}
-        for quantity in ("pull_off_displacement", "zero_load_displacement", "force_curve")
-    }
     undefined: ClassVar[str] = "its equations hold in contact and above the pull-off only"
+
+    def skip(self, problem: Problem, quantity: str) -> str | None:
+        """Return why not, where the fit of the displacement has no meaning."""
+        if (reason := super().skip(problem, quantity)) or quantity == "pull_off_force":
+            return reason
+        alpha = transition_parameter(float(problem.mu))
+        if alpha >= _SMALLEST_ALPHA:
+            return None
+        return (
+            f"the displacement of {self.name} needs alpha >= {_SMALLEST_ALPHA}, below which its fit turns "
+            f"negative, but alpha = {alpha:.3g} at mu = {problem.mu:g}"
+        )
 
     def pull_off_force(self, problem: Problem) -> Result:
         """-min P."""
@@ -175,11 +184,6 @@ class PietrementTroyon(_HomogeneousSphere):
     def _terms(self, problem: Problem, root: Any) -> tuple[Any, Any, float]:
         """Return y^(4/3), S y^(2 beta / 3) and the unit of delta at `root` = sqrt(1 + P / F)."""
         alpha = transition_parameter(float(problem.mu))
-        if alpha < _SMALLEST_ALPHA:
-            raise NotApplicable(
-                f"the displacement of {self.name} needs alpha >= {_SMALLEST_ALPHA}, below which its fit turns "
-                f"negative, but alpha = {alpha:.3g} at mu = {problem.mu:g}"
-            )
         y = (alpha + root) / (1.0 + alpha)
         square, S, beta = _coefficients(alpha)
         return y ** (4.0 / 3.0), S * y ** (2.0 * beta / 3.0), float(problem.mu) * _UNIT * square

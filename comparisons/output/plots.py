@@ -11,11 +11,12 @@ import numpy as np
 import pandas as pd
 
 from comparisons.numerics.number_text import case_text, percent_text
-from comparisons.output.style import BROAD, MODEL_ORDER
+from comparisons.output.style import BROAD
 from comparisons.output.table import LAYOUT, Column, Record, column, columns, key_columns, key_text, physical_text
 from comparisons.problem.problem import split_name
 from comparisons.problem.units import prefixed_unit
 from comparisons.quantities import ALL_QUANTITIES, CURVES, Axis, CurveQuantity, Kind, title_of
+from comparisons.registry import MODELS
 from comparisons.runs.frames import unit_in, varied_of, with_problem
 from comparisons.runs.rows import CASE
 
@@ -90,7 +91,7 @@ class Plot:
     @property
     def first_models(self) -> list[str]:
         """Those of them that are switched on at first: external ones, then ours in the order of their names."""
-        order = list(MODEL_ORDER)
+        order = list(MODELS)
         return sorted(self.models, key=lambda name: order.index(name) if name in order else -1)[:_SHOWN_AT_FIRST]
 
     def data(self) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from comparisons.judging.decision import Verdict
-from comparisons.output.table import LAYOUT
+from comparisons.registry import MODELS
 from comparisons.runs.atomic_files import atomic
 
 # A command that draws nothing does not wait for Matplotlib.
@@ -35,11 +35,6 @@ LINES += ((0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (4, 1, 4, 1, 1, 1)), (0, (2,
 #: Dashes in Matplotlib -> in Bokeh, which has no names for the last ones.
 _DASHES: dict[Any, str] = {"-": "solid", "--": "dashed", "-.": "dotdash", ":": "dotted"}
 _DASHES |= {line: " ".join(str(2 * length) for length in line[1]) for line in LINES[len(_DASHES) :]}
-
-#: Model -> its dashes, in the order of the colours and markers; a model needs no entry.
-_MODEL_DASHES: dict[str, str] = LAYOUT["dashes"]
-#: The models of fscm-bench in the order of their colours.
-MODEL_ORDER = tuple(_MODEL_DASHES)
 
 #: The model whose curve is broad and pale, below the others: where they are right they cover it.
 BROAD = "fscm"
@@ -91,21 +86,27 @@ def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
     ('#000000', '#0072b2')
     """
     present = sorted(set(names))
-    indices = {name: index for index, name in enumerate(MODEL_ORDER) if name in present}
-    free = (index for index in count() if index not in indices.values())
-    styles: dict[str, ModelStyle] = {}
-    # Ours first: the dashes of the others are those that their colour has left.
-    for name in sorted(present, key=lambda name: name not in indices):
-        index = indices[name] if name in indices else next(free)
-        turn, colour = divmod(index, len(COLOURS))
-        taken = {style.line for style in styles.values() if style.colour == COLOURS[colour]}
-        left = [line for line in _DASHES if line not in taken] or list(_DASHES)
-        line = _MODEL_DASHES.get(name, left[index % len(left)])
-        # With every turn of the colours the markers move on by one: a pair of both comes back after 64 models.
-        shape = (index + turn) % len(MARKERS)
-        markers = MARKERS[shape], _BOKEH_MARKERS[shape], _SIGNS[shape]
-        styles[name] = ModelStyle(COLOURS[colour], line, _DASHES[line], *markers, broad=name == BROAD)
-    return {name: styles[name] for name in present}
+    places = {name: place for place, name in enumerate(MODELS) if name in present}
+    free = (place for place in count() if place not in places.values())
+    return {name: _style(places[name] if name in places else next(free), broad=name == BROAD) for name in present}
+
+
+def _style(place: int, *, broad: bool = False) -> ModelStyle:
+    """Return the style of a place in a list of models; no two have the same colour and marker, or colour and dashes."""
+    turn, hue = divmod(place, len(COLOURS))
+    # With every turn of the colours the markers move on by one, the dashes by five of eight: each pair with a colour
+    # comes back after 64 places, where the colours are paler.
+    paler, turn = divmod(turn, len(MARKERS))
+    line = LINES[(hue // 2 + 5 * turn) % len(LINES)]
+    shape = (hue + turn) % len(MARKERS)
+    markers = MARKERS[shape], _BOKEH_MARKERS[shape], _SIGNS[shape]
+    return ModelStyle(_paler(COLOURS[hue], paler), line, _DASHES[line], *markers, broad=broad)
+
+
+def _paler(colour: str, times: int) -> str:
+    """Return a colour in hexadecimal digits after its distance to white was shortened by a quarter some times."""
+    channels = (int(colour[start : start + 2], 16) for start in (1, 3, 5))
+    return "#" + "".join(f"{round(255 - (255 - channel) * 0.75**times):02x}" for channel in channels)
 
 
 #: Lines of the models that the figures of the paper draw side by side.

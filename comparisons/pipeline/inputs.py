@@ -17,10 +17,11 @@ from comparisons.domain import Domain
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judging.selection import cases_of, load_user_gates, needed_keys
+from comparisons.model import HasSkip
 from comparisons.problem import Problem
-from comparisons.problem.evaluation import REFERENCES
+from comparisons.problem.evaluation import REFERENCES, SOLVERS
 from comparisons.problem.variation import parse_variations, require_units
-from comparisons.registry import MODELS, ExternalIdentity
+from comparisons.registry import MODELS, ExternalIdentity, create
 from comparisons.runs.cases import TIERS, VERIFICATION, Grid, cases_text, grids, grids_for, load_grids
 from comparisons.runs.tasks import Task, plan
 
@@ -98,7 +99,7 @@ class RunInputs:
     external : mapping of str to ExternalIdentity
         Those of them that are external.
     domains : mapping of str to Domain
-        The domains that models of the run declare.
+        The domains that external models declare.
     fresh : FreshCases or None
         None if the run has no random cases.
     """
@@ -114,6 +115,16 @@ class RunInputs:
     def specs(self) -> dict[str, str]:
         """The SPEC that finds each external model."""
         return {name: model.spec for name, model in self.external.items()}
+
+    @property
+    def taken(self) -> dict[str, HasSkip]:
+        """What the candidates take: the closed forms and the atlas themselves, and the declared domains.
+
+        A solver finds out while it computes whether a problem has an event.
+        """
+        names = self.models or sorted({name for grid in self.cases.grids for name in grid.models})
+        ours = {name: create(name) for name in names if name in MODELS and name not in SOLVERS}
+        return {**{name: model for name, model in ours.items() if isinstance(model, HasSkip)}, **self.domains}
 
     def plan(self) -> list[Task]:
         """Return every task once, as `comparisons.runs.tasks.plan`."""

@@ -72,10 +72,10 @@ def judge_and_write(
     if inputs.gates is None:
         raise ValueError(f"{folder} has no gates to be judged by")
     gates, grids, fresh = inputs.gates.gates, inputs.cases.grids, inputs.fresh.parts if inputs.fresh else ()
-    standing = judge(gates, grids, results, curves, inputs.models, inputs.domains)
+    standing = judge(gates, grids, results, curves, inputs.models, inputs.taken)
     tables = [standing]
     if fresh:
-        drawn = every_verdict(judge([part.gate], [part.grid], results, None, None, inputs.domains) for part in fresh)
+        drawn = every_verdict(judge([part.gate], [part.grid], results, None, None, inputs.taken) for part in fresh)
         tables += [drawn, compare_with_standing(standing, drawn)]
     if inputs.fresh:
         tables.append(judge_undrawn(inputs.fresh.undrawn))

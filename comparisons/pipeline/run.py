@@ -12,7 +12,6 @@ import pandas as pd
 from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import note
-from comparisons.domain import declared_domain
 from comparisons.external.hidden_folders import hidden_from_models
 from comparisons.judging.fresh_cases import FreshCases, draw
 from comparisons.numerics.number_text import exact
@@ -21,7 +20,7 @@ from comparisons.output.verdicts import command
 from comparisons.pipeline.finished_run import FinishedRun, kept_texts, write_run
 from comparisons.pipeline.inputs import Cases, RunInputs, load_cases, read_gates
 from comparisons.problem import PARAMETERS
-from comparisons.registry import create, identify
+from comparisons.registry import identify
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import checked_jobs, complete, folder_for, parse_shard, tasks_of_shard
 from comparisons.runs.folder_lock import locked
@@ -145,9 +144,7 @@ def _inputs(
     names = None if models is None else identified
     loaded = cases if isinstance(cases, Cases) else load_cases(cases, names)
     rules = None if loaded.tier is None and gates is None else read_gates(gates, loaded, names)
-    computed = names or {name for grid in loaded.grids for name in grid.models}
-    declared = {name: declared_domain(external.get(name) or create(name)) for name in sorted(computed)}
-    domains = {name: domain for name, domain in declared.items() if domain is not None}
+    domains = {name: identity.applies_to for name, identity in external.items() if identity.applies_to is not None}
     inputs = RunInputs(loaded, rules, names, external, domains)
     return replace(inputs, fresh=_fresh(random, seed, inputs))
 
@@ -166,7 +163,7 @@ def _fresh(count: int, seed: int | None, inputs: RunInputs) -> FreshCases | None
         raise ValueError("--random needs --model: fresh cases are drawn from the domain of a given model")
     if seed is None:
         seed = SystemRandom().randrange(2**32)
-    fresh = draw(inputs.gates.gates, inputs.cases.grids, inputs.models, inputs.domains, count, seed)
+    fresh = draw(inputs.gates.gates, inputs.cases.grids, inputs.models, inputs.taken, count, seed)
     if not (fresh.parts or fresh.undrawn):
         raise ValueError("--random: no gate of this run can be judged in fresh cases of a given model: leave it out")
     note(f"{sum(len(part.grid.cases) for part in fresh.parts)} fresh cases, --seed {fresh.seed}")

@@ -5,13 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import cast
 
-from comparisons.domain import declared_domain
+from comparisons.domain import declared_domain, skip
 from comparisons.model import Model, NotApplicable, Result
 from comparisons.problem.problem import Problem
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, Points
 
-#: Models that solve the equations; every other one is a closed form or another approximation.
+#: Models that solve the equations, and the series of their values; others are closed forms or other approximations.
 REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas", "fem-large-strain")
+
+#: Models that solve the equations.
+SOLVERS = tuple(name for name in REFERENCES if name != "atlas")
 
 
 def unit_of(problem: Problem, quantity: str) -> str:
@@ -23,14 +26,15 @@ def unit_of(problem: Problem, quantity: str) -> str:
     'z0'
     """
     row = ALL_QUANTITIES[quantity]
-    return row.si_unit if problem.name else row.unit
+    return row.unit if problem.is_dimensionless else row.si_unit
 
 
 def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     """Return a quantity by a model, in the units of the problem.
 
-    A scalar of a model that knows n, k and mu alone is that of the equivalent power law where the solid is another one.
-    One of a closed form is that without surface tension and friction, which its reason names.
+    Where a model that does not solve the equations does not take the problem (`comparisons.domain.skip`), its number is
+    that without surface tension and friction, and of the equivalent power law where the solid is another one.  The
+    reason names both.
 
     Raises
     ------
@@ -43,16 +47,24 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     >>> evaluated(Problem.dimensionless(2, 0, 1), Bradley(), "pull_off_force").value
     2.0
     """
-    row = ALL_QUANTITIES[quantity]
-    only_the_solid_differs = problem.is_of_the_paper("punch", "law") and not problem.is_of_the_paper("solid")
-    checks_problems = getattr(model, "checks_problems", False)
-    is_closed_form = model.name not in REFERENCES and not checks_problems
-    if quantity in QUANTITIES and problem.surface and getattr(model, "neglects_surface", is_closed_form):
-        return _without_surface(problem, model, quantity)
-    if quantity in QUANTITIES and only_the_solid_differs and is_closed_form and problem.punch_solid is None:
-        return _with_equivalent_solid(problem, model, quantity)
-    _check(problem, model, quantity)
-    return row.in_units(row.evaluate(model, problem), problem.units)  # type: ignore[arg-type]  # of its own kind
+    reason = skip(model, problem, quantity)
+    if reason is None:
+        row = ALL_QUANTITIES[quantity]
+        return row.in_units(row.evaluate(model, problem), problem.units)  # type: ignore[arg-type]  # of its own kind
+    domain = declared_domain(model)
+    is_solved = model.name in REFERENCES or (domain is not None and domain.is_list)
+    if quantity not in QUANTITIES or is_solved:
+        raise NotApplicable(reason)
+    elastic = problem.without(*problem.surface)
+    if problem.surface:
+        result = cast(Result, evaluated(elastic, model, quantity))
+    elif problem.punch_solid is None and problem.is_of_the_paper("punch", "law") and not problem.is_of_the_paper():
+        result = _with_equivalent_solid(problem, model, quantity)
+    else:
+        raise NotApplicable(reason)
+    neglected = " and ".join(f"{name} = {value}" for name, value in problem.surface.items())
+    sentences = result.reason, f"{model.name} neglects {neglected}" if neglected else ""
+    return replace(result, reason="; ".join(filter(None, sentences)))
 
 
 def _with_equivalent_solid(problem: Problem, model: Model, quantity: str) -> Result:
@@ -69,32 +81,10 @@ def _with_equivalent_solid(problem: Problem, model: Model, quantity: str) -> Res
     )
 
 
-def _without_surface(problem: Problem, model: Model, quantity: str) -> Result:
-    """Evaluate a model that knows elasticity alone without the surface tension and the friction of a problem."""
-    result = cast(Result, evaluated(problem.without(*problem.surface), model, quantity))
-    neglected = " and ".join(f"{name} = {value}" for name, value in problem.surface.items())
-    return replace(result, reason="; ".join(filter(None, (result.reason, f"{model.name} neglects {neglected}"))))
-
-
-def _check(problem: Problem, model: Model, quantity: str) -> None:
-    """Raise `NotApplicable` where a model does not take the parts of a problem, or is outside its domain."""
-    if problem.is_of_the_paper():
-        domain = declared_domain(model)
-        if domain is not None and not domain.contains(quantity, problem.numbers):
-            raise NotApplicable(domain.refusal(quantity))
-    elif not getattr(model, "checks_problems", False):
-        raise NotApplicable(
-            f"{model.name} takes a power-law or homogeneous solid, or two of one k, with neither surface tension nor "
-            f"friction, a sphere, cone or power-law punch and the 9-3 law; this problem has {problem.parts}"
-        )
-    elif quantity == "critical_tabor_number":
-        raise NotApplicable("the critical Tabor number is that of a power-law solid and punch with the 9-3 law")
-
-
 def dimensionless_result(problem: Problem, quantity: str, result: Result) -> tuple[float, float, str] | None:
     """Return value, u_num and unit of a result in SI in the units of the paper; None where these are not defined."""
     row = QUANTITIES[quantity]
-    if not problem.name or row.scale == "number" or not problem.is_of_the_paper("punch"):
+    if problem.is_dimensionless or row.scale == "number" or not problem.is_of_the_paper("punch"):
         return None
     unit = problem.units[row.scale]
     return result.value / unit, result.u_num / unit, row.unit

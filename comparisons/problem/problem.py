@@ -102,12 +102,12 @@ class Problem:
     digest: str = field(init=False, default="")
 
     def __post_init__(self) -> None:
-        if "mu" in self.parameters and self.punch_solid is not None:
+        if self.is_dimensionless and self.punch_solid is not None:
             raise ValueError(
                 f"punch_solid = {self.punch_solid.kind} is not admissible with n, k and mu: the Tabor number is that "
                 "of both bodies together; give mu with 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2"
             )
-        if "mu" not in self.parameters:
+        if not self.is_dimensionless:
             object.__setattr__(self, "name", self.name or "problem")
             content = [
                 [section.kind, dict(section.values), dict(section.columns)] for section in self._sections.values()
@@ -176,6 +176,11 @@ class Problem:
         return None if number else value
 
     @property
+    def is_dimensionless(self) -> bool:
+        """Whether n, k and mu state the problem: its law has neither a work of adhesion nor a length."""
+        return not self.law.values
+
+    @property
     def _sections(self) -> dict[str, Section]:
         """The sections that the problem has, by name."""
         sections = {name: getattr(self, name) for name in (*SECTIONS, PUNCH_SOLID)}
@@ -197,7 +202,7 @@ class Problem:
     @property
     def label(self) -> str:
         """The name, or else the parameters, in one line for people."""
-        return self.name or case_text(self.parameters)
+        return case_text(self.parameters) if self.is_dimensionless else self.name
 
     @property
     def content(self) -> dict[str, Any]:
@@ -383,9 +388,27 @@ class Problem:
 
 @lru_cache(maxsize=1024)
 def _of_fscm(problem: Problem) -> fscm.Problem:
-    if not problem.name:
+    if problem.is_dimensionless:
         return fscm.Problem(problem["n"], problem["k"], problem["mu"])
     return problem.build(fscm)
+
+
+def beyond_numbers(problem: Problem | fscm.Problem, model: str) -> str | None:
+    """Return why a model of n, k and mu does not take a problem, which has more; None if it has not.
+
+    A problem of `fscm` stands for its n, k and mu.
+
+    Examples
+    --------
+    >>> beyond_numbers(Problem.dimensionless(2, 0.4, 1), "jkr") is None
+    True
+    """
+    if not isinstance(problem, Problem) or problem.is_of_the_paper():
+        return None
+    return (
+        f"{model} takes a power-law or homogeneous solid, or two of one k, with neither surface tension nor "
+        f"friction, a sphere, cone or power-law punch and the 9-3 law; this problem has {problem.parts}"
+    )
 
 
 def _described(body: Section) -> str:

@@ -19,6 +19,9 @@ from comparisons.runs.atomic_files import write_file
 #: a reader can take away one.
 _FORMULA = re.compile(r"[\s']*[=+\-@\t]")
 
+#: The column of wall-clock times, which no file has.
+SECONDS = "seconds"
+
 #: The column of what is true or false.
 _FLAG = "at_end"
 
@@ -49,7 +52,7 @@ def csv_text(table: pd.DataFrame) -> str:
 
 def write_table(table: pd.DataFrame, stem: Path) -> None:
     """Write a table as `stem`.csv, without wall-clock seconds: the file depends on code and cases alone."""
-    write_file(stem.with_suffix(".csv"), csv_text(table.drop(columns="seconds", errors="ignore")))
+    write_file(stem.with_suffix(".csv"), csv_text(table.drop(columns=SECONDS, errors="ignore")))
 
 
 def read_table(path: Path) -> pd.DataFrame:

@@ -10,6 +10,7 @@ import pandas as pd
 
 from comparisons.data.columns import column
 from comparisons.data.file_names import CURVES, RESULTS
+from comparisons.model import EFFORT
 from comparisons.problem import PARAMETERS
 from comparisons.problem.kinds import KINDS
 from comparisons.problem.problem import split_name
@@ -100,7 +101,7 @@ _EVALUATION = ("model", "model_version", "quantity", *PARAMETERS, "problem")
 #: Columns of the table of results, in order; those without a unit in `comparisons.data.columns` are texts.
 COLUMNS = (
     *(*_EVALUATION, "value", "u_num", "unit", *DIMENSIONLESS),
-    *("status", "reason", "size", "iterations", "residual", "seconds"),
+    *("status", "reason", *EFFORT),
 )
 
 #: Columns of the table of curves: one row a point, and one row for a curve that there is not.

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from comparisons.model import Effort
 from comparisons.numerics.number_text import case_text, short
 from comparisons.problem import PARAMETERS
 
@@ -26,7 +27,7 @@ def none_if_nan(number: float | None) -> float | None:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class Row(Effort):
     """The result of one evaluation: of one quantity, by one model, for one problem.
 
     Attributes
@@ -44,7 +45,7 @@ class Row:
     reason : str
         One sentence where there is no value, or on what the value depends on besides.
     size, iterations, residual, seconds
-        As of `comparisons.model.Result`.
+        As of `comparisons.model.Effort`; None where there is no value, but for the time.
     points : tuple of (list of float, list of float, float), or None
         Of a curve or a field: horizontal values, vertical values, and the bound on their distance from the
         exact curve (see `comparisons.quantities.Points`).
@@ -64,10 +65,6 @@ class Row:
     reason: str = ""
     value: float | None = None
     u_num: float | None = None
-    size: int | None = None
-    iterations: int | None = None
-    residual: float | None = None
-    seconds: float = 0.0
     points: tuple[list[float], list[float], float] | None = None
     dimensionless_value: float | None = None
     dimensionless_u_num: float | None = None

@@ -15,7 +15,7 @@ from traceback import extract_tb
 from typing import Any
 
 from comparisons.external.process_model import contradiction
-from comparisons.model import ComputationFailed, Model, NotApplicable, Result
+from comparisons.model import EFFORT, ComputationFailed, Model, NotApplicable, Result
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import dimensionless_result, evaluated, unit_of
 from comparisons.quantities import ALL_QUANTITIES, Points
@@ -151,7 +151,7 @@ def _fields(problem: Problem, quantity: str, result: Result | Points) -> dict[st
 
 def _row(model: Model | ExternalIdentity, quantity: str, problem: Problem, started: float, **outcome: Any) -> Row:
     """Return a row; its time is that since it was started, unless the model states one."""
-    about = {
+    about: dict[str, Any] = {
         "model": model.name,
         "model_version": model.version,
         "quantity": quantity,
@@ -160,7 +160,8 @@ def _row(model: Model | ExternalIdentity, quantity: str, problem: Problem, start
         "parameters": dict(problem.parameters),
         "unit": unit_of(problem, quantity),
     }
-    return Row(**about | {"seconds": time.perf_counter() - started} | outcome)
+    effort: dict[str, Any] = dict.fromkeys(EFFORT) | {"seconds": time.perf_counter() - started}
+    return Row(**about | effort | outcome)
 
 
 def evaluate_task(task: Task) -> Row:
@@ -180,8 +181,7 @@ def evaluate_task(task: Task) -> Row:
         if identity is None:
             return evaluate(task.model, task.quantity, problem)
         domain = identity.applies_to
-        if domain is not None and problem.is_of_the_paper() and not domain.contains(task.quantity, problem.numbers):
-            reason = domain.refusal(task.quantity)
+        if domain is not None and (reason := domain.skip(problem, task.quantity)):
             return _row(identity, task.quantity, problem, started, status="not-applicable", reason=reason)
         model = create(identity.spec, problem.nu)
         if (model.name, model.version) != (identity.name, identity.version):

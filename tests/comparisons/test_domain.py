@@ -6,12 +6,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.domain import NO_LIMITS, Domain, declared_domain
+from comparisons.domain import Domain, skip
 from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
 from comparisons.judging.summary import summarise
+from comparisons.models import transition_formulas
 from comparisons.pipeline.inputs import load_cases, read_gates
 from comparisons.problem import Problem
+from comparisons.problem.evaluation import SOLVERS
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import MODELS, ExternalIdentity, create
 from comparisons.runs.cases import load_grids
@@ -19,8 +21,10 @@ from comparisons.runs.frames import frame
 from comparisons.runs.tasks import Task, evaluate, evaluate_task
 from tests.comparisons.conftest import GATES, with_entries
 from tests.comparisons.grid_text import grid_text
+from tests.comparisons.problems import on_solid
 
 FORCE = {"quantities": ["pull_off_force"]}
+EXPONENTIAL = {"E_surface": 1e9, "E_depth": 3e9, "length": 1e-8, "nu": 0.3}
 
 
 @pytest.mark.parametrize(
@@ -53,28 +57,67 @@ def test_both_ends_belong_to_a_range_and_what_is_not_named_is_free():
     assert Domain.of(domain.as_json()) == domain
 
 
-#: Where the domains of our models are tried: wider than the standing cases.
+#: Where our models are tried: wider than the standing cases.
 BOX = {"n": [0.7, 10], "k": [0, 1], "mu": [0.005, 20]}
 #: The event may be missing below the critical Tabor number; the reference then has no value either.
 MAY_BE_MISSING = {name for name in QUANTITIES if name.startswith("jump_") or name == "hysteresis_energy"}
-DECLARED = [name for name in MODELS if declared_domain(create(name)) is not None]
 
 
-@pytest.mark.parametrize("name", DECLARED)
-def test_a_model_has_a_value_everywhere_in_the_domain_that_it_declares(name):
-    model = create(name)
-    for table in declared_domain(model).tables:
-        ends = {parameter: table.limits.get(parameter, NO_LIMITS) for parameter in BOX}
-        box = {key: [max(BOX[key][0], low), min(BOX[key][1], high)] for key, (low, high) in ends.items()}
-        rng = np.random.default_rng(5)
-        for _ in range(8):
-            # Even in the logarithm of mu.
-            n, k, log_mu = (rng.uniform(*ends) for ends in (box["n"], box["k"], np.log(box["mu"])))
-            case = Problem.dimensionless(n, k, min(max(math.exp(log_mu), box["mu"][0]), box["mu"][1]))
-            for quantity in set(table.quantities) & set(QUANTITIES):
-                row = evaluate(model, quantity, case)
+def random_cases(name):
+    """Cases even in n, k and the logarithm of mu; for the formulas of n = 2 and k = 0 all of these."""
+    rng = np.random.default_rng(5)
+    only = isinstance(create(name), transition_formulas._HomogeneousSphere)
+    for _ in range(8):
+        n, k, log_mu = (rng.uniform(*ends) for ends in (BOX["n"], BOX["k"], np.log(BOX["mu"])))
+        yield Problem.dimensionless(*((2.0, 0.0) if only else (n, k)), math.exp(log_mu))
+
+
+@pytest.mark.parametrize("name", [name for name in MODELS if name not in SOLVERS])
+def test_a_model_has_a_value_for_all_that_it_does_not_skip(name):
+    model, taken = create(name), set()
+    for case in random_cases(name):
+        for quantity in QUANTITIES:
+            row, reason = evaluate(model, quantity, case), model.skip(case, quantity)
+            if reason is None:
+                taken.add(quantity)
                 expected = {"ok", "not-applicable"} if quantity in MAY_BE_MISSING else {"ok"}
                 assert row.status in expected, (quantity, case.label, row.reason)
+            else:
+                assert (row.status, row.reason) == ("not-applicable", reason)
+    of_files = {"jkr-sphere", "jkr-sphere-projected", "jkr-surface-tension"}
+    assert bool(taken) == (name not in of_files)
+
+
+class External:
+    """A model of the contract: n, k and mu, numbers alone."""
+
+    name, version, citation, domain = "external", "1", "none", "all"
+
+    def __init__(self, declared=None):
+        self.applies_to = declared
+
+    def evaluate(self, problem, quantity):
+        raise NotImplementedError
+
+
+@pytest.mark.parametrize(
+    ("problem", "quantity", "reason"),
+    [
+        (Problem.dimensionless(2, 0, 1), "pull_off_force", None),
+        (Problem.dimensionless(1, 0, 1), "pull_off_force", "outside the domain"),
+        (Problem.dimensionless(2, 0, 1), "jump_in_gap", "it has no jump_in_gap"),
+        (Problem.dimensionless(2, 0, 1), "force_curve", "no force-displacement curve"),
+        (Problem.dimensionless(2, 0, 1), "pull_off_gap", "the surface at pull-off"),
+        (on_solid("exponential", EXPONENTIAL), "pull_off_force", "this problem has a exponential solid"),
+    ],
+)
+def test_what_an_external_model_takes_follows_from_its_contract(problem, quantity, reason):
+    skipped = skip(External({**FORCE, "n": [2, 2]}), problem, quantity)
+    assert skipped is None if reason is None else reason in skipped
+
+
+def test_a_domain_of_n_k_and_mu_says_nothing_of_other_problems():
+    assert Domain.of({**FORCE, "n": [2, 2]}).skip(on_solid("exponential", EXPONENTIAL), "pull_off_force") is None
 
 
 def test_a_model_is_not_evaluated_outside_its_domain(toys, monkeypatch):
@@ -106,8 +149,8 @@ def test_not_applicable_is_a_failure_inside_the_declared_domain_and_outside_it_n
     rows = frame([evaluate_task(Task("bradley", "pull_off_force", case)) for case in grids[0].cases])
     candidate = rows.assign(model="jkr", status=["ok", "ok", "not-applicable", "ok"])
     candidate.loc[candidate["status"] != "ok", ["value", "u_num"]] = math.nan
-    domains = {"jkr": Domain.of({**FORCE, "mu": [0.1, 1]})}
-    table = judge(load_gates(gate), grids, pd.concat([rows, candidate]), None, ["jkr"], domains)
+    taken = {"jkr": Domain.of({**FORCE, "mu": [0.1, 1]})}
+    table = judge(load_gates(gate), grids, pd.concat([rows, candidate]), None, ["jkr"], taken)
     assert table["verdict"].tolist() == ["PASS", "PASS", "FAIL", "NOT-APPLICABLE"]
     assert table["reason"].iloc[2].endswith("(inside the domain that the model declares)")
     summary = summarise(table).iloc[0]

@@ -7,6 +7,7 @@ from comparisons.problem import Problem
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import MODELS, create
 from comparisons.runs.tasks import evaluate
+from tests.reference_values import REFERENCE_VALUES
 
 #: Models that take more than a second a value; their own tests evaluate them.
 SLOW = {"fscm-stieltjes", "fscm-stieltjes-400", "fem"}
@@ -60,3 +61,8 @@ def test_a_value_is_that_of_the_model_and_points_have_what_else_it_knows():
 )
 def test_the_sign_rule_is_that_of_the_scale(name, value, admitted):
     assert QUANTITIES[name].admits(value) is admitted
+
+
+def test_every_number_has_a_reference_value():
+    """A new quantity needs a value that the code under test has not computed."""
+    assert {row.quantity for row in REFERENCE_VALUES} == set(QUANTITIES)

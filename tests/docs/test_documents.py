@@ -21,6 +21,7 @@ DOCS = ROOT / "docs"
 EXAMPLES = sorted((DOCS / "examples").glob("*.py"))
 PROBLEMS = DOCS / "examples" / "problems"
 DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", *sorted(DOCS.glob("*.md"))]
+DOCUMENTS += sorted(DOCS.glob("decisions/*.md"))
 
 #: Numbers that each example prints: those that the documents quote.
 QUOTED = {

@@ -53,17 +53,17 @@ def curve_command(args: argparse.Namespace) -> int:
     points_of_models, status = _evaluated(models, args.quantity, problem)
     points, quantity = _table(points_of_models, args.quantity), CURVES[args.quantity]
     axes = {quantity.x.name: "x", quantity.y.name: "y"}
-    table = points.rename(columns=quantity.columns_in_si) if problem.name else points
+    table = points if problem.is_dimensionless else points.rename(columns=quantity.columns_in_si)
     if file_of_points:
         write_file(file_of_points, csv_text(table))
     if args.plot:
         rows = points.rename(columns=axes).assign(case=problem.label)
-        save(draw_plots([plots.curve(quantity.in_si if problem.name else quantity, rows)]), args.plot)
+        save(draw_plots([plots.curve(quantity if problem.is_dimensionless else quantity.in_si, rows)]), args.plot)
     if to_stdout:
         print(csv_text(table), end="")
     for path in filter(None, (file_of_points, args.plot)):
         note(f"the curve is in {path}")
-    if problem.name and args.quantity == "force_curve":
+    if not problem.is_dimensionless and args.quantity == "force_curve":
         _note_assumptions(problem, points_of_models)
     return status
 

@@ -47,7 +47,7 @@ def solve_command(args: argparse.Namespace) -> int:
 
 def _json(problem: Problem, row: Row) -> str:
     content: dict[str, Any] = {"model": row.model, "quantity": row.quantity}
-    content |= {"problem": problem.content} if problem.name else {"case": dict(problem.parameters)}
+    content |= {"case": dict(problem.parameters)} if problem.is_dimensionless else {"problem": problem.content}
     content |= {name: getattr(row, name) for name in ("value", "u_num", "status", "unit", "seconds")}
     if row.dimensionless_unit:
         content["dimensionless"] = {name: getattr(row, f"dimensionless_{name}") for name in ("value", "u_num", "unit")}
@@ -60,7 +60,7 @@ def _json(problem: Problem, row: Row) -> str:
 
 def _assumed(problem: Problem, row: Row) -> dict[str, Any] | None:
     """The error of the assumptions in a force of a problem file."""
-    if row.value is None or row.quantity != "pull_off_force" or not problem.name:
+    if row.value is None or row.quantity != "pull_off_force" or problem.is_dimensionless:
         return None
     # Imported here: the other quantities and problems do not need the table of balls.
     from comparisons.description.budget import budget
@@ -78,10 +78,10 @@ def _csv(row: Row) -> str:
 
 def _lines(problem: Problem, row: Row) -> list[str]:
     quantity = QUANTITIES[row.quantity]
-    lines = [f"{row.model}: {row.quantity} {'of' if problem.name else 'at'} {problem.label}"]
+    lines = [f"{row.model}: {row.quantity} {'at' if problem.is_dimensionless else 'of'} {problem.label}"]
     if row.value is None or row.u_num is None:
         lines.append(f"  {row.status}: {row.reason}")
-    elif problem.name:
+    elif not problem.is_dimensionless:
         lines.append(f"  {quantity.symbol} = {si_text(row.value, row.u_num, row.unit)}  ({row.seconds:.2g} s)")
     else:
         unit = "" if quantity.unit == "1" else f" {quantity.unit}"

@@ -19,7 +19,7 @@ from comparisons.judging.judge import Judged
 from comparisons.judging.summary import COVERAGE
 from comparisons.output import errors
 from comparisons.output.verdicts import GATE_COLUMNS
-from comparisons.runs.csv_format import read_table
+from comparisons.runs.csv_format import SECONDS, read_table
 from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS, keys_in, with_problem
 from comparisons.runs.record import check_files, read_record, warn_of_other_code
 from comparisons.runs.rows import CASE, DIMENSIONLESS, Key
@@ -27,8 +27,8 @@ from comparisons.runs.rows import CASE, DIMENSIONLESS, Key
 #: Table -> its columns; seconds are in no file.  A folder of a sweep has no verdicts, and only that of a comparison has
 #: a comparison.
 _TABLES: dict[str, Sequence[str]] = {
-    file_names.RESULTS: COLUMNS[:-1],
-    file_names.CURVES: CURVE_COLUMNS[:-1],
+    file_names.RESULTS: [name for name in COLUMNS if name != SECONDS],
+    file_names.CURVES: [name for name in CURVE_COLUMNS if name != SECONDS],
     **errors.COLUMNS,
     file_names.VERDICTS: Judged.__slots__,
     file_names.SUMMARY: (*Judged.__slots__, "cases", "skipped", *COVERAGE),

@@ -25,8 +25,8 @@ GATE = conftest.GATE.replace("bradley", "dmt")
 
 def drawn(domain, count=20, seed=1, gate=GATE, grid=GRID):
     """The fresh cases of a gate for a model that declares a domain."""
-    domains = {"jkr": Domain.of(domain)} if domain else {}
-    return draw(load_gates(gate), load_grids(grid), ["jkr"], domains, count, seed)
+    taken = {"jkr": Domain.of(domain)} if domain else {}
+    return draw(load_gates(gate), load_grids(grid), ["jkr"], taken, count, seed)
 
 
 def cases_of(fresh):
@@ -65,6 +65,31 @@ def test_without_a_domain_cases_are_between_the_standing_ones_and_poissons_ratio
     assert all(1 <= case.n <= 5 and case.k <= 0.4 and 0.1 <= case.mu <= 1 for case in cases_of(drawn(None)))
     fresh = cases_of(drawn(None, 5, grid=GRID.replace("mu = [0.1, 1]", "mu = [0.1, 1]\nnu = [0, 0.3]")))
     assert [*map(set, (case.parameters for case in fresh))] == [{"n", "k", "mu"}] * 5
+
+
+@pytest.mark.parametrize(
+    ("model", "quantity", "limits"),
+    [
+        ("jkr", "pull_off_force", {"n": (0.8, 10), "k": (0, 0.8), "mu": (0.005, 10)}),
+        ("schwarz", "pull_off_force", {"n": (2, 2), "k": (0, 0), "mu": (0.005, 10)}),
+        ("semi-rigid", "jump_in_gap", {"n": (0.8, 10), "k": (0, 0.8), "mu": (0.2, 10)}),
+    ],
+)
+def test_fresh_cases_of_our_models_are_among_those_that_they_take(model, quantity, limits):
+    """Over the whole reach of the parameters in which the standing cases that they take differ."""
+    gate, grid = (text.replace("pull_off_force", quantity) for text in (GATE, GRID))
+    grid = grid.replace("mu = [0.1, 1]", "mu = [0.1, 1, 5]")
+    taken = create(model)
+    fresh = draw(load_gates(gate), load_grids(grid), [model], {model: taken}, 40, 1)
+    cases = cases_of(fresh)
+    assert len(cases) >= 20
+    assert all(taken.skip(case, quantity) is None for case in cases)
+    for name, (low, high) in limits.items():
+        values = [case.numbers[name] for case in cases]
+        assert low <= min(values) <= max(values) <= high
+        assert max(values) - min(values) >= 0.7 * (high - low)
+    # Between the standing ones there would be none beyond mu = 5.
+    assert max(case.mu for case in cases) > 5
 
 
 def box(n, k, mu, width):

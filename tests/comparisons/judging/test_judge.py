@@ -264,7 +264,7 @@ def test_a_case_without_an_event_is_covered_and_a_refused_one_is_not(no_event, r
     gate = LEAVE_OUT.replace("min_cases = 4", "min_cases = 1") + "min_coverage = 1\n"
     statuses = {"jkr": ("not-applicable", no_event + refused), "fscm": ("not-applicable", no_event)}
     rows = results((), statuses, jkr=1.0, fscm=1.0)
-    table = judge(load_gates(gate), GRIDS, rows, domains={"jkr": Domain.of({"quantities": ["pull_off_force"]})})
+    table = judge(load_gates(gate), GRIDS, rows, taken={"jkr": Domain.of({"quantities": ["pull_off_force"]})})
     assert (table["status"] == "no-event").sum() == no_event
     # The gate as a whole, for its coverage.
     assert table["n"].isna().sum() == failures
@@ -274,6 +274,6 @@ def test_a_case_without_an_event_is_covered_and_a_refused_one_is_not(no_event, r
 def test_only_a_refused_case_is_outside_a_list_of_cases():
     rows = results((), {"jkr": ("not-applicable", 1)}, jkr=2.0, fscm=2.0)
     gate = LEAVE_OUT.replace("min_cases = 4", "min_cases = 3") + "min_coverage = 1\n"
-    table = judge(load_gates(gate), GRIDS, rows, domains={"jkr": Domain(())})
+    table = judge(load_gates(gate), GRIDS, rows, taken={"jkr": Domain(())})
     assert table["status"].tolist() == ["outside", "ok", "ok", "ok"]
     assert roll_up(table["verdict"]) == "PASS"

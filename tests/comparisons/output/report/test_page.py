@@ -92,7 +92,7 @@ def test_plots_have_the_stored_points(laid_out, stored):
 
 
 def test_models_of_ours_and_external_ones_differ_by_colour_and_shape():
-    styles = model_styles([*MODELS, *(f"mine-{number}" for number in range(12))]).values()
+    styles = model_styles([*MODELS, *(f"mine-{number}" for number in range(300))]).values()
     for shape in ("marker", "sign", "dash"):
         assert len({(style.colour, getattr(style, shape)) for style in styles}) == len(styles)
 
