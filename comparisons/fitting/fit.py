@@ -21,7 +21,8 @@ from comparisons.fitting.curves import Curves
 from comparisons.fitting.equilibria import distance_of_jkr, is_limit
 from comparisons.fitting.machine import Observations
 from comparisons.fitting.parameters import Key, changed, free_keys, uncertain_keys
-from comparisons.fitting.record import Record, checked, read_records
+from comparisons.fitting.reading import Sensitivity, read_records
+from comparisons.fitting.record import Record, checked
 from comparisons.fitting.search import DESCRIBED, Search, dotted, numbers_of, plain
 from comparisons.model import Array
 from comparisons.problem import Problem
@@ -139,14 +140,14 @@ def fit(
     model: str | None = None,
     branch: str = "both",
     stiffness: float | None = None,
-    sensitivity: float | None = None,
+    sensitivity: float | Sensitivity | None = None,
 ) -> list[Fit]:
     """Fit values of a problem to the curves of a file.
 
     Parameters
     ----------
     curve : str or path
-        See `comparisons.fitting.record.read_records`.
+        See `comparisons.fitting.reading.read_records`.
     problem : Problem
         In physical units; its values are where the fit starts.
     free : sequence of str
@@ -155,8 +156,10 @@ def fit(
         "fscm" or "jkr"; by default JKR where its pull-off force is within 2e-4 of that of the FSCM, else the FSCM.
     branch : str
         "approach", "retreat" or "both".
-    stiffness, sensitivity : float, optional
-        Of the cantilever, in N/m and m/V.
+    stiffness : float, optional
+        Of the cantilever in N/m.
+    sensitivity : float or comparisons.fitting.reading.Sensitivity, optional
+        Its deflection for a signal, a number in m/V.
 
     Returns
     -------
@@ -240,7 +243,12 @@ def _described(search: Search, result: Any, curves: Curves, count: int) -> Fit:
         zeros=zeros,
         residual=float(np.sqrt(np.mean(errors**2))),
         noise=search.observed.record.noise,
-        remarks=[*_remarks(parameters, result), *_stiff(curves.model, problem), *_deep(problem, position)],
+        remarks=[
+            *search.observed.record.remarks,
+            *_remarks(parameters, result),
+            *_stiff(curves.model, problem),
+            *_deep(problem, position),
+        ],
         position=position,
         load=load,
         assumptions=assumed,
