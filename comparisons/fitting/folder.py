@@ -283,8 +283,8 @@ def _write(folder: Path, items: Sequence[Mapping[str, Any]]) -> None:
 
 def draw(fitted: Fit) -> Figure:
     """Draw a record, the fitted loads and the residuals."""
-    record, (zero, _) = fitted.record, fitted.zeros["load"]
-    load = record.load - zero
+    record = fitted.record
+    load = record.load - fitted.baseline
     (x_power, x_unit), (y_power, y_unit) = (
         prefixed_unit(float(np.abs(values).max()), unit) for values, unit in ((fitted.position, "m"), (load, "N"))
     )
