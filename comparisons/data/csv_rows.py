@@ -7,7 +7,7 @@ import io
 from collections.abc import Iterator
 
 
-def csv_rows(text: str, source: str, *, by_hand: bool = False) -> Iterator[tuple[str, list[str]]]:
+def csv_rows(text: str, source: str, *, by_hand: bool = False, delimiter: str = ",") -> Iterator[tuple[str, list[str]]]:
     r"""Yield the place and the cells of each row, the heading first; blank lines are left out.
 
     Parameters
@@ -17,8 +17,10 @@ def csv_rows(text: str, source: str, *, by_hand: bool = False) -> Iterator[tuple
     source : str
         What the text is of, for the place: source and line.
     by_hand : bool
-        Whether people write such a file: lines that begin with ``#`` are comments, and blanks before a cell are left
-        out.
+        Whether people write such a file: lines that begin with ``#`` are comments, blanks before a cell are left out,
+        and so is an empty cell after the last column.
+    delimiter : str
+        Between cells.
 
     Raises
     ------
@@ -43,15 +45,17 @@ def csv_rows(text: str, source: str, *, by_hand: bool = False) -> Iterator[tuple
             if not is_comment:
                 yield line
 
-    rows = csv.reader(lines(), strict=True, skipinitialspace=by_hand)
+    rows = csv.reader(lines(), strict=True, skipinitialspace=by_hand and delimiter == ",", delimiter=delimiter)
     count = 0
     try:
         for cells in filter(None, rows):
             count = count or len(cells)
+            if by_hand and len(cells) == count + 1 and not cells[-1].strip():
+                del cells[-1]
             if len(cells) != count:
                 raise ValueError(
                     f"{source}, line {number}: {len(cells)} values for {count} columns; "
-                    f"write one for each column{_remedy(cells, count)}"
+                    f"write one for each column{_remedy(cells, count, delimiter)}"
                 )
             yield f"{source}, line {number}", cells
     except csv.Error as error:
@@ -60,7 +64,9 @@ def csv_rows(text: str, source: str, *, by_hand: bool = False) -> Iterator[tuple
         ) from None
 
 
-def _remedy(cells: list[str], count: int) -> str:
-    if len(cells) < count:
+def _remedy(cells: list[str], count: int, delimiter: str) -> str:
+    if len(cells) < count or delimiter != ",":
         return ""
-    return " (a decimal comma separates two, too)" if cells[-1].strip() else ", and no comma after the last"
+    if cells[-1].strip():
+        return " (a decimal comma separates two, too: export with semicolons between the columns)"
+    return ", and no comma after the last"

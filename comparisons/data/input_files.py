@@ -85,7 +85,7 @@ def check_regular(path: Path, status: os.stat_result, largest: int) -> None:
         raise ValueError(f"{path} has {status.st_size} bytes, more than {largest}; give a smaller file")
 
 
-def read_text(path: Path, name: str, largest: int = LARGEST_TEXT) -> str:
+def read_text(path: Path, name: str, largest: int = LARGEST_TEXT, *, or_western: bool = False) -> str:
     r"""Return the text of a file in UTF-8, with ``\n`` at the end of each line and without a byte order mark.
 
     Parameters
@@ -95,6 +95,8 @@ def read_text(path: Path, name: str, largest: int = LARGEST_TEXT) -> str:
         What the file is, for the sentence that refuses it.
     largest : int
         As of `read_bytes`.
+    or_western : bool
+        Whether it may be UTF-16 with a byte order mark or Windows-1252, as programs of instruments write it.
 
     Raises
     ------
@@ -113,7 +115,19 @@ def read_text(path: Path, name: str, largest: int = LARGEST_TEXT) -> str:
         content = read_bytes(path, largest)
     except OSError as error:
         raise ValueError(f"{path}: {name} cannot be read ({error.strerror}); check the name") from None
+    if or_western and content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        content = content.decode("utf-16", "replace").encode()
+    elif or_western and not _is_utf8(content):
+        content = content.decode("cp1252", "replace").encode()
     return utf8_text(path, content)
+
+
+def _is_utf8(content: bytes) -> bool:
+    try:
+        content.decode("utf-8")
+    except UnicodeDecodeError:
+        return False
+    return True
 
 
 def utf8_text(path: Path, content: bytes) -> str:

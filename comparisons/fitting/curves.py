@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from comparisons.fitting.equilibria import Equilibria, by_fscm, by_jkr, is_limit, paths_alike
+from comparisons.fitting.equilibria import Equilibria, by_fscm, by_jkr, is_limit, is_without_adhesion, paths_alike
 from comparisons.fitting.parameters import Key, changed
 from comparisons.model import Array
 from comparisons.problem import Problem
@@ -35,8 +35,9 @@ class Curves:
     factor: float = 1.0
 
     def equilibria(self, problem: Problem, numbers: Mapping[str, float], largest: float) -> Equilibria:
-        """Return those of a problem up to a load in N; a search for those of the FSCM may pass through its limit."""
-        of_model = by_jkr if self.model == "jkr" or is_limit(problem) else by_fscm
+        """Return those of a problem up to a load in N; a search for those of the FSCM may pass through its limits."""
+        is_jkr = self.model == "jkr" or is_without_adhesion(problem, largest) or is_limit(problem)
+        of_model = by_jkr if is_jkr else by_fscm
         displacement, load = of_model(problem, largest)
         return Equilibria(displacement, load * self.factor)
 

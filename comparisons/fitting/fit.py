@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,14 +18,18 @@ import numpy as np
 
 from comparisons.description.budget import budget
 from comparisons.description.shared_errors import Json
+from comparisons.fitting.baseline import BaselineName
 from comparisons.fitting.curves import Curves
-from comparisons.fitting.equilibria import distance_of_jkr, is_limit
+from comparisons.fitting.equilibria import distance_of_hertz, distance_of_jkr, is_limit, is_without_adhesion
+from comparisons.fitting.evidence import Jump, branches_remark, cause, jumps_apart, of_branches, runs_remark
 from comparisons.fitting.machine import Observations
 from comparisons.fitting.parameters import Key, changed, free_keys, uncertain_keys
-from comparisons.fitting.record import Record, checked, read_records
-from comparisons.fitting.search import DESCRIBED, Search, dotted, numbers_of, plain
+from comparisons.fitting.reading import Sensitivity, read_records
+from comparisons.fitting.record import Record, checked
+from comparisons.fitting.search import Search, dotted, numbers_of, plain
 from comparisons.model import Array
 from comparisons.problem import Problem
+from comparisons.problem.units import si_text
 
 #: A value is called undetermined where its standard deviation is a larger share of it.
 _UNDETERMINED = 0.5
@@ -52,6 +57,10 @@ class FittedValue:
     determined : bool
     shifts : dict of str to float or None
         What the error of the model, and that of its assumptions, would change; None where it is unknown.
+    start : float
+        The value of the file.
+    prior : float or None
+        Its standard deviation by the file; None for a free value without one.
     """
 
     value: float
@@ -59,6 +68,8 @@ class FittedValue:
     unit: str
     determined: bool
     shifts: dict[str, float | None]
+    start: float = math.nan
+    prior: float | None = None
 
 
 @dataclass(frozen=True)
@@ -73,10 +84,11 @@ class Fit:
     problem : Problem
         With the fitted values.
     parameters : dict of str to FittedValue
-        By the keys of the problem file.
+        All that moved, by the keys of the problem file: the free ones, and those to which it gives an uncertainty.
     zeros : dict of str to tuple of float
         Displacement and load of the record where both are zero in the problem, and the drift of that displacement
-        from the begin to the end of the record, each with its standard deviation, in m and N.
+        from the begin to the end of the record, in m and N; where they were fitted, slope of the load without contact
+        in N/m, and its drift in N.  Each has its standard deviation.
     residual : float
         Root mean square of the residuals of the load in N.
     noise : float
@@ -85,6 +97,10 @@ class Fit:
         What the curve does not determine.
     position, load : ndarray
         The fitted load at the points of the record, whose positions have the fitted zeros.
+    baseline : ndarray
+        The load without contact there.
+    by_branch : dict of str to dict
+        Values of the free keys by "approach" and "retreat" alone, with their standard deviations.
     assumptions : dict, optional
         Errors of the pull-off force by the assumptions, as of `comparisons.description.budget.budget`; None where the
         curve does not determine the contact.
@@ -105,6 +121,8 @@ class Fit:
     remarks: list[str]
     position: Array
     load: Array
+    baseline: Array = field(default_factory=lambda: np.zeros(()))
+    by_branch: dict[str, dict[str, tuple[float, float]]] = field(default_factory=dict)
     assumptions: Json | None = None
 
     def as_json(self) -> dict[str, Any]:
@@ -119,6 +137,7 @@ class Fit:
             "mu": self.problem.posed.mu if self.problem.is_of_the_paper("solid", "punch") else None,
             "parameters": {
                 name: {"value": row.value, "u": finite(row.u), "unit": row.unit, "determined": row.determined}
+                | {"start": row.start, "prior": row.prior}
                 | {f"shift_by_{cause}": shift for cause, shift in row.shifts.items()}
                 for name, row in self.parameters.items()
             },
@@ -126,6 +145,10 @@ class Fit:
             "residual": self.residual,
             "noise": self.noise,
             "points": len(self.record.load),
+            "by_branch": {
+                branch: {name: {"value": value, "u": finite(u)} for name, (value, u) in of_branch.items()}
+                for branch, of_branch in self.by_branch.items()
+            },
             "remarks": self.remarks,
             "assumptions": self.assumptions,
         }
@@ -138,15 +161,16 @@ def fit(
     *,
     model: str | None = None,
     branch: str = "both",
+    baseline: BaselineName | None = None,
     stiffness: float | None = None,
-    sensitivity: float | None = None,
+    sensitivity: float | Sensitivity | None = None,
 ) -> list[Fit]:
     """Fit values of a problem to the curves of a file.
 
     Parameters
     ----------
     curve : str or path
-        See `comparisons.fitting.record.read_records`.
+        See `comparisons.fitting.reading.read_records`.
     problem : Problem
         In physical units; its values are where the fit starts.
     free : sequence of str
@@ -155,8 +179,12 @@ def fit(
         "fscm" or "jkr"; by default JKR where its pull-off force is within 2e-4 of that of the FSCM, else the FSCM.
     branch : str
         "approach", "retreat" or "both".
-    stiffness, sensitivity : float, optional
-        Of the cantilever, in N/m and m/V.
+    baseline : str, optional
+        Load without contact: "constant" or "linear" in position and time; by default linear where the record shows it.
+    stiffness : float, optional
+        Of the cantilever in N/m.
+    sensitivity : float or comparisons.fitting.reading.Sensitivity, optional
+        Its deflection for a signal, a number in m/V.
 
     Returns
     -------
@@ -172,7 +200,7 @@ def fit(
     """
     keys = checked_keys(problem, free, model)
     records = read_records(Path(curve), stiffness, sensitivity)
-    return [fit_record(record, problem, keys, model, branch) for record in records]
+    return [fit_record(record, problem, keys, model, branch, baseline) for record in records]
 
 
 def checked_keys(problem: Problem, free: Sequence[str], model: str | None) -> list[Key]:
@@ -185,66 +213,140 @@ def checked_keys(problem: Problem, free: Sequence[str], model: str | None) -> li
 
 
 def fit_record(
-    record: Record, problem: Problem, free: Sequence[Key], model: str | None = None, branch: str = "both"
+    record: Record,
+    problem: Problem,
+    free: Sequence[Key],
+    model: str | None = None,
+    branch: str = "both",
+    baseline: BaselineName | None = None,
 ) -> Fit:
     """Fit values of a problem to one curve, as `fit`."""
     if branch != "both":
         record = checked(record.only(branch), f"the {branch} of {record.name}")
-    search = Search(Observations.of(record), problem, (*free, *uncertain_keys(problem, free)))
+    keys = (*free, *uncertain_keys(problem, free))
+    search = Search(Observations.of(record), problem, keys, baseline)
     has_limit = problem.is_of_the_paper("solid", "punch", "law")
     starts = search.starts() if has_limit else [{}]
     if model is None:
         at_start = changed(problem, search.keys, {key.name: starts[0].get(key.name, 0.0) for key in search.keys})
         model = "jkr" if has_limit and is_limit(at_start) else "fscm"
     # The paths of a fit in n or k have no Tabor numbers in common.
-    exact = not has_limit or any(key.name in ("solid.k", "punch.n") for key in search.keys)
-    result, curves = search.best(Curves(model), starts, model == "fscm" and exact)
-    return _described(search, result, curves, len(free))
+    is_costly = model == "fscm" and (not has_limit or any(key.name in ("solid.k", "punch.n") for key in search.keys))
+    result, curves = search.best(Curves(model), starts, is_costly)
+    jumps = jumps_apart(search, result, curves)
+    if jumps:
+        kept = {True, False} - {jump.approach for jump in jumps}
+        search = Search(search.observed, problem, keys, baseline, tuple(kept))
+        result, curves = search.best(Curves(model), [numbers_of(result.params)], is_costly)
+    by_branch = {} if is_costly else _by_branch(search, result, curves)
+    return _described(search, result, curves, len(free), jumps, by_branch)
 
 
-def _described(search: Search, result: Any, curves: Curves, count: int) -> Fit:
+def _by_branch(search: Search, result: Any, curves: Curves) -> dict[str, dict[str, tuple[float, float]]]:
+    """Values by each branch alone, from those by both; none where the record has one."""
+    if not search.baseline.has_both:
+        return {}
+    start = numbers_of(result.params)
+    start.pop("displacement")
+
+    def fitted(branch: str) -> tuple[Any, Search]:
+        record = search.observed.record
+        alone = Search(
+            Observations.of(checked(record.only(branch), f"the {branch} of {record.name}")),
+            search.problem,
+            search.keys,
+            "linear" if "tilt" in search.baseline.names else "constant",
+            search.jumps,
+        )
+        return alone.best(curves, [start], False)[0], alone
+
+    return of_branches({branch: partial(fitted, branch) for branch in ("approach", "retreat")})
+
+
+def _described(
+    search: Search,
+    result: Any,
+    curves: Curves,
+    count: int,
+    jumps: Sequence[Jump],
+    by_branch: dict[str, dict[str, tuple[float, float]]],
+) -> Fit:
     """Return values, uncertainties and the budget."""
     values = numbers_of(result.params)
     problem = changed(search.problem, search.keys, values)
     machine = search.machine(values, curves)
-    position, zero = search.zeros(values)
+    position, baseline = search.zeros(values)
     load = machine.load(position, search.observed)
-    errors = (load + zero - search.observed.record.load)[search.observed.used]
+    used, record = search.observed.used, search.observed.record
+    errors = load + baseline - record.load
     deviations = {
         dotted(name): float(parameter.stderr) if parameter.stderr else math.inf
         for name, parameter in result.params.items()
     }
-    free = [(key, key.value(values[key.name])) for key in search.keys[:count]]
-    by_noise = {key.name: key.uncertainty(value, deviations[key.name]) for key, value in free}
-    is_determined = all(by_noise[key.name] <= _UNDETERMINED * abs(value) for key, value in free)
+    moved = [(key, key.value(values[key.name])) for key in search.keys]
+    by_noise = {key.name: key.uncertainty(value, deviations[key.name]) for key, value in moved}
+    is_determined = all(by_noise[key.name] <= _UNDETERMINED * abs(value) for key, value in moved[:count])
     # The contact that a curve does not determine has no error.
     assumed = budget(problem, curves.model) if is_determined else None
     shifts = _shifts(search, result, curves, problem, assumed)
     parameters = {}
-    for key, value in free:
+    for key, value in moved:
         of_key = {
-            cause: None if changed_values is None else key.value(changed_values[key.name]) - value
-            for cause, changed_values in shifts.items()
+            by: None if changed_values is None else key.value(changed_values[key.name]) - value
+            for by, changed_values in shifts.items()
         }
         # The error of the model is a bound of this program, that of the assumptions is one of the physics.
         u = math.hypot(by_noise[key.name], of_key["model"] or 0.0)
         determined = u <= _UNDETERMINED * abs(value)
-        parameters[key.name] = FittedValue(value, u, key.unit, determined, of_key)
-    scale = {"displacement": search.range, "load": search.load_range, "drift": search.range}
+        parameters[key.name] = FittedValue(value, u, key.unit, determined, of_key, key.start, _prior(key))
+    load_range = search.load_range
+    scale = {"displacement": search.range, "drift": search.range}
+    scale |= {"load": load_range, "tilt": load_range / search.range, "load_drift": load_range}
     zeros = {name: (values[name] * size, deviations[name] * size) for name, size in scale.items() if name in values}
+    residual = float(np.sqrt(np.mean(errors[used] ** 2)))
+    deep = _deep(problem, position)
+    remarks = [
+        *record.remarks,
+        *_baseline_remark(search, values),
+        *(jump.remark() for jump in jumps),
+        *filter(None, [branches_remark(by_branch, {key.name: key.unit for key in search.keys})]),
+        *filter(None, [runs_remark(errors[used], record.approach[used], search.noise)]),
+    ]
+    described = cause(search, result, residual / search.noise, bool(deep), remarks)
     return Fit(
-        record=search.observed.record,
+        record=record,
         model=curves.model,
         problem=problem,
         parameters=parameters,
         zeros=zeros,
-        residual=float(np.sqrt(np.mean(errors**2))),
-        noise=search.observed.record.noise,
-        remarks=[*_remarks(parameters, result), *_stiff(curves.model, problem), *_deep(problem, position)],
+        residual=residual,
+        noise=record.noise,
+        remarks=[
+            *_remarks(parameters, result),
+            *remarks,
+            *filter(None, [described]),
+            *_stiff(curves.model, problem),
+            *deep,
+        ],
         position=position,
         load=load,
+        baseline=baseline,
+        by_branch=by_branch,
         assumptions=assumed,
     )
+
+
+def _prior(key: Key) -> float | None:
+    """The standard deviation of a value by the file, where it states one."""
+    return None if key.deviation is None else key.uncertainty(key.start, key.deviation)
+
+
+def _baseline_remark(search: Search, values: dict[str, float]) -> list[str]:
+    if "tilt" not in values:
+        sloped = "the load without contact changes with the position: fit with --baseline linear"
+        return [sloped] if search.baseline.is_sloped else []
+    change = float(f"{values['tilt'] * search.load_range:.2g}")
+    return [f"the load without contact is linear: it changes by {si_text(change, 0.0, 'N')} over the travel"]
 
 
 def _shifts(
@@ -252,25 +354,23 @@ def _shifts(
 ) -> dict[str, dict[str, float] | None]:
     """What the errors of the model and of the assumptions in the load change, as fitted numbers."""
     errors: dict[str, float | None] = {"model": 0.0, "assumptions": None}
-    if curves.model == "jkr":
+    largest = search.largest(numbers_of(result.params))
+    if is_without_adhesion(problem, largest):
+        errors["model"] = distance_of_hertz(problem, largest)
+    elif curves.model == "jkr":
         distance = distance_of_jkr(problem)
         errors["model"] = distance if math.isfinite(distance) else None
     if assumed is not None:
         errors["assumptions"] = assumed["total"]["error"]
     shifts: dict[str, dict[str, float] | None] = dict.fromkeys(errors)
-    for cause, error in errors.items():
+    for name, error in errors.items():
         if error is not None:
-            shifts[cause] = search.scaled(curves, result, 1.0 / (1.0 + error)) if error else numbers_of(result.params)
+            shifts[name] = search.scaled(curves, result, 1.0 / (1.0 + error)) if error else numbers_of(result.params)
     return shifts
 
 
 def _remarks(parameters: dict[str, FittedValue], result: Any) -> list[str]:
     remarks = [f"the curve does not determine {name}" for name, row in parameters.items() if not row.determined]
-    if result.redchi >= DESCRIBED:
-        remarks.append(
-            "the model does not describe the curve with these values: begin nearer to the true ones, and see that "
-            "tension is negative"
-        )
     names = list(parameters)
     for i, name in enumerate(names):
         correlations = result.params[plain(name)].correl or {}

@@ -21,7 +21,7 @@ from matplotlib.figure import Figure
 
 from comparisons.data.input_files import LARGEST_TABLE, read_bytes
 from comparisons.fitting.fit import Fit, checked_keys, fit_record
-from comparisons.fitting.record import records_or_refusals
+from comparisons.fitting.reading import records_or_refusals
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.numerics.number_text import short
 from comparisons.output.latex import latex
@@ -58,7 +58,7 @@ class _Task:
             content = read_bytes(self.path, LARGEST_TABLE)
         except (OSError, ValueError):
             content = b""
-        text = json.dumps([self.problem.digest, list(self.free), dict(self.options)])
+        text = json.dumps([self.problem.digest, list(self.free), dict(self.options)], default=repr)
         return self.name, sha256(content + text.encode()).hexdigest()
 
 
@@ -283,8 +283,8 @@ def _write(folder: Path, items: Sequence[Mapping[str, Any]]) -> None:
 
 def draw(fitted: Fit) -> Figure:
     """Draw a record, the fitted loads and the residuals."""
-    record, (zero, _) = fitted.record, fitted.zeros["load"]
-    load = record.load - zero
+    record = fitted.record
+    load = record.load - fitted.baseline
     (x_power, x_unit), (y_power, y_unit) = (
         prefixed_unit(float(np.abs(values).max()), unit) for values, unit in ((fitted.position, "m"), (load, "N"))
     )

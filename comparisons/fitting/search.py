@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import cached_property
 from typing import Any
 
 import lmfit
 import numpy as np
 
+from comparisons.fitting.baseline import Baseline, BaselineName
 from comparisons.fitting.curves import Curves, NearbyCurves
 from comparisons.fitting.machine import Machine, Observations
 from comparisons.fitting.parameters import Key, changed
@@ -38,9 +38,6 @@ _ADHESION = "law.work_of_adhesion"
 #: a fold; a tenth of that elsewhere): a record without noise does not ask for more.
 _MODEL_ERROR = 3e-4
 
-#: The load far away changes less than this share of the pull-off force over a twentieth of a record.
-_FLAT = 0.1
-
 #: A model describes a record where its residuals are at most twice the noise.
 DESCRIBED = 4.0
 
@@ -60,16 +57,22 @@ _REFUSED = 1e9
 class Search:
     """Least squares for one record."""
 
-    def __init__(self, observed: Observations, problem: Problem, keys: Sequence[Key]) -> None:
-        self.observed, self.problem, self.keys = observed, problem, tuple(keys)
+    def __init__(
+        self,
+        observed: Observations,
+        problem: Problem,
+        keys: Sequence[Key],
+        baseline: BaselineName | None = None,
+        jumps: Sequence[bool] = (True, False),
+    ) -> None:
+        self.observed, self.problem, self.keys, self.jumps = observed, problem, tuple(keys), tuple(jumps)
+        self.baseline = Baseline.of(observed, baseline)
         record = observed.record
         depth = float(np.median(record.load) - record.load.min())
         self.noise = math.hypot(record.noise, _MODEL_ERROR * depth)
         self._position = record.position
-        self._time = np.linspace(0.0, 1.0, len(record.load))
         self.range = float(np.ptp(self._position))
-        self.load_range = float(np.ptp(record.load))
-        self._has_both = bool(record.approach.any() and not record.approach.all())
+        self.load_range = self.baseline.range
 
     def starts(self) -> list[dict[str, float]]:
         """Return where the search may begin: at the fit of the JKR limit, which takes no time.
@@ -81,12 +84,14 @@ class Search:
         near_limit = []
         for shift in ({}, *({name: math.log(share)} for share in _SHARES for name in free)):
             try:
-                result = _best(self.minimised(Curves("jkr"), shift, step) for step in _STEPS)
+                near_limit.append(_best(self.minimised(Curves("jkr"), shift, step) for step in _STEPS))
             except (NotApplicable, ComputationFailed, ValueError):
                 continue
-            if result.redchi < DESCRIBED:
-                return [numbers_of(result.params)]
-            near_limit.append(result)
+            # Without the end of the tension several values describe a record, and not equally well.
+            if near_limit[-1].redchi < DESCRIBED and False in self.observed.jumps:
+                break
+        if near_limit and (nearest := _best(near_limit)).redchi < DESCRIBED:
+            return [numbers_of(nearest.params)]
         starts = [self._of_pull_off(mu) for mu in _STIFF]
         if near_limit:
             values = numbers_of(_best(near_limit).params)
@@ -101,7 +106,7 @@ class Search:
         """Return numbers with the pull-off force of the record and, if a modulus is free, a Tabor number."""
         numbers = dict.fromkeys((key.name for key in self.keys), 0.0)
         loads = self.observed.record.load
-        force = self._load_zero - float(loads.min())
+        force = self.baseline.load - float(loads.min())
         if _ADHESION in numbers:
             posed = Problem.dimensionless(n=self.problem.posed.n, k=self.problem.posed.k, mu=mu)
             # The unit of the load is proportional to the work of adhesion.
@@ -153,7 +158,7 @@ class Search:
         ended = False
         for number in range(_EXPANSIONS):
             try:
-                expanded = curves.moved(self.problem, self.keys, values, 1.2 * self._largest(values))
+                expanded = curves.moved(self.problem, self.keys, values, 1.2 * self.largest(values))
                 squares = float(np.sum(self._residuals(values, expanded) ** 2)) if number else math.inf
             except ComputationFailed:
                 if not number:
@@ -187,20 +192,18 @@ class Search:
     def machine(self, values: dict[str, float], curves: Curves) -> Machine:
         """Return the stable sections of the problem of fitted numbers."""
         problem = self._problem_of(values)
-        equilibria = curves.equilibria(problem, values, 1.2 * self._largest(values))
+        equilibria = curves.equilibria(problem, values, 1.2 * self.largest(values))
         return Machine.of(equilibria, self.observed.record.stiffness)
 
-    def _largest(self, values: dict[str, float]) -> float:
+    def largest(self, values: dict[str, float]) -> float:
         """The largest load of the record from its zero."""
-        zero = values.get("load", self._load_zero / self.load_range) * self.load_range
-        return float(self.observed.record.load.max()) - zero
+        return float((self.observed.record.load - self.baseline.loads(self.baseline.start | values)).max())
 
-    def zeros(self, values: dict[str, float]) -> tuple[Array, float]:
-        """Return the positions of the record from their zero, and the zero of the load."""
-        shift = values["displacement"] + values.get("drift", 0.0) * (self._time - 0.5)
-        load = values["load"] * self.load_range
-        compliance = load / self.observed.record.stiffness
-        return self._position - compliance - shift * self.range, load
+    def zeros(self, values: dict[str, float]) -> tuple[Array, Array]:
+        """Return the positions of the record from their zero, and its loads without contact."""
+        shift = values["displacement"] + values.get("drift", 0.0) * (self.baseline.time - 0.5)
+        compliance = values["load"] * self.load_range / self.observed.record.stiffness
+        return self._position - compliance - shift * self.range, self.baseline.loads(values)
 
     def minimised(self, curves: Curves, start: dict[str, float], step: float, reach: float = math.inf) -> Any:
         """Return the result of lmfit from given numbers, of keys within a reach of them.
@@ -217,7 +220,8 @@ class Search:
             low, high = max(low, value - reach), min(high, value + reach)
             room = {} if math.isinf(low) and math.isinf(high) else {"min": low, "max": high}
             parameters.add(plain(key.name), value=value, **room)
-        parameters.add("load", value=start.get("load", self._load_zero / self.load_range))
+        for name, number in self.baseline.start.items():
+            parameters.add(name, value=start.get(name, number))
         if "displacement" in start:
             displacement = start["displacement"]
         else:
@@ -225,7 +229,7 @@ class Search:
             machine = self.machine(values, curves)
             displacement = self._aligned(machine, values) / self.range
         parameters.add("displacement", value=displacement)
-        if self._has_both:
+        if self.baseline.has_both:
             parameters.add("drift", value=start.get("drift", 0.0))
 
         worst = np.full(int(self.observed.used.sum()) + len(self.keys) + 2, _REFUSED)
@@ -245,20 +249,11 @@ class Search:
             raise ComputationFailed("no values of the free keys describe the curve")
         return result
 
-    @cached_property
-    def _load_zero(self) -> float:
-        """The load of the tenth that is farthest from the solid; zero if it changes there as in contact."""
-        load = self.observed.record.load[np.argsort(self._position)]
-        farther, nearer = np.array_split(load[: max(len(load) // 10, 2)], 2)
-        zero = float(np.median([*farther, *nearer]))
-        changes = abs(float(np.median(farther) - np.median(nearer))) > _FLAT * (zero - float(load.min()))
-        return 0.0 if changes else zero
-
     def _aligned(self, machine: Machine, values: dict[str, float]) -> float:
         """The zero of the position at which the record has the load of the model: the best of those along it."""
         shifts = self._position[:, None] - machine.contact[0][None, :: max(machine.contact.shape[1] // 40, 1)]
         tried = np.linspace(shifts.min(), shifts.max(), 400)
-        loads = self.observed.record.load - values["load"] * self.load_range
+        loads = self.observed.record.load - self.baseline.loads(values)
         thinned = slice(None, None, max(len(loads) // 400, 1))
         errors = [
             float(np.sum((machine.load(self._position - shift, self.observed) - loads)[thinned] ** 2))
@@ -272,15 +267,23 @@ class Search:
         observed = self.observed
         errors = (machine.load(position, observed) + zero - observed.record.load)[observed.used] / self.noise
         others = [values[key.name] / (key.deviation or _VAGUE) for key in self.keys if key.deviation or key.logarithmic]
-        if machine.jumps:
-            for approach, points in observed.jumps.items():
-                if approach and curves.model == "jkr":
-                    continue  # Its surfaces do not attract before contact.
-                fold = machine.far[0, -1] if approach else machine.contact[0, 0]
-                around = position[list(points)]
-                # The jump is evenly anywhere between both points.
-                others.append((around.mean() - fold) / (np.ptp(around) / math.sqrt(12.0)))
+        others += self.jump_residuals(machine, position, curves.model).values()
         return np.concatenate([errors, others])
+
+    def jump_residuals(self, machine: Machine, position: Array, model: str) -> dict[bool, float]:
+        """Return the distance of each jump that counts from the computed one, in its standard deviation."""
+        if not machine.jumps:
+            return {}
+        distances = {}
+        for approach, points in self.observed.jumps.items():
+            # Surfaces of JKR do not attract before contact.
+            if approach not in self.jumps or (approach and model == "jkr"):
+                continue
+            fold = machine.far[0, -1] if approach else machine.contact[0, 0]
+            around = position[list(points)]
+            # The jump is evenly anywhere between both points.
+            distances[approach] = float((around.mean() - fold) / (np.ptp(around) / math.sqrt(12.0)))
+        return distances
 
 
 def numbers_of(parameters: lmfit.Parameters) -> dict[str, float]:

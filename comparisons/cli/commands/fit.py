@@ -11,10 +11,12 @@ from comparisons.cli.screen import output, print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note, waiting
 from comparisons.description.budget import budget_line
+from comparisons.fitting.baseline import BASELINES
 from comparisons.fitting.folder import fit_files, fit_table
+from comparisons.fitting.reading import SIGNALS, Sensitivity
 from comparisons.output.terminal import rich_table
 from comparisons.problem import Problem
-from comparisons.problem.units import NotAValue, in_si
+from comparisons.problem.units import NotAValue, in_si, si_text
 
 
 @command(
@@ -23,8 +25,9 @@ from comparisons.problem.units import NotAValue, in_si
     several("--free", metavar="KEY", required=True, help="keys of the problem file to fit, as solid.E"),
     option("--model", choices=("fscm", "jkr"), help="(default: fscm, and jkr where the two agree)"),
     option("--branch", choices=("approach", "retreat", "both"), default="both", help="(default: both)"),
+    option("--baseline", choices=BASELINES, help="load without contact (default: linear where the record shows it)"),
     option("--stiffness", metavar="VALUE", help='cantilever stiffness, as "0.2 N/m" (default: displacement control)'),
-    option("--sensitivity", metavar="VALUE", help='deflection sensitivity, as "50 nm/V"'),
+    option("--sensitivity", metavar="VALUE", help='deflection sensitivity, as "50 nm/V", per A or per count'),
     file("--out", metavar="DIR", help="folder for table, JSON and pictures; fits in it are kept"),
     JOBS,
     output_format("json"),
@@ -40,10 +43,21 @@ def fit_command(args: argparse.Namespace) -> int:
     problem = Problem.load(args.problem)
     if missing := [path for path in args.curves if not path.exists()]:
         raise ValueError(f"there is no file {missing[0]}; check the name")
-    instrument = {name: _si(name, getattr(args, name), unit) for name, unit in _INSTRUMENT.items()}
+    instrument = {
+        "stiffness": None if args.stiffness is None else _si("stiffness", args.stiffness, "N/m"),
+        "sensitivity": _sensitivity(args.sensitivity),
+    }
     with waiting(f"{len(args.curves)} curves" if len(args.curves) > 1 else str(args.curves[0])):
         items = fit_files(
-            args.curves, problem, args.free, args.out, args.jobs, model=args.model, branch=args.branch, **instrument
+            args.curves,
+            problem,
+            args.free,
+            args.out,
+            args.jobs,
+            model=args.model,
+            branch=args.branch,
+            baseline=args.baseline,
+            **instrument,
         )
     fits = [fitted for item in items for fitted in item["fits"]]
     if args.format == "json":
@@ -61,13 +75,7 @@ def fit_command(args: argparse.Namespace) -> int:
     return FAILED if any(item["failure"] for item in items) else OK
 
 
-#: Options of the instrument and their units in SI.
-_INSTRUMENT = {"stiffness": "N/m", "sensitivity": "m/V"}
-
-
-def _si(name: str, text: str | None, unit: str) -> float | None:
-    if text is None:
-        return None
+def _si(name: str, text: str, unit: str) -> float:
     try:
         value = in_si(text, unit)
     except NotAValue as error:
@@ -75,6 +83,19 @@ def _si(name: str, text: str | None, unit: str) -> float | None:
     if not value > 0.0:
         raise ValueError(f"--{name} {text} is not above 0")
     return value
+
+
+def _sensitivity(text: str | None) -> Sensitivity | None:
+    """Return the deflection for a signal in volts, amperes or counts."""
+    if text is None:
+        return None
+    for signal in SIGNALS:
+        try:
+            in_si(text, f"m/{signal}")
+        except NotAValue:
+            continue
+        return Sensitivity(_si("sensitivity", text, f"m/{signal}"), signal)
+    return Sensitivity(_si("sensitivity", text, "m/V"))
 
 
 def _lines(fitted: dict[str, Any], several_curves: bool) -> list[str]:
@@ -86,6 +107,11 @@ def _lines(fitted: dict[str, Any], several_curves: bool) -> list[str]:
         lines.append(f"{name}the model does not describe the curve: u is too small")
     values = [row for row in fitted["parameters"].values() if row["determined"] and row["value"]]
     bound = min((row["u"] / abs(row["value"]) for row in values), default=0.0)
+    lines += [
+        f"{name}{key}: the file has {si_text(row['start'], row['prior'], row['unit'])}"
+        for key, row in fitted["parameters"].items()
+        if row["prior"] is not None
+    ]
     if line := budget_line(fitted.get("assumptions"), bound):
         lines.append(f"{name}{line}")
     return lines + [f"{name}{remark}" for remark in fitted["remarks"]]
