@@ -159,6 +159,7 @@ LONG = [{"limits": ["x"] * 60_000}, {"limits": [1] * 100_000}, {"files": ["x"] *
 LONG += [{"applies_to": {"quantities": ["pull_off_force"], "mu": [0, 10**400]}}, {"x" * 10**6: 1}]
 #: What a model says of its files in place of the worker.
 ROOTS = ({"/no/such": "/no/such/x"}, {"/": 1}, {"/": "/dev/zero"}, {"/etc": "/etc/../x"}, {"x" * 999: "x" * 999}, [1])
+ROOTS += ({"/etc": sys.executable},)
 FORGED = [
     *({"roots": roots, "loaded": []} for roots in ROOTS),
     *({"roots": {}, "loaded": loaded} for loaded in (["x" * 5000], 1, [[]] * 9)),

@@ -117,6 +117,15 @@ def test_what_has_no_end_or_leads_out_of_a_submission_is_not_read(folder, tmp_pa
     assert fingerprint(roots, ["data/../table.csv", "data"], within=folder)[0]
 
 
+def test_more_files_than_may_be_declared_are_refused(folder, monkeypatch):
+    names = ["table.csv", "solver", "data/points.npy"]
+    monkeypatch.setattr("comparisons.external.fingerprint._MOST_DECLARED", 3)
+    assert hashed(folder, *names)[0]
+    monkeypatch.setattr("comparisons.external.fingerprint._MOST_DECLARED", 2)
+    with pytest.raises(ValueError, match="more than 2 files"):
+        hashed(folder, *names)
+
+
 def test_a_folder_of_folders_without_end_is_large(folder, monkeypatch):
     monkeypatch.setattr("comparisons.external.fingerprint._MOST_ENTRIES", 20)
     monkeypatch.setattr("comparisons.external.fingerprint._MOST_DECLARED", 20)

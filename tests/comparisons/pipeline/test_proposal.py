@@ -133,6 +133,7 @@ REFUSED = {
     "future of an old one": (of_submission("owner", "owner", day="2026-11-29"), "2026-11-29"),
     "past": (of_submission("versions/1.1", "versions", "1.1", day="2025-12-31"), "2026-01-01"),
     "loses a version": (renamed_version, "1.0 of versions"),
+    "beside the folders": (of_a_file(b"docs/board/submissions/notes.md"), "in no folder of a model"),
     "not described": (of_a_file(b"docs/board/submissions/mine/model.py"), "cannot be read"),
     "not admissible": (of_submission("mine", "mine", "1\\n"), "version"),
 }
