@@ -176,10 +176,14 @@ def branches_remark(values: Mapping[str, Mapping[str, tuple[float, float]]], uni
     return None
 
 
-def cause(search: Search, result: Any, ratio: float, wide: bool, remarks: Sequence[str]) -> str | None:
+def cause(result: Any, ratio: float, wide: bool, remarks: Sequence[str]) -> str | None:
     """Return the most likely cause where the model does not describe a record, and what to do."""
     if result.redchi < DESCRIBED:
         return None
+    return "the model does not describe the curve with these values: " + _likely(ratio, wide, remarks)
+
+
+def _likely(ratio: float, wide: bool, remarks: Sequence[str]) -> str:
     if ratio > _FAR_OFF:
         return (
             "no values near those of the file describe the curve: check radius, stiffness and units, and begin nearer "

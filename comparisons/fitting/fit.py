@@ -57,7 +57,7 @@ class FittedValue:
     determined : bool
     shifts : dict of str to float or None
         What the error of the model, and that of its assumptions, would change; None where it is unknown.
-    start : float
+    start : float or None
         The value of the file.
     prior : float or None
         Its standard deviation by the file; None for a free value without one.
@@ -68,7 +68,7 @@ class FittedValue:
     unit: str
     determined: bool
     shifts: dict[str, float | None]
-    start: float = math.nan
+    start: float | None = None
     prior: float | None = None
 
 
@@ -312,7 +312,7 @@ def _described(
         *filter(None, [branches_remark(by_branch, {key.name: key.unit for key in search.keys})]),
         *filter(None, [runs_remark(errors[used], record.approach[used], search.noise)]),
     ]
-    described = cause(search, result, residual / search.noise, bool(deep), remarks)
+    described = cause(result, residual / search.noise, bool(deep), remarks)
     return Fit(
         record=record,
         model=curves.model,

@@ -192,7 +192,7 @@ def _or_refusal(curve: Callable[[], Measured], name: str, source: str) -> Record
 
 
 def _is_of_afmformats(text: str) -> bool:
-    """Whether a text is of a form that afmformats reads: its own, AFM Workshop, Chiaro, or bare columns of NT-MDT."""
+    """Whether a text is of a form that afmformats reads: its own, two of instruments, or bare columns of NT-MDT."""
     first = next((line for line in text.splitlines() if line.strip()), "")
     if not first:
         return False

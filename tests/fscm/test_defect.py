@@ -116,12 +116,12 @@ def test_the_part_of_the_tail_is_the_change_that_another_tail_makes(field, name,
     expected = _change_by_another_tail(event_pair, functional, monkeypatch, name)
     known, remainder = np.zeros(3), np.zeros(3)
     known[field] = STEP
-    monkeypatch.setattr(defect, "tail_errors", lambda *_: (known, np.zeros(3)))
+    monkeypatch.setattr(defect, "tail_errors", lambda *_, **__: (known, np.zeros(3)))
     assert event_pair.defect.errors(functional, event_pair.parameter).tail.sum() == pytest.approx(
         expected, rel=1e-3, abs=1e-12
     )
     remainder[field] = STEP
-    monkeypatch.setattr(defect, "tail_errors", lambda *_: (np.zeros(3), remainder))
+    monkeypatch.setattr(defect, "tail_errors", lambda *_, **__: (np.zeros(3), remainder))
     size = abs(event_pair.defect.errors(functional, event_pair.parameter).tail).sum()
     assert size == pytest.approx(abs(expected), rel=1e-3, abs=1e-12)
 
@@ -130,7 +130,7 @@ def test_an_error_of_the_energy_of_the_tail_is_one_of_the_energy(monkeypatch):
     event_pair = pair(*NEAR)
     for known, remainder in ((STEP, 0.0), (0.0, STEP)):
         errors = np.array([0.0, 0.0, known]), np.array([0.0, 0.0, remainder])
-        monkeypatch.setattr(defect, "tail_errors", lambda *_, errors=errors: errors)
+        monkeypatch.setattr(defect, "tail_errors", lambda *_, errors=errors, **__: errors)
         assert abs(event_pair.defect.errors("energy", event_pair.parameter).tail).sum() == pytest.approx(
             STEP, rel=1e-12
         )

@@ -143,13 +143,5 @@ def test_what_is_not_known_is_refused(package):
     refused("TabulatedLaw", package.Problem, solid, sphere, table, interaction="body")
 
 
-def test_shapes_and_exponents_that_only_the_integral_equation_has():
-    solid, law = fem_reference.PowerLaw(1e6, 1.0, 0.0, 0.3), fem_reference.LennardJones(0.05, 1e-9)
-    cone, sphere = fem_reference.PowerPunch(1.0, 1.0), fem_reference.PowerPunch(2.0, 1e-6)
-    refused("paraboloid.*n=1.0", fem_reference.Problem, solid, cone, law, interaction="body")
-    even = fem_reference.Mie(0.05, 1e-9, 12.0, 6.0)
-    refused("m=12.0", fem_reference.Problem, solid, sphere, even, interaction="body")
-
-
 def test_the_aspect_has_to_be_known():
     refused("ratio of radii to heights", fscm.Problem, 2.0, 0.0, 1.0, interaction="body")

@@ -26,7 +26,7 @@ def _says(result, *words):
 @pytest.mark.parametrize("tilt", [-0.3, 0.5])
 def test_a_tilted_baseline_is_seen_and_fitted(tilt):
     """The load without contact changes by a share of the pull-off force over the travel."""
-    problem, record = recorded(SOFT, drift=0.0)
+    problem, record = recorded(SOFT, points=100)
     x = record.displacement
     force = -(record.load.min() - np.median(record.load))
     tilted = replace(record, load=record.load + tilt * force * (x - x.min()) / np.ptp(x))
@@ -48,10 +48,10 @@ def test_a_level_baseline_has_no_slope():
 @pytest.mark.parametrize("approach", [True, False])
 def test_a_jump_elsewhere_is_said_and_not_used(approach):
     """Loads far away in place of some of the contact: the approach snaps in late, the retreat lets go early."""
-    problem, record = recorded(SOFT, points=400, noise=0.01)
+    problem, record = recorded(SOFT, points=200, noise=0.01)
     observed = Observations.of(record)
     before, after = observed.jumps[approach]
-    late = slice(after, after + 30) if approach else slice(before - 30, before + 1)
+    late = slice(after, after + 15) if approach else slice(before - 15, before + 1)
     load = record.load.copy()
     load[late] = load[before if approach else after] + 0.3 * record.noise * np.cos(9.0 * np.arange(load[late].size))
     moved = replace(record, load=load)
@@ -65,9 +65,9 @@ def test_a_jump_elsewhere_is_said_and_not_used(approach):
 
 
 def test_branches_that_differ_are_said():
-    problem, record = recorded(SOFT, noise=0.005)
+    problem, record = recorded(SOFT, noise=0.005, points=100)
     load = record.load.copy()
-    zero = np.median(load[:50])
+    zero = np.median(load[:20])
     retreat = ~record.approach
     load[retreat] = zero + 1.3 * (load[retreat] - zero)
     result = fitted(problem, replace(record, load=load))
@@ -79,7 +79,7 @@ def test_branches_that_differ_are_said():
 
 
 def test_noise_with_memory_is_said():
-    problem, record = recorded(SOFT, noise=1e-4)
+    problem, record = recorded(SOFT, noise=1e-4, points=200)
     rng = np.random.default_rng(4)
     slow = np.convolve(rng.normal(size=record.load.size + 40), np.ones(41) / 41**0.5, "valid")
     white = rng.normal(size=record.load.size)

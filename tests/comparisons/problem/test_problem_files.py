@@ -253,8 +253,6 @@ def test_the_key_interaction_reaches_both_solvers_and_no_closed_form_of_vertical
 @pytest.mark.parametrize(
     ("changed", "kinds", "words"),
     [
-        ({}, {"punch": "cone"}, "PowerPunch"),
-        ({}, {"punch": "table"}, "MeasuredPunch"),
         ({"body": "bodies"}, {}, "derjaguin, body"),
     ],
 )
