@@ -47,9 +47,17 @@ def test_the_status_is_0_only_if_every_mutant_is_noticed(outcomes, status, monke
 
 @pytest.mark.parametrize(("returncode", "noticed"), [(0, False), (1, True), (2, True), (-11, True)])
 def test_tests_that_fail_or_are_ended_by_a_signal_notice_a_mutant(returncode, noticed, monkeypatch, tmp_path):
-    run = SimpleNamespace(returncode=returncode, stdout="")
+    run = SimpleNamespace(returncode=returncode, stdout="1 failed\nFAILED tests/a.py::test[1] - assert\n", stderr="")
     monkeypatch.setattr(subprocess, "run", lambda *args, **options: run)
     assert bool(noticed_by(("tests/a.py",), tmp_path)) == noticed
+
+
+@pytest.mark.parametrize("printed", ["", "RecursionError: while a folder of another run was removed"])
+def test_a_failure_without_the_name_of_a_test_notices_nothing(printed, monkeypatch, tmp_path):
+    run = SimpleNamespace(returncode=1, stdout=printed, stderr="")
+    monkeypatch.setattr(subprocess, "run", lambda *args, **options: run)
+    with pytest.raises(RuntimeError, match="names no test that fails"):
+        noticed_by(("tests/a.py",), tmp_path)
 
 
 def test_tests_that_cannot_be_run_are_an_error(monkeypatch, tmp_path):
