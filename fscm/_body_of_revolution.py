@@ -20,7 +20,7 @@ from fscm.punch import PunchShape, kinks_of
 if TYPE_CHECKING:
     from fscm._potential_table import PotentialTable
 
-__all__ = ["BodyOfRevolution"]
+__all__ = ["BodyOfRevolution", "opening_of"]
 
 #: Steps of the secant method for the largest tension, whose equation is almost linear in log v: 1e-15 after four.
 _SECANTS = 5
@@ -123,6 +123,10 @@ class BodyOfRevolution:
         terms = powers * (1.0 + error) - self.punch.height(r) * powers * by_depth
         return np.asarray(self._strength * np.sum(terms, axis=0))
 
+    def opening(self, r: Array, H: Array) -> Array:
+        """That of the gap, or of the place if it is less."""
+        return opening_of(self.punch, r, H)
+
     def peak_gap(self, r: Array) -> Array:
         """Gap of the largest tension at a radius."""
         r = np.asarray(r, float)
@@ -155,6 +159,16 @@ class BodyOfRevolution:
         r, H = np.broadcast_arrays(np.asarray(r, float), np.asarray(H, float))
         values = _logarithms(energy_table(self.punch, self.exponents), r, self.law.z0 + H)[0]
         return self._difference(np.exp(values + self._unit.reshape(2, *(1,) * r.ndim)))
+
+
+def opening_of(punch: PunchShape, r: Array, H: Array) -> Array:
+    """Change of the distance to a punch along the surface between points, of shape (2, N).
+
+    It is that of the gap below a flat face, and anywhere at most the distance of the points, whose levels are f - H.
+    """
+    level = punch.height(r) - H
+    moved = aspect_of(punch) * np.abs(r[1] - r[0]) + np.abs(level[1] - level[0])
+    return np.asarray(np.minimum(np.abs(H[1] - H[0]), moved))
 
 
 def _logarithms(table: PotentialTable, r: Array, v: Array) -> tuple[Array, Array, Array]:

@@ -29,7 +29,7 @@ from typing import Protocol
 import numpy as np
 import scipy
 
-from fscm._body_of_revolution import BodyOfRevolution
+from fscm._body_of_revolution import BodyOfRevolution, opening_of
 from fscm._typing import Array
 from fscm.laws import LennardJones, Mie, SurfaceLaw
 from fscm.punch import Ball, PunchShape, ScaledPunch
@@ -79,6 +79,10 @@ class Interaction(Protocol):
         """Integral of p from H to infinity at a fixed radius."""
         ...
 
+    def opening(self, r: Array, H: Array) -> Array:
+        """Change of the distance to the punch along the surface between points, of shape (2, N)."""
+        ...
+
     def peak_gap(self, r: Array) -> Array | float:
         """Gap of the largest tension at a radius: the one at a contact edge."""
         ...
@@ -123,6 +127,10 @@ class Derjaguin:
     def energy(self, r: Array, H: Array) -> Array:
         """e(H)."""
         return self.law.energy(H)
+
+    def opening(self, r: Array, H: Array) -> Array:
+        """Change of the gap."""
+        return np.abs(H[1] - H[0])
 
     def peak_gap(self, r: Array) -> float:
         """That of the law."""
@@ -198,6 +206,10 @@ class Body:
     def size_of_punch(self) -> float:
         """Its radius in the unit of heights."""
         return self.ball_radius
+
+    def opening(self, r: Array, H: Array) -> Array:
+        """That of the gap, or of the place if it is less."""
+        return opening_of(self.punch, r, H)
 
     def _distances(self, r: Array, H: Array) -> _Distances:
         R, v = self.ball_radius, self.law.z0 + np.asarray(H, float)

@@ -2,7 +2,7 @@
 
 A panel is resolved when the last Legendre coefficients e of the pressure on it are too small to matter: the
 load moves by 2 c^2 s h e, the work of adhesion (which fixes the edge, as in fracture) by e times the change
-of the gap over the panel, and the central gap, from the innermost panel, by M (1-k) (c h)^{1-k} e.
+of the distance over the panel, and the central gap, from the innermost panel, by M (1-k) (c h)^{1-k} e.
 """
 
 from __future__ import annotations
@@ -82,10 +82,12 @@ def _weights(field: _Field, starts: Array, lengths: Array) -> Array:
     mesh, c = field.mesh, field.scale
     ends = starts + lengths
     load = 2.0 * c * c * (mesh.origin + ends) * lengths / max(1.0, abs(field.load))
-    gap = np.interp(np.append(starts, ends), mesh.node_offsets, field.gap).reshape(2, -1)
+    at_ends = np.append(starts, ends)
+    gap = np.interp(at_ends, mesh.node_offsets, field.gap).reshape(2, -1)
+    opening = field.problem.force.opening(c * (mesh.origin + at_ends.reshape(2, -1)), gap)
     central = _ALGEBRAIC * field.stiffness * lengths ** (1.0 - field.problem.k)
     central = np.where(starts == -mesh.origin, central, 0.0)
-    return np.maximum(np.maximum(load, np.abs(gap[1] - gap[0])), central)
+    return np.maximum(np.maximum(load, opening), central)
 
 
 def _unseen(modes: Array, jump: Array) -> Array:

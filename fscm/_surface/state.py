@@ -8,7 +8,8 @@ Radii are r = c s with the mesh in s.  The unknowns are N numbers at the nodes, 
 mesh: it is added to the smooth deformation wherever the scale or the mesh changes.
 
 *Deformations.*  The height of a steep punch is not linear in log c either, and so much larger than the deformation that
-their difference loses digits: the numbers are the deformations w, H = f - delta + w.
+their difference loses digits: the numbers are the deformations w, H = f - delta + w.  Under the potential of the whole
+punch every shape that grows faster than a paraboloid is steep.
 """
 
 from __future__ import annotations

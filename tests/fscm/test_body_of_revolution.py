@@ -10,9 +10,11 @@ import fscm
 from fscm import Ball, Coating, Homogeneous, LennardJones, Mie, PowerPunch, PowerSum, Problem, RoundedCone
 from fscm._potential import Profile, log_powers
 from fscm._potential_table import power_table
+from fscm._surface.breaks import initial_mesh
+from fscm._surface.discretisation import Discretisation
 from fscm._surface.linearisation import rates_by
 from fscm._surface.newton import newton
-from fscm._surface.state import Control
+from fscm._surface.state import Control, rigid_state
 from fscm._surface.tail_of_body import TailOfBody
 from fscm.interaction import Body
 from fscm.measured_punch import MeasuredPunch
@@ -178,6 +180,32 @@ def test_the_pull_off_force_is_that_of_finer_meshes(punch):
     coarse, fine = (fscm.solve(posed(punch), "pull_off_force", accuracy) for accuracy in ("default", "fine"))
     assert coarse.u_num < 1e-10 * coarse.value
     assert abs(coarse.value - fine.value) <= coarse.u_num + fine.u_num
+
+
+STEEP = Problem(Homogeneous(0.91, nu=0.3), PowerPunch(6.0, 1.0), LennardJones(1e-3, 0.01), interaction="body")
+
+
+def test_a_surface_at_rest_stays_at_its_level_far_out_in_a_step_of_the_scale():
+    """A gap that is linear in log c moves it by half of the height: the path of r^6 then takes hundreds of steps."""
+    problem = STEEP.dimensionless
+    state = rigid_state(Discretisation(problem, initial_mesh(problem, 8, 1e6)), 1.0)
+    step = 1e-6
+    wider = state.of_problem(state.disc, math.exp(step)).with_deformation(np.zeros(state.disc.mesh.size))
+    moved = state.shifted((wider.unknowns - state.unknowns) * (0.5 / step), 0.0, 0.5)
+    level = problem.punch.height(moved.radius) - moved.gap
+    assert np.max(problem.punch.height(moved.radius)) > 1e5
+    assert np.max(np.abs(level - state.displacement)) < 1e-3
+
+
+def test_far_out_the_distance_opens_by_the_move_of_the_point_and_not_by_the_gap():
+    """Weighed by the gap, which is 1e16 there, a mesh would resolve a traction of 1e-21."""
+    problem = STEEP.dimensionless
+    r = np.array([[0.01, 60.0], [0.02, 70.0]])
+    H = problem.punch.height(r) + 1.0
+    near, far = problem.force.opening(r, H)
+    assert near == pytest.approx(H[1, 0] - H[0, 0], rel=1e-12)
+    unit = problem.punch.radius / problem.punch.height_unit
+    assert far == pytest.approx(10.0 * unit, rel=1e-9)
 
 
 def test_what_has_no_potential_is_refused():

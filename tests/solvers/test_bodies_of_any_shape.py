@@ -52,12 +52,8 @@ def test_both_references_have_one_potential(case):
         assert np.max(np.abs(difference) / size) < 1e-9
 
 
-#: The pull-off force by `fscm` of a punch that grows faster than r^3 was not seen to end in a quarter of an hour.
-STEEP = ("n = 6", "sum")
-
-
 @pytest.mark.heavy
-@pytest.mark.parametrize("case", [case for case in CASES if case not in STEEP])
+@pytest.mark.parametrize("case", CASES)
 def test_the_pull_off_by_both(case):
     integral, elements = agreeing(lambda package: posed(package, case))["pull_off_force"]
     assert elements.u_num < 2e-6 * elements.value
