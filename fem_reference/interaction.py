@@ -16,8 +16,11 @@ of its centre, d = s - R and D = s + R,
 
 which is (z0/d)^m for R -> infinity, and [(s^2 - R^2)/(2 R z0)]^-3 for m = 3.  With c = R - f(rho), the height of the
 centre above the face of the punch, s^2 - R^2 = (z0 + H)(2 c + z0 + H) on the sphere, which does not cancel.  That of
-any other shape is in `fem_reference._body_of_revolution`.  A law that is no difference of two powers acts at the normal
-distance of the point to the punch (`fem_reference._normal_distance`).
+any other shape is in `fem_reference._body_of_revolution`.
+
+A law p(d) that is no difference of two powers, as one from a table, belongs to a pair potential, too.  Over a ball it
+is integrated in closed form (`fem_reference._ball_under_law`), over another shape by distance and curvatures
+(`fem_reference._curved_face`).
 """
 
 from __future__ import annotations
@@ -29,8 +32,9 @@ from typing import Literal, Protocol
 import numpy as np
 from scipy.optimize import brentq
 
+from fem_reference._ball_under_law import face_gap, rate_of_ball, traction_of_ball
 from fem_reference._body_of_revolution import BodyOfRevolution
-from fem_reference._normal_distance import NormalDistance
+from fem_reference._curved_face import CurvedFace, check_curvature
 from fem_reference._typing import Array
 from fem_reference.laws import LennardJones, Mie, SurfaceLaw
 from fem_reference.profiles import Ball
@@ -184,7 +188,7 @@ class Body:
 
     def _distances(self, rho: Array, gap: Array) -> tuple[Array, Array, Array]:
         """Distances of the centre and of the surface of the ball, and the vertical one of the centre."""
-        R, x, facing = self.punch.R, np.asarray(rho, float), self.law.z0 + np.asarray(gap, float)
+        R, x, facing = self.punch.R, np.asarray(rho, float), np.asarray(gap, float) - face_gap(self.law)
         above = R - self.punch.height(x)  # of the centre, from the face of the punch
         vertical = above + facing
         between = np.where(x <= self.punch.reach, facing * (above + vertical), x * x - R * R + vertical**2)
@@ -199,13 +203,13 @@ class Body:
     def slopes(self, rho: Array, gap: Array) -> tuple[Array, Array]:
         """dp/drho at a fixed gap, and dp/dH."""
         s, d, vertical = self._distances(rho, gap)
-        rate = sum(strength * self._power_rate(s, d, m) for strength, m in self.law.powers) / s
+        rate = self._rate(s, d) / s
         return np.asarray(rate * (rho - vertical * self.punch.slope(rho))), np.asarray(rate * vertical)
 
     def peak_gap(self, rho: Array) -> Array:
         """Gap on the sphere around the centre where the tension is largest; outside of it the one level with that."""
         above = self.punch.R - self.punch.height(rho)
-        return np.sqrt(np.maximum(_peak_distance(self) ** 2 - np.square(rho), 0.0)) - above - self.law.z0
+        return np.sqrt(np.maximum(_peak_distance(self) ** 2 - np.square(rho), 0.0)) - above + face_gap(self.law)
 
     def peak_slope(self, rho: Array) -> Array:
         """Its derivative by the radius."""
@@ -241,6 +245,10 @@ class Body:
 
     def _at(self, s: Array, d: Array) -> Array:
         return np.asarray(sum(strength * self._power(s, d, m) for strength, m in self.law.powers))
+
+    def _rate(self, s: Array, d: Array) -> Array:
+        """Derivative of p by the distance of the centre."""
+        return np.asarray(sum(strength * self._power_rate(s, d, m) for strength, m in self.law.powers))
 
     def _power(self, s: Array, d: Array, m: float) -> Array:
         """p_m at distances of the centre and of the surface, in units of its strength."""
@@ -286,10 +294,34 @@ def _peak_distance(body: Body) -> float:
 
     def rate(log_d: float) -> float:
         d = np.array(length * np.exp(log_d))
-        rates = [strength * float(body._power_rate(R + d, d, m)) * float(d) for strength, m in body.law.powers]
-        return sum(rates)
+        return float(body._rate(R + d, d)) * float(d)
 
     return R + length * float(np.exp(brentq(rate, -np.log(_WIDEST), np.log(_WIDEST), xtol=1e-14)))
+
+
+@dataclass(frozen=True, slots=True)
+class BodyUnderTable(Body):
+    """The potential of a ball under any law, through the pair potential of that.
+
+    Parameters
+    ----------
+    punch : Ball
+    law : SurfaceLaw
+        Of the same atoms over a half-space.
+
+    Examples
+    --------
+    >>> ball, law = Ball(R=20.0), LennardJones(work_of_adhesion=1.0, z0=1.0)
+    >>> exact, at = Body(ball, law), (np.array(3.0), np.array(0.5))
+    >>> bool(abs(BodyUnderTable(ball, law).traction(*at) - exact.traction(*at)) < 1e-14)
+    True
+    """
+
+    def _at(self, s: Array, d: Array) -> Array:
+        return traction_of_ball(self.law, d, np.array(self.punch.R))
+
+    def _rate(self, s: Array, d: Array) -> Array:
+        return rate_of_ball(self.law, d, np.array(self.punch.R), self._at(s, d))
 
 
 def interaction_of(punch: Punch, law: SurfaceLaw, name: InteractionName) -> Interaction:
@@ -300,13 +332,13 @@ def interaction_of(punch: Punch, law: SurfaceLaw, name: InteractionName) -> Inte
     punch : Punch
     law : SurfaceLaw
     name : {"auto", "body", "derjaguin"}
-        "auto" is "body" for a `Ball` under a `LennardJones` or `Mie` law.  Under another law "body" is the law at the
-        normal distance.
+        "auto" is "body" for a `Ball` under a `LennardJones` or `Mie` law.  Under another law "body" of another shape
+        is by the distance of the face and its curvatures.
 
     Raises
     ------
     ValueError
-        If the name is unknown.
+        If the name is unknown, or under a law from a table for a face with kinks or a sharp tip.
 
     Examples
     --------
@@ -321,4 +353,7 @@ def interaction_of(punch: Punch, law: SurfaceLaw, name: InteractionName) -> Inte
         return Derjaguin(punch, law)
     if isinstance(law, LennardJones | Mie):
         return BodyOfRevolution(punch, law)
-    return NormalDistance(punch, law)
+    if isinstance(punch, Ball):
+        return BodyUnderTable(punch, law)  # type: ignore[arg-type]  # any law, see there
+    check_curvature(punch, law)
+    return CurvedFace(punch, law)

@@ -6,6 +6,7 @@ The powers of the law are those of `fscm._potential_table`, in which each is an 
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -20,7 +21,7 @@ from fscm.punch import PunchShape, kinks_of
 if TYPE_CHECKING:
     from fscm._potential_table import PotentialTable
 
-__all__ = ["BodyOfRevolution", "opening_of"]
+__all__ = ["BodyOfRevolution", "opening_of", "size_of"]
 
 #: Steps of the secant method for the largest tension, whose equation is almost linear in log v: 1e-15 after four.
 _SECANTS = 5
@@ -84,7 +85,7 @@ class BodyOfRevolution:
     @property
     def size_of_punch(self) -> float:
         """Radius at which the punch is as high as wide, or of its last kink, in the unit of heights."""
-        return _size(self)
+        return size_of(self.punch)
 
     @property
     def _unit(self) -> Array:
@@ -122,6 +123,10 @@ class BodyOfRevolution:
         error = _SAFETY / _ROUNDING * table.error(r.ravel(), self.law.z0 + H.ravel()).reshape(r.shape)
         terms = powers * (1.0 + error) - self.punch.height(r) * powers * by_depth
         return np.asarray(self._strength * np.sum(terms, axis=0))
+
+    def remainder(self, r: Array, H: Array) -> None:
+        """None: the potential is exact."""
+        return
 
     def opening(self, r: Array, H: Array) -> Array:
         """That of the gap, or of the place if it is less."""
@@ -190,9 +195,15 @@ def _peak(body: BodyOfRevolution, r: float) -> float:
     return float(body._peaks(np.array([r]))[0])
 
 
+def size_of(punch: PunchShape) -> float:
+    """Radius at which a punch is as high as wide, or of its last kink, in the unit of heights."""
+    assert isinstance(punch, Hashable)  # a problem is hashable, and so are its parts
+    return _size(punch)
+
+
 @lru_cache(maxsize=64)
-def _size(body: BodyOfRevolution) -> float:
-    punch = body.punch
+def _size(punch: Hashable) -> float:
+    assert isinstance(punch, PunchShape)
     aspect, low, high = aspect_of(punch), _LEAST, _LARGEST
     last = aspect * max(kinks_of(punch), default=0.0)
     if punch.growth <= 1.0:

@@ -24,17 +24,19 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 import numpy as np
 import scipy
 
+from fscm._ball_under_law import ball_under_law
 from fscm._body_of_revolution import BodyOfRevolution, opening_of
+from fscm._curved_face import CurvedFace, check_face
 from fscm._typing import Array
 from fscm.laws import LennardJones, Mie, SurfaceLaw
 from fscm.punch import Ball, PunchShape, ScaledPunch
 
-__all__ = ["INTERACTIONS", "Body", "Derjaguin", "Interaction", "check_interaction", "interaction_of"]
+__all__ = ["INTERACTIONS", "Body", "Derjaguin", "Interaction", "WholePunch", "check_interaction", "interaction_of"]
 
 #: Names of the interactions.
 INTERACTIONS = ("derjaguin", "body")
@@ -77,6 +79,10 @@ class Interaction(Protocol):
 
     def energy(self, r: Array, H: Array) -> Array:
         """Integral of p from H to infinity at a fixed radius."""
+        ...
+
+    def remainder(self, r: Array, H: Array) -> Array | None:
+        """Estimate of the size of what p leaves out; None if nothing."""
         ...
 
     def opening(self, r: Array, H: Array) -> Array:
@@ -127,6 +133,10 @@ class Derjaguin:
     def energy(self, r: Array, H: Array) -> Array:
         """e(H)."""
         return self.law.energy(H)
+
+    def remainder(self, r: Array, H: Array) -> None:
+        """None."""
+        return
 
     def opening(self, r: Array, H: Array) -> Array:
         """Change of the gap."""
@@ -207,12 +217,16 @@ class Body:
         """Its radius in the unit of heights."""
         return self.ball_radius
 
+    def remainder(self, r: Array, H: Array) -> None:
+        """None: the potential is exact."""
+        return
+
     def opening(self, r: Array, H: Array) -> Array:
         """That of the gap, or of the place if it is less."""
         return opening_of(self.punch, r, H)
 
     def _distances(self, r: Array, H: Array) -> _Distances:
-        R, v = self.ball_radius, self.law.z0 + np.asarray(H, float)
+        R, v = self.ball_radius, np.asarray(H, float) - self.law.singular_gap
         x, c = self.aspect * np.asarray(r, float), R - self.punch.height(r)
         rise = np.asarray(r, float) * self.punch.slope(r)
         on_sphere = np.asarray(r) <= self.punch.reach
@@ -255,7 +269,7 @@ class Body:
 
     def peak_gap(self, r: Array) -> Array:
         """Gap on the sphere around the ball on which the tension is largest; outside of it the one at its height."""
-        return self._peak(r) - (self.ball_radius - self.punch.height(r)) - self.law.z0
+        return self._peak(r) - (self.ball_radius - self.punch.height(r)) + self.law.singular_gap
 
     def peak_drift(self, r: float) -> float:
         """Its derivative by the logarithm of the radius."""
@@ -339,6 +353,42 @@ def _far(t: Array, m: float, rate: bool = False) -> Array:
     return np.asarray(t * np.polynomial.polynomial.polyval(t * t, coefficients[1::2]))
 
 
+@dataclass(frozen=True, slots=True)
+class BodyUnderLaw(Body):
+    """The potential of a ball under any law, through the pair potential of that.
+
+    Parameters
+    ----------
+    punch : PunchShape
+        `Ball`, or one in other units of radii and heights.
+    law : SurfaceLaw
+
+    Examples
+    --------
+    >>> exact, at = Body(Ball(R=20.0), LennardJones()), (np.array(3.0), np.array(0.5))
+    >>> bool(abs(BodyUnderLaw(exact.punch, exact.law).traction(*at) - exact.traction(*at)) < 1e-14)
+    True
+    """
+
+    @property
+    def exponents(self) -> tuple[float, float]:
+        """Of the attraction of the law, for both of its terms."""
+        return self.law.decay[1], self.law.decay[1]
+
+    def traction(self, r: Array, H: Array) -> Array:
+        """p(r, H)."""
+        return ball_under_law(self.law, self._distances(r, H).d, np.array(self.ball_radius))[0]
+
+    def size(self, r: Array, H: Array) -> Array:
+        """That of both faces and their energies, which cancel."""
+        d, R = self._distances(r, H).d, self.ball_radius
+        p, e = self.law.traction(d + self.law.singular_gap), self.law.energy(d + self.law.singular_gap)
+        return np.asarray((R * np.abs(p) + np.abs(e)) / (R + d))
+
+    def _rate(self, at: _Distances) -> Array:
+        return ball_under_law(self.law, at.d, np.array(self.ball_radius))[1] / at.s
+
+
 @lru_cache(maxsize=64)
 def _peak_distance(body: Body) -> float:
     """Distance of the center of a ball at which the tension is largest."""
@@ -350,6 +400,10 @@ def _peak_distance(body: Body) -> float:
         return float(body._rate(at))
 
     return body.ball_radius + body.law.z0 * math.exp(scipy.optimize.brentq(rate, *_LOG_PEAK, xtol=1e-15))
+
+
+#: Interactions with the potential of a whole punch.
+WholePunch: TypeAlias = Body | BodyOfRevolution | CurvedFace
 
 
 def check_interaction(name: object) -> None:
@@ -371,8 +425,8 @@ def interaction_of(punch: PunchShape, law: SurfaceLaw, name: str) -> Interaction
     Raises
     ------
     ValueError
-        For an unknown name, and for "body" where it is not known: for a law that is no difference of two powers, and
-        for a punch that is less slender than a cone far away.
+        For an unknown name, and for "body" where it is not known: for a punch that is less slender than a cone far
+        away, and under a law from a table for a face with kinks, hollows or a sharp tip.
 
     Examples
     --------
@@ -385,14 +439,14 @@ def interaction_of(punch: PunchShape, law: SurfaceLaw, name: str) -> Interaction
     shape = punch.punch if isinstance(punch, ScaledPunch) else punch
     if isinstance(shape, Ball) and type(law) in (LennardJones, Mie):
         return Body(punch, law)  # type: ignore[arg-type]  # checked above
-    if type(law) not in (LennardJones, Mie):
-        raise ValueError(
-            f"interaction 'body' is known under LennardJones or Mie, whose powers are those of atoms, not under "
-            f"{type(law).__name__}: take 'derjaguin'"
-        )
+    if isinstance(shape, Ball):
+        return BodyUnderLaw(punch, law)  # type: ignore[arg-type]  # any law, see there
     if shape.growth < 1.0:
         raise ValueError(
             f"growth f ~ r^{shape.growth:g} of the punch is outside [1, inf): for interaction 'body' the punch has to "
             "be as slender as a cone far away; take 'derjaguin'"
         )
+    if type(law) not in (LennardJones, Mie):
+        check_face(punch, law)
+        return CurvedFace(punch, law)
     return BodyOfRevolution(punch, law)  # type: ignore[arg-type]  # checked above

@@ -37,7 +37,8 @@ class Parts(Mapping[str, float]):
     rounding : float
         Rounding, amplified by the condition of the event.
     law : float
-        Uncertainty of a smoothed law by its data (see `TabulatedLaw`).
+        Uncertainty of a smoothed law by its data (see `TabulatedLaw`).  Under the potential of a punch, other than a
+        ball, an estimate of what distance and curvature of its face leave out.
     kernel : float
         Response of a graded solid to a ring; zero for a power law, whose response is exact.
 

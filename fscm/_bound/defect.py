@@ -15,7 +15,7 @@ and they may bend between the nodes of any mesh: its error, and the surface ener
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -52,8 +52,8 @@ class Errors:
 
     Attributes
     ----------
-    mesh, tail, domain : ndarray
-        Signed, one entry for each source.
+    mesh, tail, domain, law : ndarray
+        Signed, one entry for each source.  That of the law is an estimate (`fscm._curved_face`).
     rounding, kernel : float
         Bounds.
     """
@@ -63,19 +63,21 @@ class Errors:
     domain: Array
     rounding: float
     kernel: float = 0.0
+    law: Array = field(default_factory=lambda: np.zeros(0))
 
     def plus(self, other: Errors, factor: float) -> Errors:
         """Contributions of self + factor * other; if their sources differ, the sizes add up."""
-        if self.mesh.shape != other.mesh.shape:
+        if self.mesh.shape != other.mesh.shape or self.law.shape != other.law.shape:
             size = abs(factor)
             signed = size * other.mesh, size * other.tail, size * other.domain
-            return self.beside(Errors(*signed, size * other.rounding, size * other.kernel))
+            return self.beside(Errors(*signed, size * other.rounding, size * other.kernel, size * other.law))
         return Errors(
             self.mesh + factor * other.mesh,
             self.tail + factor * other.tail,
             self.domain + factor * other.domain,
             self.rounding + abs(factor) * other.rounding,
             self.kernel + abs(factor) * other.kernel,
+            self.law + factor * other.law,
         )
 
     def beside(self, other: Errors) -> Errors:
@@ -86,6 +88,7 @@ class Errors:
             np.concatenate([self.domain, other.domain]),
             self.rounding + other.rounding,
             self.kernel + other.kernel,
+            np.concatenate([self.law, other.law]),
         )
 
 
@@ -161,7 +164,37 @@ class Defect:
         mesh[self._edge] += anchor * self._system.anchor
         tail, domain = self._behind(adjoint, border, functional, control)
         rounding = self._rounding(adjoint, border, functional, control) + abs(border * missed)
-        return Errors(mesh, tail, domain, rounding, self._kernel(adjoint, border, functional, control))
+        kernel = self._kernel(adjoint, border, functional, control)
+        return Errors(mesh, tail, domain, rounding, kernel, self._left_out(adjoint, border, functional, control))
+
+    def _left_out(self, adjoint: Array, border: float, functional: str, control: str) -> Array:
+        """Contributions of what the traction leaves out of the potential of the punch, by node and behind the mesh."""
+        if self._remainder is None:
+            return np.zeros(0)
+        tail = self.fine.tail
+        effect = border * self._by_pressure(control) - self._by_pressure(functional) - self._backwards(adjoint)
+        behind = border * self._explicit(control) - self._explicit(functional)
+        behind[1] -= float(np.sum(adjoint))
+        return np.append(effect * self._remainder, behind[:2] * [tail.load, tail.displacement])
+
+    @cached_property
+    def _remainder(self) -> Array | None:
+        f = self.fine
+        return f.disc.problem.force.remainder(f.radius, f.gap)
+
+    def _by_pressure(self, name: str) -> Array:
+        """Derivatives of a functional by the pressure at fixed unknowns."""
+        f = self.fine
+        if name == "load":
+            return self._area
+        if name == "central_gap":
+            return self._stiffness * f.disc.axis_response(f.scale)
+        if name == "energy":
+            # With that of the surface, whose energy is at most the pressure times the distance.
+            distance = np.minimum(f.gap - f.disc.problem.law.singular_gap, f.radius + 1.0)
+            elastic = 0.5 * (self._area * f.deformation + self._backwards(self._area * f.pressure))
+            return np.abs(elastic) + self._area * distance
+        return np.zeros_like(self._area)
 
     def _by_panel(self, values: Array) -> Array:
         return np.asarray(np.bincount(self._owner, values, minlength=self._panels), float)

@@ -82,6 +82,7 @@ def bounds(errors: Errors, amplified: float = 1.0) -> Parts:
     """Sums of the sizes of the contributions by cause, all multiplied by `amplified`."""
     mesh, tail, domain = (amplified * float(abs(signed).sum()) for signed in (errors.mesh, errors.tail, errors.domain))
     unsigned = {"rounding": amplified * errors.rounding, "kernel": amplified * errors.kernel}
+    unsigned["law"] = amplified * float(abs(errors.law).sum())
     return Parts(mesh / (1.0 - _LEFT), _SECOND_ORDER * tail, domain, **unsigned)
 
 
@@ -168,7 +169,7 @@ class EventErrors:
             mesh = np.append(mesh, self._moving(functional))
         # The error of the response varies over a radius as the response itself: per unit of the parameter, by its size.
         kernel = _KERNEL_RATE * change.kernel / (2.0 * self._unit)
-        return Errors(mesh, change.tail / step, change.domain / step, rounding, kernel)
+        return Errors(mesh, change.tail / step, change.domain / step, rounding, kernel, change.law / step)
 
     def _changes(self, functional: str) -> tuple[Errors, float]:
         """Change of the errors of a functional over a step of the parameter, and the length of the step."""

@@ -34,7 +34,7 @@ from fscm._surface.response import response_of
 from fscm._surface.state import State
 from fscm._typing import Array
 from fscm.errors import Failure, NotConverged
-from fscm.interaction import Body, BodyOfRevolution
+from fscm.interaction import WholePunch
 from fscm.problem import Problem
 
 __all__ = ["LeastLoad", "PathEnd", "depth", "displacement_of_compression"]
@@ -224,7 +224,7 @@ class LeastLoad:
         if C == 0.0:
             return 0.0
         T, F, force = self.radii[-1], self.heights[-1], self.problem.force
-        if isinstance(force, Body | BodyOfRevolution):
+        if isinstance(force, WholePunch):
             tension = -float(force.traction(self.radii[-1:], self.heights[-1:])[0])
             return _TAIL_MARGIN * tension * T**power / (force.falls_as(T) - power)
         return float(C * _TAIL_MARGIN**m * F**-m * T**power / (m * self.problem.punch.growth - power))

@@ -16,9 +16,9 @@ __all__ = ["STEEP", "Discretisation"]
 #: Growth of a punch above which its height is not linear in log c within a step, and so much larger than the
 #: deformation that their difference loses digits (see `_surface.state`).
 STEEP = 10.0
-#: The same under the potential of the whole punch, which acts at the level delta - w of the surface: with gaps linear in
-#: log c the surface far out moves by a part of the height.  Measured: of r^6 the path takes 25 points, not hundreds; up
-#: to a paraboloid gaps keep more digits (a ball at mu = 464: 1.6e-8 of the force, not 8e-6).
+#: The same under the potential of the whole punch, which acts at the level delta - w of the surface: with gaps linear
+#: in log c the surface far out moves by a part of the height.  Measured: of r^6 the path takes 25 points, not hundreds;
+#: up to a paraboloid gaps keep more digits (a ball at mu = 464: 1.6e-8 of the force, not 8e-6).
 _STEEP_AS_A_WHOLE = 2.0
 #: Bound on the heights of a steep punch: the tension there is negligible, 1e-180 for the 9-3 law.
 _HIGHEST = 1e60

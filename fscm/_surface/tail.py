@@ -77,7 +77,7 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
     displacement : float
         delta, in z0; w is neglected.
     """
-    if not isinstance(problem.force, Derjaguin):
+    if _is_whole(problem):
         body = TailOfBody(problem, T, displacement)
         return Tail(body.load[0], body.lift[0], body.load[1], body.lift[1], body.load[2], body.lift[2])
     C, m = problem.law.decay
@@ -101,6 +101,11 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
     else:
         w = tail(-problem.compliance * (1.0 - k) * strength * T, *_ring_integrals(problem, T))
     return Tail(load[0], w[0], load[1], w[1], load[2], w[2])
+
+
+def _is_whole(problem: Problem) -> bool:
+    """Whether the potential of the whole punch reaches beyond the mesh."""
+    return problem.law.decay[0] != 0.0 and not isinstance(problem.force, Derjaguin)
 
 
 def _ring_integrals(problem: Problem, T: float) -> tuple[float, float, float]:
@@ -153,7 +158,7 @@ def tail_errors(problem: Problem, T: float, displacement: float, energy: bool = 
     >>> bool(abs(computed[0]) < 1e-15), bool(remainder[0] < 1e-6 * abs(computed[0]))
     (True, True)
     """
-    if not isinstance(problem.force, Derjaguin):
+    if _is_whole(problem):
         return TailOfBody(problem, T, displacement).errors(energy)
     C, m = problem.law.decay
     if C == 0.0 or _height(problem, T) > _ZERO:
@@ -268,7 +273,7 @@ def tail_energy(problem: Problem, T: float, displacement: float) -> float:
     problem, T, displacement
         As for `tail_of`.
     """
-    if not isinstance(problem.force, Derjaguin):
+    if _is_whole(problem):
         return TailOfBody(problem, T, displacement).energy
     return _tail_energy(problem, T, displacement, 1)
 

@@ -15,7 +15,7 @@ import numpy as np
 from fscm._surface.response import response_of
 from fscm._surface.response.distant_ring import DistantRing
 from fscm._typing import Array
-from fscm.interaction import Body, BodyOfRevolution
+from fscm.interaction import WholePunch
 from fscm.problem import Problem
 
 __all__ = ["TailOfBody"]
@@ -52,10 +52,10 @@ class TailOfBody:
     cuts: int = 1
 
     @property
-    def force(self) -> Body | BodyOfRevolution:
+    def force(self) -> WholePunch:
         """The interaction."""
         force = self.problem.force
-        assert isinstance(force, Body | BodyOfRevolution)  # the caller asked
+        assert isinstance(force, WholePunch)  # the caller asked
         return force
 
     @cached_property

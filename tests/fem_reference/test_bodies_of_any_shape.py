@@ -18,7 +18,6 @@ from fem_reference import (
     PowerSum,
     Problem,
     RoundedCone,
-    TabulatedLaw,
     solve,
     solve_large_strain,
 )
@@ -171,59 +170,6 @@ def test_the_bound_has_the_error_of_the_potential(monkeypatch):
     rough = solve(problem, "pull_off_force", "quick")
     difference = abs(rough.value - exact.value)
     assert 10.0 * exact.u_num < difference <= rough.u_num + exact.u_num
-
-
-def table_of(law):
-    gap = law.z0 * (np.geomspace(0.75, 30.0, 80) - 1.0)
-    return TabulatedLaw(tuple(gap), tuple(law.traction(gap)), z0=law.z0, tail_exponent=3.0)
-
-
-def test_a_table_acts_at_the_normal_distance():
-    law = table_of(LennardJones(1.0, 1.0))
-    face = law.singular_gap
-    r, gap = np.array([0.0, 5.0, 9.0]), np.array([0.1, 0.3, 2.0])
-    cone = interaction_of(PowerPunch(1.0, 2.0), law, "body")
-    normal = (gap[1:] - face) / math.hypot(1.0, 0.5) + face
-    assert cone.traction(r, gap)[1:] == pytest.approx(law.traction(normal), rel=1e-12)
-    ball = interaction_of(Ball(20.0), law, "body")
-    height = ball.punch.height(r)
-    normal = np.hypot(r, 20.0 - height + gap - face) - 20.0 + face
-    assert ball.traction(r, gap) == pytest.approx(law.traction(normal), rel=1e-10)
-    # The wall beside a flat bottom is nearer than the bottom above the point.
-    step = CustomPunch(lambda x: 9.0 * np.maximum(x - 4.0, 0.0), 1.0, lambda x: 9.0 * (x >= 4.0), kinks=(4.0,))
-    outside = interaction_of(step, law, "body")
-    r, gap = np.array([4.05, 4.2]), np.array([2.0, 3.0]) + 9.0 * np.array([0.05, 0.2]) - 1.9
-    depth = gap - face
-    corner = np.hypot(r - 4.0, step.height(r) - depth)
-    along = depth / math.hypot(1.0, 9.0)
-    inside = (r - 4.0) + (step.height(r) - depth) * 9.0 <= 0.0
-    exact = np.where(inside, corner, along) + face
-    assert outside.traction(r, gap) == pytest.approx(law.traction(exact), rel=1e-9)
-
-
-def test_slopes_energy_and_peak_of_a_table_belong_to_the_traction():
-    force, step = interaction_of(RoundedCone(2.0, 2.0), table_of(LennardJones(1.0, 1.0)), "body"), 1e-5
-    r, gap = np.array([0.2, 3.0, 9.0]), np.array([0.3, 0.7, 5.0])
-    by_radius, by_gap = force.slopes(r, gap)
-    ends = [force.traction(r, gap + sign * step) for sign in (1.0, -1.0)]
-    assert by_gap == pytest.approx((ends[0] - ends[1]) / (2.0 * step), rel=1e-6)
-    ends = [force.traction(r + sign * step, gap) for sign in (1.0, -1.0)]
-    assert by_radius == pytest.approx((ends[0] - ends[1]) / (2.0 * step), rel=1e-5)
-    ends = [force.energy(r, gap + sign * 2e-4) for sign in (1.0, -1.0)]
-    assert force.traction(r, gap) == pytest.approx((ends[1] - ends[0]) / 4e-4, rel=1e-5)
-    assert force._distance(r, force.peak_gap(r))[0] == pytest.approx(np.full(3, force.law.peak_gap), rel=1e-10)
-
-
-@pytest.mark.heavy
-@pytest.mark.parametrize("shape", [PowerPunch(2.0, 1.0), PowerPunch(1.0, 2.0), Ball(1.0)])
-def test_a_contact_under_a_table(shape):
-    law = LennardJones(1e-3, 1e-2)
-    values = [
-        solve(pressed(shape, table_of(law), interaction=name), "pull_off_force") for name in ("body", "derjaguin")
-    ]
-    assert values[0].u_num < 1e-5 * values[0].value
-    # Counted for the true area, and without curvature, it is more than at vertical gaps.
-    assert 1.0 < values[0].value / values[1].value < 1.3
 
 
 def sphere_of(ball, law):

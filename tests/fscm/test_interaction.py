@@ -206,6 +206,6 @@ def test_what_has_no_potential_is_refused():
     class Steeper(LennardJones):
         pass
 
-    refused("Steeper", interaction_of, Ball(1.0), Steeper(), "body")
+    refused("Steeper", interaction_of, PowerPunch(1.0, 1.0), Steeper(), "body")
     refused("scheme of the paper", StieltjesScheme, Problem(2.0, 0.0, 1.0, punch=Ball(50.0), interaction="body"))
     refused("k = 1", Problem, 2.0, 1.0, 1.0, punch=Ball(50.0), interaction="body")

@@ -134,14 +134,5 @@ def test_over_a_stiff_solid_the_state_has_the_load_of_vertical_gaps():
     assert state.load == pytest.approx(2.0 * math.pi * 20.0 * energy, rel=1e-8)
 
 
-@pytest.mark.parametrize("package", [fscm])
-def test_what_is_not_known_is_refused(package):
-    solid, law = package.PowerLaw(1e6, 1.0, 0.0, 0.3), package.LennardJones(0.05, 1e-9)
-    sphere = package.PowerPunch(2.0, 1e-6)
-    gap = 1e-9 * (np.geomspace(0.8, 30.0, 60) - 1.0)
-    table = package.TabulatedLaw(gap, law.traction(gap), z0=1e-9)
-    refused("TabulatedLaw", package.Problem, solid, sphere, table, interaction="body")
-
-
 def test_the_aspect_has_to_be_known():
     refused("ratio of radii to heights", fscm.Problem, 2.0, 0.0, 1.0, interaction="body")
