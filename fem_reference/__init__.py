@@ -30,7 +30,8 @@ from typing import TYPE_CHECKING
 
 import lazy_loader
 
-from fem_reference import laws, profiles, punch, solids, tabulated_law
+from fem_reference import dlvo, laws, profiles, punch, solids, tabulated_law
+from fem_reference.dlvo import *
 from fem_reference.laws import *
 from fem_reference.profiles import *
 from fem_reference.punch import *
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
     from fem_reference._lazy import *
 
 __getattr__, _, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
-_STATED = (laws, profiles, punch, solids, tabulated_law)
+_STATED = (dlvo, laws, profiles, punch, solids, tabulated_law)
 __all__ += [name for module in _STATED for name in module.__all__]
 
 

@@ -17,6 +17,7 @@ from scipy.interpolate import BSpline, PPoly, make_interp_spline
 
 from fem_reference._law_between_points import denser_points
 from fem_reference._typing import Array, Index
+from fem_reference._wells import stable_gaps
 
 __all__ = ["TabulatedLaw"]
 
@@ -67,6 +68,8 @@ class _Power:
 @dataclass(frozen=True, slots=True, repr=False)
 class TabulatedLaw:
     """Surface law through points, whose gap without traction becomes H = 0.
+
+    Where barriers leave several such gaps, it is the one of the largest work of adhesion.
 
     Parameters
     ----------
@@ -127,9 +130,13 @@ class TabulatedLaw:
         # Gaps in lengths of the law and tractions of size 1: the equations of the spline are then well scaled.
         stress = float(np.max(np.abs(columns[1])))
         x, p = columns[0] / self.z0, columns[1] / stress
-        spline, wall, tail, zero, peak = _law(x, p, self.tail_exponent)
+        spline, wall, tail, peak = _law(x, p, self.tail_exponent)
         beyond = 0.0 if tail is None else float(tail.integral(x[-1:], np.array([math.inf]))[0])
-        work = -(float(spline.integrate(zero, x[-1])) + beyond) * stress * self.z0
+        works = {
+            gap: -(float(spline.integrate(gap, x[-1])) + beyond) * stress * self.z0 for gap in stable_gaps(spline, x)
+        }
+        zero = max(works, key=works.__getitem__)
+        work = works[zero]
         if not work > 0.0:
             raise ValueError(
                 f"the work of adhesion of the points is {work:g}, outside (0, infinity): they do not adhere"
@@ -226,31 +233,27 @@ def _columns(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, 
             f"the tractions go from {p[0]:g} to {p[-1]:g}: the first must be a compression (> 0), and the last a "
             "tension or zero"
         )
-    signs = np.sign(p[p != 0])
-    if np.count_nonzero(np.diff(signs)) != 1 or np.argmin(p) == p.size - 1:
+    if not p.min() < 0 or np.argmin(p) == p.size - 1:
         raise ValueError(
-            "the tractions do not change their sign once and then pass a largest tension: a law has one gap without "
-            "traction and one range of attraction"
+            f"the tractions do not pass a largest tension: the least, {p.min():g}, is the last or none at all"
         )
     return x, p
 
 
-def _law(x: Array, p: Array, exponent: float | None) -> tuple[PPoly, _Power, _Power | None, float, float]:
-    """Spline, wall and tail, gap without traction and gap of the largest tension."""
+def _law(x: Array, p: Array, exponent: float | None) -> tuple[PPoly, _Power, _Power | None, float]:
+    """Spline, wall and tail, and gap of the largest tension."""
     if len(x) < SPARSE:
         with suppress(ValueError):
             return _through(*denser_points(x, p), exponent, _turns(p))
     return _through(x, p, exponent, _turns(p))
 
 
-def _through(
-    x: Array, p: Array, exponent: float | None, turns: int
-) -> tuple[PPoly, _Power, _Power | None, float, float]:
+def _through(x: Array, p: Array, exponent: float | None, turns: int) -> tuple[PPoly, _Power, _Power | None, float]:
     free = make_interp_spline(x, p, k=5)
     wall = _wall_of(x[0], p[0], float(free(x[0], 1)), float(free(x[0], 2)))
     tail = _tail_of(x, p, wall.origin, exponent)
     spline = _joined_spline(x, p, wall, tail)
-    return spline, wall, tail, *_shape(spline, x, turns)
+    return spline, wall, tail, _largest_tension(spline, x, turns)
 
 
 def _turns(p: Array) -> int:
@@ -308,8 +311,8 @@ def _joined_spline(x: Array, p: Array, wall: _Power, tail: _Power | None) -> PPo
     return PPoly.from_spline(spline)
 
 
-def _shape(spline: PPoly, x: Array, turns: int) -> tuple[float, float]:
-    """Gap without traction and gap of the largest tension; the spline must turn as often as the points."""
+def _largest_tension(spline: PPoly, x: Array, turns: int) -> float:
+    """Gap of the largest tension; the spline must turn as often as the points."""
     roots = spline.derivative().roots(discontinuity=False, extrapolate=False)
     inside = [r for r in roots if x[0] < r < x[-1] - END_SHARE * (x[-1] - x[-2])]
     if len(inside) != turns:
@@ -317,6 +320,4 @@ def _shape(spline: PPoly, x: Array, turns: int) -> tuple[float, float]:
             f"the spline through the points turns {len(inside)} times and the points {turns} times: they are too far "
             "apart or too noisy; add points or smooth them"
         )
-    peak = min(inside, key=lambda r: float(spline(r)))
-    zero = next(r for r in spline.roots(extrapolate=False) if x[0] < r < peak)
-    return float(zero), float(peak)
+    return float(min(inside, key=lambda r: float(spline(r))))

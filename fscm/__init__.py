@@ -30,6 +30,7 @@ import lazy_loader
 from fscm import (
     custom_punch,
     custom_solid,
+    dlvo,
     laws,
     layers,
     measured_punch,
@@ -40,6 +41,7 @@ from fscm import (
 )
 from fscm.custom_punch import *
 from fscm.custom_solid import *
+from fscm.dlvo import *
 from fscm.laws import *
 from fscm.layers import *
 from fscm.measured_punch import *
@@ -52,7 +54,18 @@ if TYPE_CHECKING:
     from fscm._lazy import *
 
 __getattr__, _, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
-_STATED = (custom_punch, custom_solid, laws, layers, measured_punch, punch, solids, tabulated_law, tabulated_modulus)
+_STATED = (
+    custom_punch,
+    custom_solid,
+    dlvo,
+    laws,
+    layers,
+    measured_punch,
+    punch,
+    solids,
+    tabulated_law,
+    tabulated_modulus,
+)
 __all__ += [name for module in _STATED for name in module.__all__]
 
 

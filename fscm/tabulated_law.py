@@ -51,6 +51,7 @@ class _Curve(NamedTuple):
 class TabulatedLaw:
     """Surface law through data points, whose gap without traction becomes H = 0.
 
+    Of several such gaps, as with a barrier in a liquid, it is the one from which separation takes the most energy.
     Immutable, hashable, picklable.
 
     Parameters
@@ -58,8 +59,8 @@ class TabulatedLaw:
     gaps : sequence of float, shape (N,), N >= 10
         Gaps from any origin, increasing; from the repulsive wall far into the tail.
     tractions : sequence of float, shape (N,)
-        Tractions, compression positive.  First > 0, one change of sign, a largest tension before
-        the last point; last < 0, or = 0 for a law of finite range.
+        Tractions, compression positive.  First > 0, then one change of sign, or three and more with barriers between
+        the wells; a largest tension before the last point; last < 0, or = 0 for a law of finite range.
     z0 : float
         Range of the law in the unit of the gaps, > 0.  It is the user's choice and affects the Tabor number, but no
         result in physical units; 1 in a dimensionless problem.
@@ -117,8 +118,7 @@ class TabulatedLaw:
         reason = "it is the relative error of the tractions"
         error = real_number("smoothing", self.smoothing, low=0.0, high=0.1, reason=reason, closed_low=True)
         spline, wall, tail, peak = _curve(gap, p, m, error)
-        equilibrium = next(float(x) for x in spline.roots(extrapolate=False) if spline.x[0] < x < peak)
-        adhesion = float(_tail_derivative(spline.x[-1], tail, -1) - spline.integrate(equilibrium, spline.x[-1]))
+        equilibrium, adhesion = _deepest_well(spline, tail)
         if not adhesion > 0.0:
             raise ValueError(f"the work of adhesion of the data is {adhesion:g}, outside (0, inf): no net attraction")
         normalised = scipy.interpolate.PPoly(spline.c / adhesion, spline.x - equilibrium)
@@ -313,10 +313,17 @@ def _checked_points(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[
             f"the smallest traction {p[least]:g} is at the end of the data or not a tension: "
             "a law without a minimum does not hold two surfaces together"
         )
-    crossings = int(np.sum(np.diff(np.sign(p[p != 0.0])) != 0))
-    if crossings != 1:
-        raise ValueError(f"the traction changes sign {crossings} times: a surface law has one equilibrium gap")
     return gap, p
+
+
+def _deepest_well(spline: scipy.interpolate.PPoly, tail: tuple[float, float, float]) -> tuple[float, float]:
+    """Of the gaps where repulsion turns into tension: that of the largest work of adhesion, and this work."""
+    end, slope = spline.x[-1], spline.derivative()
+    beyond = float(_tail_derivative(end, tail, -1))
+    inside = [float(x) for x in spline.roots(discontinuity=False, extrapolate=False) if spline.x[0] < x < end]
+    works = {x: beyond - float(spline.integrate(x, end)) for x in inside if slope(x) < 0.0}
+    deepest = max(works, key=works.__getitem__)
+    return deepest, works[deepest]
 
 
 def _fitted_wall(gap: float, p: float, slope: float, curvature: float) -> tuple[float, float, float]:

@@ -53,7 +53,7 @@ ALLOWED = {
 LAYERS = {
     "fscm": (
         ("errors", "_typing", "_threads", "_validation", "_presentation", "_response_factor", "_law_curve"),
-        ("laws", "tabulated_law", "punch", "custom_punch", "measured_punch"),
+        ("laws", "tabulated_law", "dlvo", "wells", "punch", "custom_punch", "measured_punch"),
         ("_chebyshev_tree", "_potential", "_potential_table"),
         ("_ball_under_law", "_body_of_revolution", "_curved_face", "interaction"),
         ("solids", "layers", "tabulated_modulus", "custom_solid"),
@@ -72,7 +72,7 @@ LAYERS = {
     "fem_reference": (
         ("_typing", "_threads", "_validation", "_presentation", "errors", "_law_between_points"),
         ("modulus", "poisson", "depth_profiles", "modulus_checks", "solids", "neo_hookean"),
-        ("punch", "profiles", "laws", "tabulated_law"),
+        ("punch", "profiles", "laws", "_wells", "tabulated_law", "dlvo"),
         ("_azimuth", "_face", "_vertical_line", "_ball_under_law", "_curved_face", "_body_of_revolution"),
         ("interaction", "problem", "accuracy"),
         ("_elastic",),

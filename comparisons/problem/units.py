@@ -25,6 +25,8 @@ _PREFIXES = tuple(zip(range(9, -24, -3), ("G", "M", "k", "", "m", "µ", "n", "p"
 #: Largest value in SI of a length, a modulus, a pressure or an energy per area, and the inverse of the smallest: none
 #: of a contact is near them (z0 > 1e-11 m, E < 1e13 Pa), and cubes of their products stay in the range of a double.
 LARGEST_SIZE = 1e20
+#: Smallest value of another unit than those: Hamaker constants are near 1e-20 J.
+_SMALLEST = {"J": 1e-30}
 
 #: Relative error of a few multiplications, and decimals of an exponent, of which a unit has fewer.
 _ROUNDING, _DIGITS = 1e-14, 12
@@ -113,8 +115,9 @@ def in_si(value: object, target: str, power: float = 1.0) -> float:
         raise NotAValue("is not a number")
     if not math.isfinite(scaled):
         raise NotAValue("is not a finite number")
-    if target and power == 1.0 and scaled and not 1.0 / LARGEST_SIZE <= abs(scaled) <= LARGEST_SIZE:
-        raise NotAValue(f"has a size outside {1.0 / LARGEST_SIZE:g} to {LARGEST_SIZE:g} {target}")
+    smallest = _SMALLEST.get(target, 1.0 / LARGEST_SIZE)
+    if target and power == 1.0 and scaled and not smallest <= abs(scaled) <= LARGEST_SIZE:
+        raise NotAValue(f"has a size outside {smallest:g} to {LARGEST_SIZE:g} {target}")
     return scaled
 
 

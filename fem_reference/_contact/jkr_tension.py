@@ -17,6 +17,7 @@ from scipy import linalg
 from fem_reference._contact.contact import Contact
 from fem_reference._elastic.trace import Trace
 from fem_reference._typing import Array
+from fem_reference._wells import work_of_tension
 
 __all__ = ["jkr_curve", "last_turn"]
 
@@ -41,7 +42,8 @@ def jkr_curve(contact: Contact, size: float) -> tuple[Array, Array, Array]:
     a = size * trace.nodes[1:]
     change = np.diff(K, axis=1) / np.diff(a)
     middle, K = 0.5 * (a[1:] + a[:-1]), 0.5 * (K[:, 1:] + K[:, :-1])
-    work = contact.law.work_of_adhesion
+    # A barrier is passed before: the repulsion that it returns on separation is left out.
+    work = work_of_tension(contact.law)
     delta = change[1] / change[0] - np.sqrt(4.0 * math.pi * middle * work / change[0])
     beyond = middle > size
     return middle[beyond], (K[0] * delta - K[1])[beyond], delta[beyond]

@@ -23,6 +23,7 @@ from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import CentralGap, Control, EdgeGap, EdgeRadius, GapRise, Size
 from fem_reference._contact.states import Branch, Point, continuation
 from fem_reference._elastic.compliance import FixedCompliance
+from fem_reference._wells import outermost_turn
 from fem_reference.errors import Failure, NotConverged
 from fem_reference.punch import kinks_of, radius_at_height
 
@@ -31,6 +32,9 @@ __all__ = ["BESIDE", "EDGE_RISE", "beginning", "equilibrium_points", "traced"]
 #: Central gap where a path begins, in lengths of the law: the tension there is 1e-3 of its peak, Newton starts from no
 #: load. A very soft solid has no equilibrium there that Newton reaches (measured: from a Tabor number of 2e4 on).
 FARTHEST_GAP = 12.0
+
+#: A law with a barrier has another well beyond: a path begins farther out by this multiple of its distance.
+BEYOND_WELLS = 3.0
 
 #: Ratio of one central gap to the next at which a path is begun, and the largest of them in lengths of the law: a few
 #: Tabor numbers are enough, and those of 1e5 have edges that no mesh resolves.
@@ -64,9 +68,10 @@ def approach_branch(contact: Contact) -> Iterator[Point]:
 
 def _farthest(branch: Branch, size: float) -> Point:
     """The first state of a path: where the solid is hardly displaced."""
-    start = FARTHEST_GAP
+    law = branch.contact.law
+    start = FARTHEST_GAP + BEYOND_WELLS * (outermost_turn(law) - law.peak_gap) / law.z0
     while True:
-        gap = start * branch.contact.law.z0
+        gap = start * law.z0
         y = np.zeros(branch.contact.unknowns + 2)
         y[-2:] = -gap, size
         try:

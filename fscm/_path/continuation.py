@@ -34,6 +34,7 @@ from fscm._surface.state import Control, Rates, State, rigid_state
 from fscm.accuracy import Meshes
 from fscm.errors import Failure, NotConverged
 from fscm.problem import Problem
+from fscm.wells import has_one_well, outermost_turn
 
 __all__ = ["equilibrium_path", "moved", "usual_start"]
 
@@ -56,6 +57,8 @@ _GIVEN_SHARE = 0.05
 _HAND_OVER = 0.05
 #: A path whose central gap exceeds that of its first state by this much runs backwards.
 _RETURNED = 1.0
+#: Multiple of the gap of the outermost turn of a law at which its path begins: the tension is a small share there.
+_BEYOND_WELLS = 3.0
 #: Largest number of successive changes of the parameter without a step between them.
 _MOST_TURNS = 6
 
@@ -80,8 +83,12 @@ def _far_state(problem: Problem, central_gap: float, order: int, tolerance: floa
 
 
 def usual_start(problem: Problem) -> float:
-    """A central gap beyond the far branch at jump-out: JKR's C_out mu is at most sqrt(2 pi) mu (Eq. 55)."""
-    return 3.0 + 3.0 * largest_mu(problem)
+    """A central gap beyond the far branch at jump-out: JKR's C_out mu is at most sqrt(2 pi) mu (Eq. 55).
+
+    Under a law with several wells it is beyond the outermost of them, too.
+    """
+    outermost = 0.0 if has_one_well(problem.law) else _BEYOND_WELLS * outermost_turn(problem.law)
+    return 3.0 + 3.0 * largest_mu(problem) + outermost
 
 
 class _Tracer:

@@ -9,9 +9,10 @@ P_2 ~ (w E_a a^3)^(1/2), so that (P_1/P_2)^2 grows like g(a) = E_a a f'(a)^2.  O
 that bends, can tension return.  The path ends where g does not decrease again by more than the square of P_1/P_2.  That
 ratio follows from the load and the tension of the state: JKR's edge carries the share (P_2/P_1)^(1/2) of P_2.
 
-Any other punch may have asperities.  Then the load of every state of displacement delta has a lower bound.  Let q be
-the pressure of a flat punch of radius a for a unit indentation.  The surface moves by 1 below the flat punch and by
-phi < 1 outside.  With the reciprocity of q and p, H > s (the singular gap) and Eq. 4,
+Any other punch may have asperities, and a law several wells: in a liquid a contact in the outer well is compressed
+until its barrier is passed, and carries tension again.  Then the load of every state of displacement delta has a lower
+bound.  Let q be the pressure of a flat punch of radius a for a unit indentation.  The surface moves by 1 below the flat
+punch and by phi < 1 outside.  With the reciprocity of q and p, H > s (the singular gap) and Eq. 4,
 
     P >= C_a (delta + s - <f>) - int_a^oo t(f - delta - W) (1 - phi) 2 r dr       for every a.
 
@@ -34,8 +35,9 @@ from fscm._surface.response import response_of
 from fscm._surface.state import State
 from fscm._typing import Array
 from fscm.errors import Failure, NotConverged
-from fscm.interaction import WholePunch
+from fscm.interaction import Derjaguin, WholePunch
 from fscm.problem import Problem
+from fscm.wells import has_one_well, tension_beyond
 
 __all__ = ["LeastLoad", "PathEnd", "depth", "displacement_of_compression"]
 
@@ -155,11 +157,17 @@ def displacement_of_compression(problem: Problem, end: float) -> float:
     float
         Infinite if the bound is not positive at the largest displacement examined.
     """
-    if not _has_asperities(problem, end):
+    if not _has_asperities(problem, end) and has_one_well(problem.law):
         return -math.inf
     if problem.graded is not None:
         raise NotConverged(
-            f"the punch of {problem} has asperities: the end of its path is known for a power-law modulus only",
+            f"the punch of {problem} has asperities, or its law a barrier: the end of its path is known for a "
+            "power-law modulus only",
+            Failure.END,
+        )
+    if not (has_one_well(problem.law) or isinstance(problem.force, Derjaguin)):
+        raise NotConverged(
+            f"the law of {problem} has a barrier: the end of its path is known for the interaction 'derjaguin' only",
             Failure.END,
         )
     bound = LeastLoad(problem, end)
@@ -215,6 +223,8 @@ class LeastLoad:
         return self.problem.compliance * (inside + (1.0 - k) * self._tail(1.0 - k))
 
     def _tension(self, heights: Array, approach: float) -> Array:
+        if isinstance(self.problem.force, Derjaguin):
+            return tension_beyond(self.problem.law, heights - approach)
         gap = np.maximum(heights - approach, self._peaks)
         return np.asarray(-self.problem.force.traction(self.radii, gap))
 

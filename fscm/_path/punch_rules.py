@@ -1,7 +1,8 @@
-"""What the continuation of a path relies on, by the punch.
+"""What the continuation of a path relies on, by the punch and the law.
 
-The path of a power-law punch turns at its folds alone.  That of any other punch may turn sharply where asperities come
-into contact, and pass close to other branches.  With kinks, the mesh moves when the scale does.
+The path of a power-law punch under a law with one well turns at its folds alone.  That of any other punch may turn
+sharply where asperities come into contact, and pass close to other branches; so may the path of a law with several
+wells, whose barriers are passed one after the other.  With kinks, the mesh moves when the scale does.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from fscm._typing import Array
 from fscm.errors import Failure, NotConverged
 from fscm.problem import Problem
 from fscm.punch import PowerPunch, kinks_of
+from fscm.wells import has_one_well
 
 __all__ = ["AnyPunch", "Tracking", "rules_of"]
 
@@ -79,7 +81,7 @@ _FIXED, _CAREFUL = Tracking(follow=False), Tracking(False, 0.1 * _LARGEST_DEVIAT
 
 
 class AnyPunch:
-    """Rules for a punch without kinks that may have asperities.
+    """Rules for a punch without kinks that may have asperities, or a law that may have barriers.
 
     Attributes
     ----------
@@ -139,7 +141,7 @@ class AnyPunch:
 
 
 class _PowerLaw(AnyPunch):
-    """Rules for a power-law punch."""
+    """Rules for a power-law punch under a law with one well."""
 
     may_hide_folds = False
     unchecked_step = _UNCHECKED_STEP
@@ -178,8 +180,8 @@ class _Kinked(AnyPunch):
 
 
 def rules_of(problem: Problem) -> AnyPunch:
-    """The rules for the punch of a problem."""
-    if isinstance(problem.punch, PowerPunch):
+    """The rules for the punch and the law of a problem."""
+    if isinstance(problem.punch, PowerPunch) and has_one_well(problem.law):
         return _PowerLaw()
     return _Kinked() if kinks_of(problem.punch) else AnyPunch()
 

@@ -17,6 +17,7 @@ from fscm._surface.state import State
 from fscm.accuracy import Mesh, Meshes
 from fscm.errors import Failure, NotConverged, RingsForm
 from fscm.problem import Problem
+from fscm.wells import has_one_well
 
 __all__ = ["MAX_POINTS", "bracketing_path", "path_by_any_mesh", "path_end", "path_until"]
 
@@ -25,6 +26,9 @@ __all__ = ["MAX_POINTS", "bracketing_path", "path_by_any_mesh", "path_end", "pat
 MAX_POINTS = 1500
 #: Mesh for a path that fails on the coarser one.  Measured: 4 of 700 problems, all with k > 0.78 and mu > 2.
 _FINER = Mesh(10, 1e-4)
+#: Heights of the punch up to which the end of a path is looked for where a barrier has to be passed, in those of the
+#: mesh: on a soft solid the pressure of a barrier is that of a deep contact.
+_OVER_BARRIERS = 1e3
 
 
 def path_until(
@@ -137,7 +141,8 @@ def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
 
 def path_end(problem: Problem, end_height: float) -> PathEnd:
     """Condition that ends one path, beyond which no state carries tension; it stores the largest delta."""
-    displacement = displacement_of_compression(problem, end_radius(problem, end_height))
+    examined = end_height if has_one_well(problem.law) else _OVER_BARRIERS * end_height
+    displacement = displacement_of_compression(problem, end_radius(problem, examined))
     if displacement == math.inf:
         raise NotConverged(
             f"of the path of {problem} it cannot be told where its last tension is: "

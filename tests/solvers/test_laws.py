@@ -177,7 +177,7 @@ def test_impossible_laws_are_refused_in_one_sentence(package):
         (changed(GAPS, 3, 0.1), TRACTIONS, "row 3"),
         (GAPS, -TRACTIONS, "first"),
         (GAPS, np.abs(TRACTIONS), "last"),
-        (GAPS, changed(TRACTIONS, 30, 0.1), "sign"),
+        (GAPS, changed(TRACTIONS, 30, 0.1), "turns"),
         (RISING, RISING**-9 - RISING**-3, "smallest|largest"),
         (GAPS, changed(TRACTIONS, 20, -0.2), "turns"),
         (GAPS, TRACTIONS + WAVES, "turns|tail"),
