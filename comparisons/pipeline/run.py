@@ -173,7 +173,7 @@ def _fresh(count: int, seed: int | None, inputs: RunInputs) -> FreshCases | None
 def named_verdicts(
     cases: str | Path, gates: Path, models: Sequence[str], folder: Path, jobs: int = 1
 ) -> list[tuple[str, str, str]]:
-    """Run and judge; return name and verdict of each row, and its reason, its numbers and the command that repeats it.
+    """Run and judge; return name, verdict and text of each gate in each case, and of each check of a report card.
 
     Several processes may call it with one folder: the first computes, the others take its results.
 
@@ -187,10 +187,9 @@ def named_verdicts(
     assert judgement is not None
     if judgement.verdicts.empty:
         raise ValueError(f"{gates}: no gate was evaluated: no candidate of a gate is given")
-    return [
-        (_name(row), str(row["verdict"]), _text(row, judgement.inputs.specs))
-        for _, row in judgement.verdicts.iterrows()
-    ]
+    specs = judgement.inputs.specs
+    of_gates = [(_name(row), str(row["verdict"]), _text(row, specs)) for _, row in judgement.verdicts.iterrows()]
+    return of_gates + [(f"{check.line}[{check.model}]", str(check.verdict), check.reason) for check in judgement.checks]
 
 
 def _name(row: pd.Series) -> str:

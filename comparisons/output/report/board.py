@@ -154,6 +154,7 @@ def _submissions(entries: Sequence[BoardEntry]) -> Table:
         if submission := entry.submission:
             row |= asdict(submission) | {"model": submission.name, "authors": ", ".join(submission.authors)}
         if entry.judged and submission:
-            row |= {"status": str(overall(entry.judged.stored.verdicts)), "folder": submission.folder}
+            stored = entry.judged.stored
+            row |= {"status": str(overall(stored.verdicts, stored.checks)), "folder": submission.folder}
         rows.append(row)
     return laid_out("submissions", pd.DataFrame(rows))

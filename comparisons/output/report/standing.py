@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import pandas as pd
 
 from comparisons.judging.decision import roll_up
-from comparisons.judging.report_card import without_card_gates
 from comparisons.output.report.stored_run import Stored
 from comparisons.runs.rows import Key
 
@@ -32,10 +31,12 @@ def standing(entry: Entry) -> pd.DataFrame:
     """Return the summary of errors of a run (`comparisons.output.errors`) with the verdicts."""
     summary = entry.stored.error_summary(entry.planned)
     pairs = zip(summary["model"], summary["quantity"], strict=True)
-    return summary.assign(verdict=[_verdict(entry.stored.verdicts, *pair) for pair in pairs])
+    return summary.assign(verdict=[_verdict(entry.stored, *pair) for pair in pairs])
 
 
-def _verdict(verdicts: pd.DataFrame, model: str, quantity: str) -> str:
-    """Return the worst verdict on a model about a quantity; one without a quantity is on the model as a whole."""
-    on_model = verdicts[(verdicts["candidate"] == model) & verdicts["quantity"].isin([quantity, ""])]
-    return "" if without_card_gates(on_model).empty else str(roll_up(on_model["verdict"]))
+def _verdict(stored: Stored, model: str, quantity: str) -> str:
+    """Return the worst verdict on a model about a quantity; that of its report card is on the model as a whole."""
+    verdicts = stored.verdicts
+    on_model = verdicts[(verdicts["candidate"] == model) & (verdicts["quantity"] == quantity)]
+    of_card = [check.verdict for check in stored.checks if check.model == model]
+    return "" if on_model.empty else str(roll_up([*on_model["verdict"], *of_card]))
