@@ -12,7 +12,7 @@ import pandas as pd
 from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import note
-from comparisons.external.hidden_folders import hidden_from_models
+from comparisons.external.inherited import hidden_from_models
 from comparisons.judging.fresh_cases import FreshCases, draw
 from comparisons.numerics.number_text import exact
 from comparisons.output.junit import numbers_text
