@@ -98,8 +98,7 @@ def overall(verdicts: pd.DataFrame, checks: Iterable[ModelCheck]) -> Verdict:
     >>> str(overall(gates, [])), str(overall(gates, [again])), str(overall(gates[1:], [again]))
     ('PASS', 'FAIL', 'ERROR')
     """
-    of_gates = roll_up(verdicts["verdict"])
-    return of_gates if of_gates is Verdict.ERROR else roll_up([of_gates, *(check.verdict for check in checks)])
+    return roll_up([roll_up(verdicts["verdict"]), *(check.verdict for check in checks)])
 
 
 def card_lines(

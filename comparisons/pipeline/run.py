@@ -19,6 +19,7 @@ from comparisons.output.junit import numbers_text
 from comparisons.output.verdicts import command
 from comparisons.pipeline.finished_run import FinishedRun, kept_texts, write_run
 from comparisons.pipeline.inputs import Cases, RunInputs, load_cases, read_gates
+from comparisons.pipeline.judgement import Judgement
 from comparisons.problem import PARAMETERS
 from comparisons.registry import identify
 from comparisons.runs.atomic_files import prepare_folder
@@ -187,6 +188,10 @@ def named_verdicts(
     assert judgement is not None
     if judgement.verdicts.empty:
         raise ValueError(f"{gates}: no gate was evaluated: no candidate of a gate is given")
+    return _named(judgement)
+
+
+def _named(judgement: Judgement) -> list[tuple[str, str, str]]:
     specs = judgement.inputs.specs
     of_gates = [(_name(row), str(row["verdict"]), _text(row, specs)) for _, row in judgement.verdicts.iterrows()]
     return of_gates + [(f"{check.line}[{check.model}]", str(check.verdict), check.reason) for check in judgement.checks]
