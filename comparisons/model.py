@@ -48,18 +48,22 @@ class ComputationFailed(Exception):
     """
 
 
+class NotTaken(NotApplicable):
+    """The model does not take the quantity of the problem, as its `skip` states, whatever its events are."""
+
+
 def refuse(reason: str | None) -> None:
-    """Raise `NotApplicable` with the reason that `skip` of a model returns; nothing if there is none.
+    """Raise `NotTaken` with the reason that `skip` of a model returns; nothing if there is none.
 
     Examples
     --------
     >>> refuse(None)
     >>> refuse("JKR has no jump into contact")
     Traceback (most recent call last):
-    comparisons.model.NotApplicable: JKR has no jump into contact
+    comparisons.model.NotTaken: JKR has no jump into contact
     """
     if reason is not None:
-        raise NotApplicable(reason)
+        raise NotTaken(reason)
 
 
 @contextmanager

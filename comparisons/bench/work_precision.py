@@ -18,7 +18,7 @@ import fscm
 from comparisons.bench.part import Numbers, Part
 from comparisons.models.fem_model import FiniteElements
 from comparisons.output.style import COLOURS, MARKERS, new_figure, styled
-from comparisons.paper.drawing import held, of_model, panels
+from comparisons.paper.drawing import case, of_model, panels
 from comparisons.problem import Problem
 from fscm.stieltjes import StieltjesScheme, find_event
 
@@ -157,7 +157,7 @@ def draw(rows: pd.DataFrame) -> Figure:
     tabor_numbers = rows["mu"].unique()
     with styled():
         figure = new_figure(3.4 * len(tabor_numbers), 3.2)
-        words = [held(mu=mu) for mu in tabor_numbers]
+        words = [case(mu=mu) for mu in tabor_numbers]
         lattice = panels(figure, words, "CPU time (s)", "relative error of the pull-off force")
         for axes, mu in zip(lattice, tabor_numbers, strict=True):
             models = list(_SETTINGS)

@@ -17,10 +17,9 @@ from typing import IO, Any
 
 from comparisons.data.folder_entries import TooMany, entries_below
 from comparisons.external import cleaner
-from comparisons.external.hidden_folders import hidden_folders
+from comparisons.external.inherited import hidden_folders, seconds_left
 from comparisons.external.start import MEMORY_LIMIT, TIME_LIMIT, limit_of_environment
 from comparisons.external.text_rules import one_line
-from comparisons.external.total_time import seconds_left
 from comparisons.model import ComputationFailed
 
 #: Seconds in which a fresh interpreter must have imported the worker, before any code of a model; 0.5 are usual.

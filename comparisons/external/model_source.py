@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.external.data_model import MANIFEST, DataModel
-from comparisons.external.hidden_folders import hidden_folders
+from comparisons.external.inherited import hidden_folders
 from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import one_line
 

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from comparisons.domain import Domain
 from comparisons.external.child import Child, Overdue, TimeIsOver
-from comparisons.external.hidden_folders import hidden_folders, is_inside
+from comparisons.external.inherited import hidden_folders, is_inside
 from comparisons.external.replies import Malformed, curve_of, described, result_of
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result

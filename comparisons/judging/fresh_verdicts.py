@@ -8,8 +8,7 @@ import pandas as pd
 
 from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import RANDOM
-from comparisons.judging.judge import verdict_table
-from comparisons.judging.report_card import verdict_on_model
+from comparisons.judging.judge import Judged, verdict_table
 
 #: The errors in fresh cases may be so many times the errors in the standing cases.  Those of a formula differ little
 #: between two samples of one range: measured at most 0.93 times, md-original in 150 fresh cases.
@@ -28,7 +27,7 @@ def judge_undrawn(undrawn: Iterable[Mapping[str, str]]) -> pd.DataFrame:
     """
     entries = pd.DataFrame(undrawn, columns=["gate", "candidate", "quantity", "reason"])
     return verdict_table(
-        verdict_on_model(f"{gate}{RANDOM}", candidate, Verdict.INCONCLUSIVE, reason, quantity=quantity)
+        _on_gate(f"{gate}{RANDOM}", candidate, quantity, Verdict.INCONCLUSIVE, reason)
         for gate, candidate, quantity, reason in entries.itertuples(index=False, name=None)
     )
 
@@ -46,8 +45,12 @@ def compare_with_standing(verdicts: pd.DataFrame, fresh: pd.DataFrame) -> pd.Dat
         is_standing = (verdicts["gate"] == id.removesuffix(RANDOM)) & (verdicts["candidate"] == candidate)
         if reason := _difference(verdicts[is_standing], rows):
             quantity = str(rows["quantity"].iloc[0])
-            failures.append(verdict_on_model(id, candidate, Verdict.FAIL, reason, quantity=quantity))
+            failures.append(_on_gate(id, candidate, quantity, Verdict.FAIL, reason))
     return verdict_table(failures)
+
+
+def _on_gate(gate: str, candidate: str, quantity: str, verdict: Verdict, reason: str) -> Judged:
+    return Judged(gate, quantity, candidate, candidate, verdict=verdict, reason=reason)
 
 
 def _difference(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 
 import pandas as pd
 
@@ -105,6 +105,15 @@ def judge(
 def verdict_table(judged: Iterable[Judged]) -> pd.DataFrame:
     """Return verdicts as a table with the fields of `Judged`; `problem` where a case is of a file."""
     return without_empty_problem(pd.DataFrame([asdict(row) for row in judged], columns=list(Judged.__slots__)))
+
+
+def every_verdict(tables: Iterable[pd.DataFrame]) -> pd.DataFrame:
+    """Return tables of verdicts as one; its columns of numbers have the type of numbers whatever is missing in them."""
+    joined = pd.concat([table.astype(object) for table in tables], ignore_index=True)
+    if "problem" in joined:
+        joined["problem"] = joined["problem"].fillna("")
+    numbers = [field.name for field in fields(Judged) if "float" in str(field.type)]
+    return joined.assign(**{name: pd.to_numeric(joined[name]).astype(float) for name in numbers})
 
 
 def _judge_gate(results: GateResults, cases: Sequence[Problem], taken: HasSkip | None) -> Iterator[Judged]:

@@ -17,6 +17,8 @@ zone, away from the contact edge, for a large n.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from comparisons.model import Curve, Result, refuse
@@ -28,7 +30,7 @@ from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.problem import Problem
-from comparisons.quantities import ALL_QUANTITIES, Kind
+from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, Kind
 
 #: The curve starts at a = 0 and then at this fraction of its largest contact radius.
 _FIRST_RADIUS = 1e-4
@@ -55,11 +57,10 @@ class CohesiveModel(ContactBranch):
             return None
         return f"{self.name} has no cohesive zone at k = {problem.k:g} and mu = {problem.mu:g}: its edge is JKR's"
 
-    def evaluate(self, problem: Problem, quantity: str) -> Result:
-        """Return the quantity for the problem, or raise as `ClosedForm.evaluate`."""
-        if hasattr(self, quantity) and self._is_jkr(problem):
-            return JKR().evaluate(problem, quantity)
-        return super().evaluate(problem, quantity)
+    def _call(self, quantity: str, problem: Problem) -> Any:
+        refuse(self.skip(problem, quantity))
+        is_jkr = quantity in QUANTITIES and self._is_jkr(problem)
+        return JKR().evaluate(problem, quantity) if is_jkr else getattr(self, quantity)(problem)
 
     def pull_off_force(self, problem: Problem) -> Result:
         """-min P over the contact branch, its end point a = 0 included."""

@@ -48,7 +48,7 @@ class FiniteElements(SolverModel):
     --------
     >>> FiniteElements().evaluate(Problem.dimensionless(n=2, k=0.95, mu=1.0), "pull_off_force")
     Traceback (most recent call last):
-    comparisons.model.NotApplicable: the finite elements need k <= 0.9, not k = 0.95: ...
+    comparisons.model.NotTaken: the finite elements need k <= 0.9, not k = 0.95: ...
     """
 
     name: ClassVar[str] = "fem"

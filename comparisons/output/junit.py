@@ -1,15 +1,15 @@
-"""Verdicts as JUnit XML, which CI systems read: one test suite a gate, one test case a case."""
+"""Verdicts as JUnit XML, which CI systems read: a test suite a gate and one for the report cards."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import pandas as pd
 
-from comparisons.judging.decision import Verdict
-from comparisons.judging.report_card import overall
+from comparisons.judging.decision import Verdict, roll_up
+from comparisons.judging.report_card import ModelCheck
 from comparisons.numerics.number_text import limits_text
 from comparisons.problem import PARAMETERS
 
@@ -27,27 +27,36 @@ _ELEMENTS = {
 _UNPRINTABLE = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
-def junit(judged: pd.DataFrame, command: Callable[[pd.Series], str]) -> bytes:
-    """Return a report with one test suite a gate.
+def junit(judged: pd.DataFrame, checks: Sequence[ModelCheck], command: Callable[[pd.Series], str]) -> bytes:
+    """Return a report with one test suite a gate, and one for the report cards if there are some.
 
     Parameters
     ----------
     judged : DataFrame
         What `comparisons.judging.judge.judge` returns.
+    checks : sequence of ModelCheck
+        Of the report cards.
     command : callable
         Gives the command that reproduces a row.
     """
-    root = Element("testsuites", {"name": "fscm-bench"} | _counts(judged))
+    of_cards = [check.verdict for check in checks]
+    root = Element("testsuites", {"name": "fscm-bench"} | _counts([*judged["verdict"], *of_cards]))
     for gate, group in judged.groupby("gate", sort=False):
-        suite = SubElement(root, "testsuite", {"name": _text(gate)} | _counts(group))
+        suite = SubElement(root, "testsuite", {"name": _text(gate)} | _counts(group["verdict"]))
         for _, row in group.iterrows():
             _case(suite, row, command)
-    if overall(judged) is Verdict.ERROR and not (judged["verdict"] == Verdict.ERROR).any():
+    if checks:
+        suite = SubElement(root, "testsuite", {"name": "report card"} | _counts(of_cards))
+        for check in checks:
+            name = _text(f"{check.model} {check.line}")
+            case = SubElement(suite, "testcase", classname="fscm-bench.report card", name=name)
+            _outcome(case, check.verdict, check.reason, check.reason)
+    if roll_up(judged["verdict"]) is Verdict.ERROR and not (judged["verdict"] == Verdict.ERROR).any():
         # A CI system that reads this file alone must not take it for a success.
         suite = SubElement(root, "testsuite", name="gates", tests="1", errors="1", failures="0", skipped="0")
         case = SubElement(suite, "testcase", classname="fscm-bench.gates", name="evaluated")
         SubElement(case, "error", message="no gate was evaluated")
-        root.attrib |= {"tests": str(len(judged) + 1), "errors": "1"}
+        root.attrib |= {"tests": str(len(judged) + len(checks) + 1), "errors": "1"}
     indent(root)
     return tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"
 
@@ -69,18 +78,22 @@ def _case(suite: Element, row: pd.Series, command: Callable[[pd.Series], str]) -
     name = _text(f"{row['candidate']} {row['quantity']} {label}")
     case = SubElement(suite, "testcase", classname=_text(f"fscm-bench.{row['gate']}"), name=name)
     numbers = numbers_text(row)
-    if element := _ELEMENTS.get(row["verdict"]):
-        message = _text(f"{row['verdict']}: {row['reason'] or numbers}")
-        SubElement(case, element, message=message).text = _text(f"{numbers}\n{command(row)}")
+    is_pass = row["verdict"] not in _ELEMENTS
+    _outcome(case, row["verdict"], row["reason"] or numbers, numbers if is_pass else f"{numbers}\n{command(row)}")
+
+
+def _outcome(case: Element, verdict: str, reason: str, text: str) -> None:
+    if element := _ELEMENTS.get(Verdict(verdict)):
+        SubElement(case, element, message=_text(f"{verdict}: {reason}")).text = _text(text)
     else:
-        SubElement(case, "system-out").text = _text(numbers)
+        SubElement(case, "system-out").text = _text(text)
 
 
-def _counts(rows: pd.DataFrame) -> dict[str, str]:
-    kinds = list(rows["verdict"].map(_ELEMENTS))
+def _counts(verdicts: Iterable[str]) -> dict[str, str]:
+    kinds = [_ELEMENTS.get(Verdict(verdict)) for verdict in verdicts]
     attributes = {"errors": "error", "failures": "failure", "skipped": "skipped"}
     counts = {name: str(kinds.count(kind)) for name, kind in attributes.items()}
-    return {"tests": str(len(rows)), **counts}
+    return {"tests": str(len(kinds)), **counts}
 
 
 def _text(text: object) -> str:

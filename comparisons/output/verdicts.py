@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -13,7 +13,7 @@ import pandas as pd
 from comparisons.data.file_names import GATES, JUNIT, SUMMARY, VERDICTS
 from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import Gate
-from comparisons.judging.report_card import CARD, without_card_gates
+from comparisons.judging.report_card import ModelCheck
 from comparisons.judging.summary import coverage_text, summarise
 from comparisons.numerics.number_text import error_text, exact, limits_text
 from comparisons.output.junit import junit
@@ -58,15 +58,14 @@ def command(row: Record, specs: Mapping[str, str]) -> str:
     else:
         case = [word for name in PARAMETERS if pd.notna(row[name]) for word in (f"--{name}", exact(row[name]))]
     if not case:
-        of_card = str(row.get("gate", "")).startswith(CARD)
-        return shlex.join(["fscm-bench", "check-model", model]) if of_card else "fscm-bench list gates"
+        return "fscm-bench list gates"
     verb = "curve" if row["quantity"] in CURVES else "sweep" if varied else "solve"
     vary = [word for text in varied for word in ("--vary", with_unit(text))] if verb == "sweep" else []
     return shlex.join(["fscm-bench", verb, "--model", model, "--quantity", row["quantity"], *case, *vary])
 
 
-def gates_sentence(gates: pd.DataFrame, verdicts: pd.DataFrame) -> str:
-    """Return how many gates of the user pass, fail as declared, and do neither, what report cards say, and the cases.
+def gates_sentence(gates: pd.DataFrame, verdicts: pd.DataFrame, checks: Iterable[ModelCheck] = ()) -> str:
+    """Return how many gates pass, fail as declared, and do neither, what report cards say, and the cases.
 
     Parameters
     ----------
@@ -74,33 +73,32 @@ def gates_sentence(gates: pd.DataFrame, verdicts: pd.DataFrame) -> str:
         One row for each gate and candidate, as of `comparisons.judging.summary.summarise`.
     verdicts : DataFrame
         As of `comparisons.judging.judge.judge`.
+    checks : iterable of ModelCheck
+        Of the report cards.
 
     Examples
     --------
     >>> gates = pd.DataFrame({"gate": ["A", "B", "C"], "verdict": ["PASS", "XFAIL", "FAIL"]})
     >>> gates_sentence(gates, gates)
     '1 of 3 gates pass, 1 fail as declared, 1 unexpected: 1 FAIL (cases: 1 FAIL, 1 XFAIL, 1 PASS)'
-    >>> card = pd.DataFrame({"gate": ["CARD-DIFFERS"], "verdict": ["INCONCLUSIVE"]})
-    >>> gates_sentence(card, card)
+    >>> gates_sentence(gates[:0], gates[:0], [ModelCheck("mine", "digits", Verdict.INCONCLUSIVE, "copied")])
     'No gate was evaluated; report cards: 1 INCONCLUSIVE'
     """
-    of_user = without_card_gates(gates)
-    of_cards = gates.drop(of_user.index)
-    cards = verdict_counts(of_cards[of_cards["verdict"] != Verdict.PASS])
+    cards = verdict_counts(check.verdict for check in checks if check.verdict is not Verdict.PASS)
     ending = f"; report cards: {cards}" if cards else ""
-    if of_user.empty:
+    if gates.empty:
         return f"No gate was evaluated{ending}"
-    count, surprising = Counter(of_user["verdict"]), unexpected(of_user)
-    parts = [f"{count[Verdict.PASS]} of {len(of_user)} gates pass", f"{count[Verdict.XFAIL]} fail as declared"]
+    count, surprising = Counter(gates["verdict"]), unexpected(gates)
+    parts = [f"{count[Verdict.PASS]} of {len(gates)} gates pass", f"{count[Verdict.XFAIL]} fail as declared"]
     if count[Verdict.NOT_APPLICABLE]:
         parts.append(f"{count[Verdict.NOT_APPLICABLE]} apply to no case")
-    parts.append(": ".join(filter(None, [f"{len(surprising)} unexpected", verdict_counts(surprising)])))
-    return f"{', '.join(parts)} (cases: {verdict_counts(without_card_gates(verdicts))}){ending}"
+    parts.append(": ".join(filter(None, [f"{len(surprising)} unexpected", verdict_counts(surprising["verdict"])])))
+    return f"{', '.join(parts)} (cases: {verdict_counts(verdicts['verdict'])}){ending}"
 
 
-def verdict_counts(rows: pd.DataFrame) -> str:
-    """Return how many rows have each verdict, worst first."""
-    count = Counter(rows["verdict"])
+def verdict_counts(verdicts: Iterable[str]) -> str:
+    """Return how many there are of each verdict, worst first."""
+    count = Counter(verdicts)
     return ", ".join(f"{count[verdict]} {verdict}" for verdict in Verdict if count[verdict])
 
 
@@ -147,7 +145,9 @@ def declared_sentence(gates: pd.DataFrame) -> str:
     return f"as declared (XFAIL; --verbose prints the commands): {', '.join(names[:_NAMES])}{more}" if names else ""
 
 
-def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate], specs: Mapping[str, str]) -> None:
+def write_verdicts(
+    folder: Path, judged: pd.DataFrame, checks: Sequence[ModelCheck], gates: list[Gate], specs: Mapping[str, str]
+) -> None:
     """Write the verdicts as CSV, Markdown, LaTeX and JUnit XML.
 
     The summary by gate, and what the gates required, go beside them as CSV: a gates file may change later.
@@ -161,6 +161,6 @@ def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate], specs:
     requirements = Column("requirement", lambda row: requirement.get(row["gate"], ""))
     by_gate = laid_out("by_gate", summary, Column("command", again), requirements)
     worst = laid_out("worst_of_gates", summary, id="verdicts")
-    write_file(folder / JUNIT, junit(judged, again))
+    write_file(folder / JUNIT, junit(judged, checks, again))
     write_file(folder / f"{VERDICTS}.md", markdown(by_gate.texts, by_gate.caption))
     write_file(folder / f"{VERDICTS}.tex", latex(worst.texts, worst.caption, worst.id))

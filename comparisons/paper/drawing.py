@@ -33,7 +33,7 @@ def dashed(index: int) -> dict[str, Any]:
     return {"color": COLOURS[index], "ls": LINES[index]}
 
 
-def held(**values: float) -> str:
+def case(**values: float) -> str:
     """Return parameters that a panel holds, or a line, e.g. ``$n$ = 2, $k$ = 0.4``."""
     text = ", ".join(f"{symbol} = {values[name]:g}" for name, symbol in _SYMBOLS.items() if name in values)
     return f"{text} (Gibson)" if values == {"k": 1.0} else text
@@ -78,7 +78,7 @@ def lines_by(
 ) -> None:
     """Draw a line for each value of a parameter."""
     for index, (value, rows) in enumerate(table.groupby(name)):
-        axes.plot(rows[x], scale * rows[y], **{"label": label + held(**{name: value})} | dashed(index) | style)
+        axes.plot(rows[x], scale * rows[y], **{"label": label + case(**{name: value})} | dashed(index) | style)
 
 
 def beside_fem(

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from functools import wraps
 from itertools import product
 from operator import attrgetter
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from scipy.optimize import brentq
@@ -112,10 +112,7 @@ def curve(model: str, n: float, k: float, mu: float) -> Json:
     >>> path["status"], path["displacement"][0], len(path["contact_radius"]) == len(path["load"])
     ('ok', 0.0, True)
     """
-    tracing = create(model)
-    if not isinstance(tracing, HasCurve):
-        raise NotApplicable(f"{model} has no force-displacement curve")
-    path = tracing.curve(Problem.dimensionless(n, k, mu))
+    path = cast(HasCurve, create(model)).curve(Problem.dimensionless(n, k, mu))
     return {
         "displacement": _numbers(path.displacement),
         "load": _numbers(path.load),

@@ -11,15 +11,13 @@ from pathlib import Path
 from comparisons.console.exit_status import full_disk
 from comparisons.console.progress import log, note
 from comparisons.data.file_names import LOCK, REPORT, STORE
-from comparisons.external.hidden_folders import hidden_from_models
+from comparisons.external.inherited import at_most, hidden_from_models
 from comparisons.external.model_source import close_models
 from comparisons.external.text_rules import one_line
-from comparisons.external.total_time import at_most
 from comparisons.model import ComputationFailed
-from comparisons.output.report.board import BoardEntry, Submission, board_page
+from comparisons.output.report.board import BoardEntry, Entry, Submission, board_page
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
-from comparisons.output.report.standing import Entry
 from comparisons.output.report.stored_run import read_folder
 from comparisons.pipeline.inputs import stored_inputs
 from comparisons.pipeline.run import run
@@ -137,7 +135,7 @@ def _judge(submission: Submission, site: Path, earlier: list[BoardEntry], jobs: 
     if judged and not (target / STORE).exists():
         # The values of the reference are the same for every submission.
         with rows_in(target) as store, rows_in(site / judged[-1]) as source:
-            store.take(source, lambda row: row.model == REFERENCE)
+            store.copy(source, lambda row: row.model == REFERENCE)
     run(models=[submission.spec], folder=target, jobs=jobs)
     write_file(target / REPORT, render(make_page(read_folder(target))))
 

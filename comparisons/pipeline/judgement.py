@@ -15,8 +15,8 @@ from comparisons.data.file_names import CURVES, GATES_TEXT, INPUTS, RECORD, RESU
 from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.fresh_verdicts import compare_with_standing, judge_undrawn
-from comparisons.judging.judge import judge
-from comparisons.judging.report_card import every_verdict, judge_cards, judge_digits, overall
+from comparisons.judging.judge import every_verdict, judge
+from comparisons.judging.report_card import ModelCheck, check_models, overall
 from comparisons.judging.selection import relevant
 from comparisons.judging.summary import COVERAGE, summarise
 from comparisons.output.verdicts import write_verdicts
@@ -49,9 +49,14 @@ class Judgement:
     cards: Mapping[str, Any]
 
     @property
+    def checks(self) -> list[ModelCheck]:
+        """The verdicts of the report cards."""
+        return check_models(self.verdicts, self.cards)
+
+    @property
     def verdict(self) -> Verdict:
-        """The verdict over all gates; ERROR if no gate of the user was evaluated."""
-        return overall(self.verdicts)
+        """The verdict over all gates and report cards; ERROR if no gate was evaluated."""
+        return overall(self.verdicts, self.checks)
 
     def as_json(self) -> dict[str, Any]:
         """Return what the record of a run holds: how many cases have each verdict, and the coverage of each gate."""
@@ -79,11 +84,10 @@ def judge_and_write(
         tables += [drawn, compare_with_standing(standing, drawn)]
     if inputs.fresh:
         tables.append(judge_undrawn(inputs.fresh.undrawn))
-    of_gates = every_verdict(tables)
-    verdicts = every_verdict([of_gates, judge_cards(cards), judge_digits(of_gates, cards)])
+    judgement = Judgement(folder, inputs, every_verdict(tables), cards)
     written = [*gates, *{part.gate.id: part.gate for part in fresh}.values()]
-    write_verdicts(folder, verdicts, written, inputs.specs)
-    return Judgement(folder, inputs, verdicts, cards)
+    write_verdicts(folder, judgement.verdicts, judgement.checks, written, inputs.specs)
+    return judgement
 
 
 def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:

@@ -126,4 +126,4 @@ def _take_rows(folder: Path, store: Store[Row], planned: Mapping[Key, Task]) -> 
                     f"{folder} has another result than a folder before it for {row.quantity} of {row.model} at "
                     f"{row.label}: they differ by more than both uncertainties"
                 )
-        store.take(shard, lambda row: row.key in taken and is_row_of(planned[row.key], row))
+        store.copy(shard, lambda row: row.key in taken and is_row_of(planned[row.key], row))

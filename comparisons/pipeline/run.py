@@ -12,13 +12,14 @@ import pandas as pd
 from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import note
-from comparisons.external.hidden_folders import hidden_from_models
+from comparisons.external.inherited import hidden_from_models
 from comparisons.judging.fresh_cases import FreshCases, draw
 from comparisons.numerics.number_text import exact
 from comparisons.output.junit import numbers_text
 from comparisons.output.verdicts import command
 from comparisons.pipeline.finished_run import FinishedRun, kept_texts, write_run
 from comparisons.pipeline.inputs import Cases, RunInputs, load_cases, read_gates
+from comparisons.pipeline.judgement import Judgement
 from comparisons.problem import PARAMETERS
 from comparisons.registry import identify
 from comparisons.runs.atomic_files import prepare_folder
@@ -173,7 +174,7 @@ def _fresh(count: int, seed: int | None, inputs: RunInputs) -> FreshCases | None
 def named_verdicts(
     cases: str | Path, gates: Path, models: Sequence[str], folder: Path, jobs: int = 1
 ) -> list[tuple[str, str, str]]:
-    """Run and judge; return name and verdict of each row, and its reason, its numbers and the command that repeats it.
+    """Run and judge; return name, verdict and text of each gate in each case, and of each check of a report card.
 
     Several processes may call it with one folder: the first computes, the others take its results.
 
@@ -187,10 +188,13 @@ def named_verdicts(
     assert judgement is not None
     if judgement.verdicts.empty:
         raise ValueError(f"{gates}: no gate was evaluated: no candidate of a gate is given")
-    return [
-        (_name(row), str(row["verdict"]), _text(row, judgement.inputs.specs))
-        for _, row in judgement.verdicts.iterrows()
-    ]
+    return _named(judgement)
+
+
+def _named(judgement: Judgement) -> list[tuple[str, str, str]]:
+    specs = judgement.inputs.specs
+    of_gates = [(_name(row), str(row["verdict"]), _text(row, specs)) for _, row in judgement.verdicts.iterrows()]
+    return of_gates + [(f"{check.line}[{check.model}]", str(check.verdict), check.reason) for check in judgement.checks]
 
 
 def _name(row: pd.Series) -> str:

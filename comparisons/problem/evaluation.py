@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import cast
 
 from comparisons.domain import declared_domain, skip
-from comparisons.model import Model, NotApplicable, Result
+from comparisons.model import HasSkip, Model, NotTaken, Result, refuse
 from comparisons.problem.problem import Problem
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, Points
 
@@ -39,7 +39,7 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     Raises
     ------
     NotApplicable, ComputationFailed
-        As the model; also if it does not take the problem.
+        As the model.
 
     Examples
     --------
@@ -47,21 +47,25 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     >>> evaluated(Problem.dimensionless(2, 0, 1), Bradley(), "pull_off_force").value
     2.0
     """
-    reason = skip(model, problem, quantity)
-    if reason is None:
+    try:
+        # A model of this repository refuses a number by itself; not every one has the method of a curve.
+        if quantity not in QUANTITIES or not isinstance(model, HasSkip):
+            refuse(skip(model, problem, quantity))
         row = ALL_QUANTITIES[quantity]
         return row.in_units(row.evaluate(model, problem), problem.units)  # type: ignore[arg-type]  # of its own kind
+    except NotTaken as refusal:
+        reason = str(refusal)
     domain = declared_domain(model)
     is_solved = model.name in REFERENCES or (domain is not None and domain.is_list)
     if quantity not in QUANTITIES or is_solved:
-        raise NotApplicable(reason)
+        raise NotTaken(reason)
     elastic = problem.without(*problem.surface)
     if problem.surface:
         result = cast(Result, evaluated(elastic, model, quantity))
     elif problem.punch_solid is None and problem.is_of_the_paper("punch", "law") and not problem.is_of_the_paper():
         result = _with_equivalent_solid(problem, model, quantity)
     else:
-        raise NotApplicable(reason)
+        raise NotTaken(reason)
     neglected = " and ".join(f"{name} = {value}" for name, value in problem.surface.items())
     sentences = result.reason, f"{model.name} neglects {neglected}" if neglected else ""
     return replace(result, reason="; ".join(filter(None, sentences)))

@@ -137,7 +137,7 @@ class Store(Generic[_Item]):
         """
         self._write([_Entry(item, self._part, time.perf_counter() - self._clock)], f"; {self._safe()}")
 
-    def take(self, source: Store[_Item], wanted: Callable[[_Item], bool]) -> None:
+    def copy(self, source: Store[_Item], wanted: Callable[[_Item], bool]) -> None:
         """Store items of another store, with the parts that computed them."""
         self._write([entry for entry in source._entries.values() if wanted(entry.item)], f"; {self._safe()}")
 

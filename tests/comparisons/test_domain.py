@@ -11,6 +11,7 @@ from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
 from comparisons.judging.summary import summarise
 from comparisons.models import transition_formulas
+from comparisons.models.dmt import DMT
 from comparisons.pipeline.inputs import load_cases, read_gates
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import SOLVERS
@@ -118,6 +119,15 @@ def test_what_an_external_model_takes_follows_from_its_contract(problem, quantit
 
 def test_a_domain_of_n_k_and_mu_says_nothing_of_other_problems():
     assert Domain.of({**FORCE, "n": [2, 2]}).skip(on_solid("exponential", EXPONENTIAL), "pull_off_force") is None
+
+
+@pytest.mark.parametrize(("quantity", "status"), [("pull_off_force", "ok"), ("jump_in_gap", "not-applicable")])
+def test_a_model_is_asked_once_what_it_takes(quantity, status, monkeypatch):
+    asked, skips = [], DMT.skip
+    monkeypatch.setattr(DMT, "skip", lambda *arguments: asked.append(arguments[1:]) or skips(*arguments))
+    problem = Problem.dimensionless(2, 0, 1)
+    assert evaluate("dmt", quantity, problem).status == status
+    assert asked == [(problem, quantity)]
 
 
 def test_a_model_is_not_evaluated_outside_its_domain(toys, monkeypatch):

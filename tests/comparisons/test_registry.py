@@ -30,11 +30,6 @@ def test_a_model_has_its_texts_and_a_pull_off_force_or_the_reason_why_not(name):
         assert row.reason
 
 
-def test_an_unknown_name_lists_the_models_in_the_order_of_the_tables():
-    with pytest.raises(ValueError, match=", ".join(MODELS)):
-        create("hertz")
-
-
 def test_poissons_ratio_reaches_the_model_that_needs_it():
     assert create("fem", 0.1)._poisson_ratio == 0.1
     assert create("jkr", 0.1).name == "jkr"

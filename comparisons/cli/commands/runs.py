@@ -10,7 +10,7 @@ from comparisons.cli.screen import output, print_end, print_lines
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK
 from comparisons.console.progress import log, note
 from comparisons.judging.decision import Verdict
-from comparisons.judging.report_card import card_lines, given_models, without_card_gates
+from comparisons.judging.report_card import card_lines, given_models
 from comparisons.judging.summary import summarise
 from comparisons.output.summaries import computations_sentence, largest_errors
 from comparisons.output.verdicts import declared_sentence, gate_lines, gates_sentence, unexpected
@@ -99,19 +99,23 @@ def _end(judgement: Judgement) -> int:
 
 def _print_verdicts(judgement: Judgement, args: argparse.Namespace) -> None:
     """Print the report cards and the gates: what is not as declared, or all; with --quiet only that, as messages."""
-    if without_card_gates(judgement.verdicts).empty:
-        log("no gate was evaluated")
+    checks = judgement.checks
     if judgement.verdicts.empty:
-        return
+        log("no gate was evaluated")
+        if not checks:
+            return
     gates = summarise(judgement.verdicts)
     if args.quiet:
+        for check in checks:
+            if check.verdict is not Verdict.PASS:
+                log(f"{check.verdict} {check.model}, {check.line}: {check.reason}")
         for line in gate_lines(unexpected(gates), judgement.inputs.specs, _GATES):
             log(line)
     else:
         print_lines(_cards(judgement))
         rows, most = (gates, None) if args.verbose else (unexpected(gates), _GATES)
         print_lines(gate_lines(rows, judgement.inputs.specs, most))
-        print_lines(filter(None, [declared_sentence(gates), gates_sentence(gates, judgement.verdicts)]))
+        print_lines(filter(None, [declared_sentence(gates), gates_sentence(gates, judgement.verdicts, checks)]))
     wrong = gates[gates["verdict"] == Verdict.ERROR]
     for row in wrong.head(_ERRORS).itertuples():
         log(f"a gate is in error: {row.gate} of {row.candidate}: {row.reason}")
@@ -122,8 +126,9 @@ def _print_verdicts(judgement: Judgement, args: argparse.Namespace) -> None:
 def _cards(judgement: Judgement) -> list[str]:
     """Return the lines of the report cards of the given models."""
     lines: list[str] = []
-    for name in given_models(judgement.inputs.models, judgement.verdicts):
-        card = card_lines(name, judgement.verdicts, judgement.cards.get(name), judgement.inputs.domains.get(name))
+    for name in given_models(judgement.inputs.models, judgement.verdicts, judgement.cards):
+        recorded, domain = judgement.cards.get(name), judgement.inputs.domains.get(name)
+        card = card_lines(name, judgement.verdicts, judgement.checks, recorded, domain)
         label_width = max(len(label) for label, _ in card)
         lines += [f"report card of {name}", *(f"  {label:{label_width}}  {text}" for label, text in card)]
     return lines

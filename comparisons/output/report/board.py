@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import pandas as pd
 
+from comparisons.judging.decision import roll_up
 from comparisons.judging.report_card import overall
 from comparisons.output.errors import worst_rows
 from comparisons.output.report.page import Block, Page, errors_and_plot
-from comparisons.output.report.standing import Entry, standing
+from comparisons.output.report.stored_run import Stored
 from comparisons.output.table import LAYOUT, Table, column, columns, laid_out
 from comparisons.quantities import ALL_QUANTITIES
+from comparisons.runs.rows import Key
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +45,21 @@ class Submission:
 
 
 @dataclass(frozen=True, slots=True)
+class Entry:
+    """A run whose models stand on the board.
+
+    Attributes
+    ----------
+    stored : Stored
+    planned : set of (Key, str)
+        The keys of the results that its tables of errors are about, with a reference of each.
+    """
+
+    stored: Stored
+    planned: Collection[tuple[Key, str]]
+
+
+@dataclass(frozen=True, slots=True)
 class BoardEntry:
     """A submission and its results.
 
@@ -64,6 +81,21 @@ class BoardEntry:
     reason: str = ""
 
 
+def standing(entry: Entry) -> pd.DataFrame:
+    """Return the summary of errors of a run (`comparisons.output.errors`) with the verdicts."""
+    summary = entry.stored.error_summary(entry.planned)
+    pairs = zip(summary["model"], summary["quantity"], strict=True)
+    return summary.assign(verdict=[_verdict(entry.stored, *pair) for pair in pairs])
+
+
+def _verdict(stored: Stored, model: str, quantity: str) -> str:
+    """Return the worst verdict on a model about a quantity; that of its report card is on the model as a whole."""
+    verdicts = stored.verdicts
+    on_model = verdicts[(verdicts["candidate"] == model) & (verdicts["quantity"] == quantity)]
+    of_card = [check.verdict for check in stored.checks if check.model == model]
+    return "" if on_model.empty else str(roll_up([*on_model["verdict"], *of_card]))
+
+
 def standings(entries: Sequence[BoardEntry]) -> pd.DataFrame:
     """Return the errors and verdicts of every version that was judged; `newest` marks the newest one of a model.
 
@@ -74,7 +106,7 @@ def standings(entries: Sequence[BoardEntry]) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        As of `comparisons.output.report.standing.standing`, one row a quantity, by model and date; `order` sorts the
+        As of `standing`, one row a quantity, by model and date; `order` sorts the
         quantities, of which the judged one is the first.
     """
     tables = []
@@ -154,6 +186,7 @@ def _submissions(entries: Sequence[BoardEntry]) -> Table:
         if submission := entry.submission:
             row |= asdict(submission) | {"model": submission.name, "authors": ", ".join(submission.authors)}
         if entry.judged and submission:
-            row |= {"status": str(overall(entry.judged.stored.verdicts)), "folder": submission.folder}
+            stored = entry.judged.stored
+            row |= {"status": str(overall(stored.verdicts, stored.checks)), "folder": submission.folder}
         rows.append(row)
     return laid_out("submissions", pd.DataFrame(rows))

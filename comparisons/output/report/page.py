@@ -91,8 +91,8 @@ def make_page(stored: Stored) -> Page:
     stored : Stored
         As `comparisons.output.report.stored_run.read_folder` returns it.
     """
-    verdict = str(overall(stored.verdicts)) if stored.judged else ""
-    gates = [f"{gates_sentence(stored.summary, stored.verdicts)}."] if stored.judged else []
+    verdict = str(overall(stored.verdicts, stored.checks)) if stored.judged else ""
+    gates = [f"{gates_sentence(stored.summary, stored.verdicts, stored.checks)}."] if stored.judged else []
     computed = f"{computations_sentence(stored.record['rows'])}."
     summary = stored.error_summary()
     headline = _largest_error(summary) or (gates or [computed])[0]

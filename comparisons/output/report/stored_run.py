@@ -16,6 +16,7 @@ from comparisons.data.contained_paths import path_inside
 from comparisons.data.input_files import read_text
 from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged
+from comparisons.judging.report_card import ModelCheck, check_models
 from comparisons.judging.summary import COVERAGE
 from comparisons.output import errors
 from comparisons.output.verdicts import GATE_COLUMNS
@@ -62,6 +63,11 @@ class Stored:
     def judged(self) -> bool:
         """Whether the folder is that of a run."""
         return f"{file_names.VERDICTS}.csv" in self.record["files"]
+
+    @property
+    def checks(self) -> list[ModelCheck]:
+        """The verdicts of the report cards."""
+        return check_models(self.verdicts, self.record.get("cards", {}))
 
     @property
     def specs(self) -> dict[str, str]:

@@ -38,7 +38,7 @@ def _reason(row: Record) -> str:
 def gates(stored: Stored) -> Iterator[Table]:
     """Yield one row for each gate and candidate, worst first, and the report cards of the given models."""
     facts = {row["id"]: row for row in stored.gates.to_dict("records")}
-    counts = {key: verdict_counts(rows) for key, rows in stored.verdicts.groupby(["gate", "candidate"])}
+    counts = {key: verdict_counts(rows["verdict"]) for key, rows in stored.verdicts.groupby(["gate", "candidate"])}
 
     def requirement(row: Record) -> str:
         return facts.get(row["gate"], {}).get("requirement", "")
@@ -57,9 +57,9 @@ def gates(stored: Stored) -> Iterator[Table]:
     )
     cards, domains = stored.record.get("cards", {}), stored.record.get("domains", {})
     lines: list[tuple[str, str, str]] = []
-    for name in given_models(stored.record["arguments"].get("model"), stored.verdicts):
+    for name in given_models(stored.record["arguments"].get("model"), stored.verdicts, cards):
         domain = Domain.of_json(domains[name]) if name in domains else None
-        lines += [(name, *line) for line in card_lines(name, stored.verdicts, cards.get(name), domain)]
+        lines += [(name, *line) for line in card_lines(name, stored.verdicts, stored.checks, cards.get(name), domain)]
     yield laid_out("cards", pd.DataFrame(lines, columns=["model", "item", "result"]))
 
 

@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
-from comparisons.paper.drawing import LABELS, beside_fem, by_model, held, legend_below, level, of_model, panels
+from comparisons.paper.drawing import LABELS, beside_fem, by_model, case, legend_below, level, of_model, panels
 from comparisons.paper.paper_figure import Tables, paper_figure
 from comparisons.paper.plan import Plan, cases, result_of, rows_of, together
 from comparisons.paper.statements.equilibria import turning_points
@@ -48,7 +48,7 @@ _FOLDS = {0.4: (-3.36, -3.22), 0.6: (-3.36, -3.32)}
 def _s_curve(figure: Figure, curves: pd.DataFrame, points: pd.DataFrame, hysteresis: pd.DataFrame) -> None:
     points = points.set_index("name")
     path, jkr = of_model(curves, "fscm", "jkr")
-    lattice = panels(figure, ("", "", held(**_CASE)))
+    lattice = panels(figure, ("", "", case(**_CASE)))
     lattice[2].fill(*loop(path, points), color=COLOURS[6], alpha=0.35, lw=0)
     for axes, (x, y) in zip(lattice, _S_AXES, strict=True):
         level(axes)
@@ -99,13 +99,13 @@ def curves(keys: list[dict[str, Any]]) -> Plan[Tables]:
 
 def _families(figure: Figure, table: pd.DataFrame, ranges: Ranges, across: str, along: str, **fixed: float) -> None:
     """Draw a panel for each value of one parameter, with a curve for each of another."""
-    words = [held(**{across: value}, **fixed) for value in ranges]
+    words = [case(**{across: value}, **fixed) for value in ranges]
     lattice = panels(figure, words, "displacement", "load", rows=len(ranges) // 2)
     for axes, (of_panel, limits) in zip(lattice, ranges.items(), strict=True):
         for index, (value, path) in enumerate(table[table[across] == of_panel].groupby(along)):
             # Dashes would hide folds; markers at equal distances tell the curves apart in grey.
             marked: Any = {"color": COLOURS[index], "marker": MARKERS[index], "markevery": (0.03 * (1 + index), 0.24)}
-            marked |= {"ms": 3.0, "mfc": "white", "lw": 1.0, "label": held(**{along: value})}
+            marked |= {"ms": 3.0, "mfc": "white", "lw": 1.0, "label": case(**{along: value})}
             axes.plot(path["displacement"], path["load"], **marked)
         level(axes)
         axes.set(xlim=limits[0], ylim=limits[1])
@@ -130,7 +130,7 @@ def fig06_force_curves_over_gradients() -> Plan[Tables]:
 
 
 def _over_models(figure: Figure, table: pd.DataFrame) -> None:
-    lattice = panels(figure, [held(n=n, k=_K, mu=_MU) for n in _SHAPES], "displacement", "load", rows=2)
+    lattice = panels(figure, [case(n=n, k=_K, mu=_MU) for n in _SHAPES], "displacement", "load", rows=2)
     for axes, (_, of_shape) in zip(lattice, table.groupby("n"), strict=True):
         by_model(axes, of_shape, "displacement", "load")
         level(axes)
@@ -151,7 +151,7 @@ def fig13_force_curve_models() -> Plan[Tables]:
 
 
 def _fold_pairs(figure: Figure, table: pd.DataFrame) -> None:
-    lattice = panels(figure, [held(**_CASE | {"k": k}) for k in _FOLDS], "central_gap", "displacement")
+    lattice = panels(figure, [case(**_CASE | {"k": k}) for k in _FOLDS], "central_gap", "displacement")
     for axes, (k, limits) in zip(lattice, _FOLDS.items(), strict=True):
         rows = table[table["k"] == k]
         style: Any = {"color": COLOURS[0], "label": "fscm, crosses: fem"}

@@ -13,7 +13,7 @@ import fscm
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.jkr import JKR
 from comparisons.output.style import COLOURS
-from comparisons.paper.drawing import LABELS, by_model, dashed, held, legend_below, level, lines_by, panels
+from comparisons.paper.drawing import LABELS, by_model, case, dashed, legend_below, level, lines_by, panels
 from comparisons.paper.paper_figure import Tables, paper_figure
 from comparisons.paper.plan import Plan, cases, result_of, rows_of, together
 from comparisons.paper.tasks import SHAPES, TRACTION
@@ -216,7 +216,7 @@ def dugdale(stress: float) -> pd.DataFrame:
 
 
 def _laws(figure: Figure, table: pd.DataFrame, laws: pd.DataFrame) -> None:
-    left, right = panels(figure, ("", f"{held(n=_DRAWN)} (improved M-D)"))
+    left, right = panels(figure, ("", f"{case(n=_DRAWN)} (improved M-D)"))
     left.plot("n", "eta", data=table[np.isfinite(table["n"])], color=COLOURS[0], label=r"$\eta(n)$")
     strength = rf"theoretical strength $\sigma_{{\mathrm{{th}}}}$ = {THEORETICAL_STRENGTH:.3f}"
     left.axhline(THEORETICAL_STRENGTH, color=COLOURS[2], ls=":", label=strength)

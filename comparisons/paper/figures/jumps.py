@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from comparisons.models.semi_rigid import jump_in_coefficient
 from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES
-from comparisons.paper.drawing import LABELS, beside_fem, dashed, held, legend_below, level, lines_by, of_model, panels
+from comparisons.paper.drawing import LABELS, beside_fem, case, dashed, legend_below, level, lines_by, of_model, panels
 from comparisons.paper.paper_figure import Tables, paper_figure
 from comparisons.paper.plan import Plan, cases, result_of, rows_of, together
 from comparisons.paper.statements.measures import table_of_terms
@@ -35,13 +35,13 @@ def _onsets(*names: str) -> Plan[pd.DataFrame]:
 
 
 def _branches(figure: Figure, table: pd.DataFrame, critical: pd.DataFrame) -> None:
-    lattice = panels(figure, (held(n=_N),) * 2, "mu")
+    lattice = panels(figure, (case(n=_N),) * 2, "mu")
     for axes, kind in zip(lattice, ("displacement", "gap"), strict=True):
         names = [f"jump_{name}_{kind}" for name in ("in", "out")]
         for index, (onset, (k, branches)) in enumerate(zip(critical["mu"], table.groupby("k"), strict=True)):
             # Both branches begin in one point, at the critical Tabor number, between their first points.
             meeting = branches[names].iloc[0].mean()
-            label = rf"{held(k=k)}, $\mu_c$ = {onset:.5f}"
+            label = rf"{case(k=k)}, $\mu_c$ = {onset:.5f}"
             for name in names:
                 axes.plot([onset, *branches["mu"]], [meeting, *branches[name]], label=label, **dashed(index))
                 label = "_"
@@ -99,7 +99,7 @@ def coefficients(n: float) -> dict[str, list[float]]:
 
 
 def _beside_asymptotes(figure: Figure, displacements: pd.DataFrame, coefficients: pd.DataFrame) -> None:
-    left, right = panels(figure, (held(n=_N, k=_K), ""))
+    left, right = panels(figure, (case(n=_N, k=_K), ""))
     fscm, closed = of_model(displacements, "fscm", "asymptote")
     for index, (column, words) in enumerate(zip(_ASYMPTOTES, ("jump in, Eq. 47", "jump out, Eq. 54"), strict=True)):
         left.plot(closed["mu"], closed[column], label=words, color=COLOURS[index], ls=("-", "--")[index])
@@ -158,10 +158,10 @@ def finding_onset() -> Plan[Tables]:
 
 
 def _semi_rigid(figure: Figure, table: pd.DataFrame) -> None:
-    lattice = panels(figure, (held(k=_K),) * 2, "mu")
+    lattice = panels(figure, (case(k=_K),) * 2, "mu")
     for axes, column, scale in zip(lattice, ("deformation", "error"), (1.0, 100.0), strict=True):
         for index, (n, line) in enumerate(table.groupby("n")):
-            style: Any = {"marker": MARKERS[index], "ms": 3.5, "label": f"{held(n=n)}, crosses: fem", **dashed(index)}
+            style: Any = {"marker": MARKERS[index], "ms": 3.5, "label": f"{case(n=n)}, crosses: fem", **dashed(index)}
             beside_fem(axes, line, "mu", column, scale, **style)
         axes.set(ylim=(0.0, None))
     lattice[0].set_ylabel(r"deformation over gap at jump-in, $|w(0)|/H_0$")

@@ -20,8 +20,8 @@ from comparisons.paper.drawing import (
     banded,
     beside_fem,
     by_model,
+    case,
     dashed,
-    held,
     legend_below,
     level,
     lines_by,
@@ -72,7 +72,7 @@ def _log_forces(axes: Axes, low: float, high: float) -> None:
 
 def _transition(figure: Figure, table: pd.DataFrame) -> None:
     forces = table[table["status"] == "ok"]
-    lattice = panels(figure, [held(n=n) for n in _SHAPES], "mu", "force", rows=2, sharex=True)
+    lattice = panels(figure, [case(n=n) for n in _SHAPES], "mu", "force", rows=2, sharex=True)
     thin: Any = {"ls": (0, (2, 1.5)), "lw": 0.7}
     for axes, (n, limits) in zip(lattice, _SHAPES.items(), strict=True):
         fscm, jkr, bradley = of_model(forces[forces["n"] == n], "fscm", "jkr", "bradley")
@@ -125,7 +125,7 @@ def _scaled(table: pd.DataFrame, limit: str) -> Tables:
 
 
 def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str) -> None:
-    lattice = panels(figure, [held(n=n, k=_K) for n in _SHAPES], "mu", label, rows=2, sharex=True)
+    lattice = panels(figure, [case(n=n, k=_K) for n in _SHAPES], "mu", label, rows=2, sharex=True)
     for axes, (_, of_shape) in zip(lattice, table.groupby("n"), strict=True):
         # A ratio to a limiting model has the limit 1.
         if y == "ratio":
@@ -159,7 +159,7 @@ def fig15_pull_off_by_rigid_limit() -> Plan[Tables]:
 
 
 def _by_soft(figure: Figure, table: pd.DataFrame, kappa: pd.DataFrame) -> None:
-    words = (f"scaled by the soft limit, {held(k=_K)}", "relative error", "enlarged")
+    words = (f"scaled by the soft limit, {case(k=_K)}", "relative error", "enlarged")
     scaled, complete, enlarged = panels(figure, words, "mu", r"$P_c/P_c^{\mathrm{JKR}}$")
     for index, (n, of_shape) in enumerate(table.groupby("n")):
         by_model(scaled, of_shape, "mu", "ratio", color=COLOURS[index], label="_")
@@ -187,10 +187,10 @@ def fig16_pull_off_by_soft_limit() -> Plan[Tables]:
 
 
 def _cohesive_errors(figure: Figure, table: pd.DataFrame) -> None:
-    left, right = panels(figure, (held(k=_K), held(n=5, k=_K)), "mu")
+    left, right = panels(figure, (case(k=_K), case(n=5, k=_K)), "mu")
     for axes, shapes in ((left, SHAPES), (right, (5.0,))):
         for (model, n), line in table[table["n"].isin(shapes)].groupby(["model", "n"]):
-            index, label = SHAPES.index(n), f"{model.removeprefix('md-')}, {held(n=n)}"
+            index, label = SHAPES.index(n), f"{model.removeprefix('md-')}, {case(n=n)}"
             style = {"color": COLOURS[index], "marker": MARKERS[index], "ls": MODEL_LINES[model]["ls"], "ms": 3}
             beside_fem(axes, line, "mu", "error", 100.0, label=label, **style)
     level(left, 2.0, ls=":")
@@ -211,10 +211,10 @@ def finding_cohesive_errors() -> Plan[Tables]:
 
 
 def _falls_first(figure: Figure, table: pd.DataFrame) -> None:
-    left, right = panels(figure, (held(n=_FALLING_N), held(n=_FALLING_N, k=0.4)), "mu", "force")
+    left, right = panels(figure, (case(n=_FALLING_N), case(n=_FALLING_N, k=0.4)), "mu", "force")
     for axes, name in ((left, _FORCE), (right, _PLACE)):
         for k, line in table[table["quantity"] == name].groupby("k"):
-            style: Any = {"label": f"{held(k=k)}, crosses: fem", **dashed(GRADIENTS.index(k))}
+            style: Any = {"label": f"{case(k=k)}, crosses: fem", **dashed(GRADIENTS.index(k))}
             beside_fem(axes, line, "mu", "value", column="model", **style)
         axes.set(xscale="log")
     left.set(ylim=(2.1, 2.3))
@@ -232,7 +232,7 @@ def finding_falls_first() -> Plan[Tables]:
 
 def _domain(figure: Figure, table: pd.DataFrame) -> None:
     axes = figure.subplots()
-    labels = [f"{held(n=n)}\n{held(mu=mu)}" for n, mu in table[["n", "mu"]].to_numpy()]
+    labels = [f"{case(n=n)}\n{case(mu=mu)}" for n, mu in table[["n", "mu"]].to_numpy()]
     style: Any = {"ls": "none", "marker": "o", "mfc": "none", "label": "against fscm, crosses: fem"}
     beside_fem(axes, table.assign(case=labels), "case", "lacking", 100.0, **style)
     axes.axhline(0.1, color=COLOURS[1], lw=1.0, ls="--", label="0.1 %")

@@ -28,7 +28,7 @@ from comparisons.fitting.parameters import free_keys
 from comparisons.fitting.record import Record
 from comparisons.numerics.bounds import relative_difference, relative_uncertainty
 from comparisons.output.style import COLOURS, LINES
-from comparisons.paper.drawing import banded, dashed, held, legend_below, level, of_model, panels
+from comparisons.paper.drawing import banded, case, dashed, legend_below, level, of_model, panels
 from comparisons.paper.paper_figure import Tables, paper_figure
 from comparisons.paper.plan import Plan, cases, rows_of, together
 from comparisons.paper.tasks import quantity
@@ -106,7 +106,7 @@ def _errors(forces: pd.DataFrame, models: pd.DataFrame) -> pd.DataFrame:
 
 def _finite_strain(figure: Figure, table: pd.DataFrame, cancel: pd.DataFrame) -> None:
     places = cases(nu=_POISSON_RATIOS, mu=_TABOR_NUMBERS)
-    words = [held(**place) for place in places]
+    words = [case(**place) for place in places]
     lattice = panels(figure, words, r"$w/(E^*R)$", "error of the force (%)", rows=2, sharex=True, sharey=True)
     for axes, place in zip(lattice, places, strict=True):
         of_place, meeting = (of[(of["nu"] == place["nu"]) & (of["mu"] == place["mu"])] for of in (table, cancel))
@@ -123,8 +123,8 @@ def _finite_strain(figure: Figure, table: pd.DataFrame, cancel: pd.DataFrame) ->
 def finite_strain() -> Plan[Tables]:
     """Errors of JKR, improved M-D and the FSCM against a true sphere and finite strain."""
     balls = cases(elasto_adhesion_number=_SOFTNESS, mu=_TABOR_NUMBERS)
-    case: dict[str, Any] = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0}
-    models = rows_of(quantity, cases(model=MODELS, mu=_TABOR_NUMBERS), "value", "u_num", **case)
+    ball: dict[str, Any] = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0}
+    models = rows_of(quantity, cases(model=MODELS, mu=_TABOR_NUMBERS), "value", "u_num", **ball)
     errors = together({"forces": rows_of(force_of_a_ball, balls), "models": models}).then(lambda of: _errors(**of))
     return errors.then(lambda table: {"": table, "cancel": meeting_points(table)})
 

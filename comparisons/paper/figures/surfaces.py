@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
 from comparisons.output.style import COLOURS, MODEL_LINES
-from comparisons.paper.drawing import LABELS, by_model, held, legend_below, level, lines_by, of_model, panels
+from comparisons.paper.drawing import LABELS, by_model, case, legend_below, level, lines_by, of_model, panels
 from comparisons.paper.paper_figure import Tables, paper_figure
 from comparisons.paper.plan import Plan, cases, result_of, rows_of, table_of, together
 from comparisons.paper.tasks import COHESIVE, GRADIENTS, cohesive_surface, profile, quantity, surface
@@ -47,8 +47,8 @@ def _draw(figure: Figure, table: pd.DataFrame, name: str, words: str, farthest: 
     legend_below(figure, 4)
 
 
-_over_tabor_numbers = partial(_draw, name="mu", words=held(n=_N, k=_K), farthest=5.0, top=6.2)
-_over_gradients = partial(_draw, name="k", words=held(n=_N, mu=_MU), farthest=4.0, top=2.0)
+_over_tabor_numbers = partial(_draw, name="mu", words=case(n=_N, k=_K), farthest=5.0, top=6.2)
+_over_gradients = partial(_draw, name="k", words=case(n=_N, mu=_MU), farthest=4.0, top=2.0)
 
 
 @paper_figure(_over_tabor_numbers, size=(7.2, 3.7), follows_path=True)
@@ -81,7 +81,7 @@ def _radii(shapes: dict[str, dict[str, Any]]) -> pd.DataFrame:
 
 
 def _over_models(figure: Figure, table: pd.DataFrame, radii: pd.DataFrame) -> None:
-    left, right = panels(figure, (held(**_CASE),) * 2, "radius", sharex=True)
+    left, right = panels(figure, (case(**_CASE),) * 2, "radius", sharex=True)
     by_model(left, table, "radius", "height")
     by_model(right, table, "radius", "pressure")
     (exact,) = of_model(table, "fscm")

@@ -4,7 +4,6 @@ import tracemalloc
 
 import pytest
 
-from comparisons.cli.main import main
 from comparisons.data import validation
 from comparisons.data.folder_entries import TooMany, entries_below
 from comparisons.data.toml_text import parse
@@ -22,12 +21,6 @@ def test_an_underscore_or_another_digit_is_no_number(option, number, refused):
 @pytest.mark.parametrize("option", ["--jobs", "--random", "--seed"])
 def test_nor_is_it_an_integer(option, refused):
     refused(["run", option, "1_0"], option, "not an integer")
-
-
-def test_plain_numbers_are_what_they_were(capsys):
-    command = "solve --model bradley --quantity pull_off_force --n 2.0e0 --k .0 --mu +1"
-    assert main(command.split()) == 0
-    assert "2" in capsys.readouterr().out
 
 
 KEYS = [f"a{'.a' * 2_000} = 1", f"[a{'.a' * 2_000}]", 'x = [{"a" . b' + ".'c'" * 40 + " = 1}]"]

@@ -13,7 +13,7 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.external.hidden_folders import hidden_folders, hidden_from_models
+from comparisons.external.inherited import hidden_folders, hidden_from_models
 from comparisons.external.landlock import confine
 from comparisons.external.mounts import every_path
 from comparisons.model import ComputationFailed

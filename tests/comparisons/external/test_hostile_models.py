@@ -13,9 +13,9 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.external import child, process_model
 from comparisons.external.child import Child
+from comparisons.external.inherited import at_most
 from comparisons.external.model_source import close_models, load_again, source_of
 from comparisons.external.replies import Malformed, curve_of, described
-from comparisons.external.total_time import at_most
 from comparisons.model import ComputationFailed
 from comparisons.registry import create
 from comparisons.runs.computation import complete

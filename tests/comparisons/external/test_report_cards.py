@@ -1,5 +1,8 @@
 """Verdicts that a model cannot get round: each kind of model has its own plain sentence."""
 
+from dataclasses import replace
+from xml.etree import ElementTree
+
 import pandas as pd
 import pytest
 
@@ -11,7 +14,7 @@ from comparisons.judging.fresh_cases import draw
 from comparisons.judging.gates import load_gates
 from comparisons.judging.report_card import card_lines
 from comparisons.pipeline import inputs, report_cards
-from comparisons.pipeline.run import run
+from comparisons.pipeline.run import _named, run
 from comparisons.problem import Problem
 from comparisons.registry import create
 from comparisons.runs.cases import load_grids
@@ -205,10 +208,15 @@ def finished(tmp_path_factory):
         close_models()
 
 
+def lines_of(judgement, name):
+    domain = judgement.inputs.domains.get(name)
+    return dict(card_lines(name, judgement.verdicts, judgement.checks, judgement.cards[name], domain))
+
+
 @pytest.mark.parametrize("name", MODELS)
 def test_each_kind_of_model_has_its_verdict(finished, name):
     *_, verdict, piece = MODELS[name]
-    lines = dict(card_lines(name, finished.verdicts, finished.cards[name], finished.inputs.domains.get(name)))
+    lines = lines_of(finished, name)
     assert lines["verdict"].startswith(verdict), lines
     assert piece in str(lines)
     if name == "honest":
@@ -218,12 +226,30 @@ def test_each_kind_of_model_has_its_verdict(finished, name):
         assert lines["check-model"] == "kept: 0 of 1 checks; not kept: is of the right size: it is not"
 
 
+def test_a_model_that_does_not_repeat_its_values_fails_wherever_verdicts_are_read(finished):
+    verdicts = finished.verdicts.query("candidate == 'noise' and verdict == 'PASS'")
+    of_one = replace(finished, verdicts=verdicts, cards={"noise": finished.cards["noise"]})
+    assert len(of_one.verdicts) >= 12
+    assert str(of_one.verdict) == "FAIL"
+    assert {(name, verdict) for name, verdict, _ in _named(of_one) if "GIVEN" not in name} == {
+        ("evaluated again[noise]", "FAIL"),
+        ("digits[noise]", "PASS"),
+    }
+    failures = [
+        case.get("name")
+        for case in ElementTree.parse(finished.folder / "junit.xml").iter("testcase")
+        if case.find("failure") is not None
+    ]
+    assert {"noise evaluated again", "state evaluated again"} <= {*failures}
+
+
 def test_the_record_has_coverage_and_fresh_cases_and_a_new_judgement_is_the_same(finished):
     record = read_record(finished.folder / "run.json")
     assert (record["fresh"]["count"], record["fresh"]["seed"]) == (5, 1)
     counts = {"asked": 12, "answered": 12, "not_applicable": 0, "failed": 0, "outside": 0}
     assert {"gate": "GIVEN", "candidate": "honest", "verdict": "PASS"} | counts in record["coverage"]
-    assert {"CARD-SAME-AGAIN", "CARD-DIFFERS", "GIVEN-RANDOM"} <= {row["gate"] for row in record["coverage"]}
+    # The checks of the cards are no rows of the verdicts.
+    assert {row["gate"] for row in record["coverage"]} == {"GIVEN", "GIVEN-RANDOM"}
     rows = pd.read_csv(finished.folder / "results.csv")
     assert (rows["model"] == "honest").sum() == 12 + 5
     before = (finished.folder / "verdicts.csv").read_bytes()
@@ -245,7 +271,7 @@ def test_the_digits_of_a_numerical_reference_are_no_pass_and_data_are_not_evalua
     ]
     gate = GATE.replace('"dmt"', '"atlas"').replace("1e-6", "1e-3")
     judgement = run("quick", gate, [str(write_data(rows))], tmp_path / "runs", random=5).judgement
-    lines = dict(card_lines("measured", judgement.verdicts, judgement.cards["measured"], Domain(())))
+    lines = lines_of(judgement, "measured")
     assert "a value in 4 of 4 (8 outside)" in lines["GIVEN"]
     assert lines["evaluated again"] == "nothing: data do not change"
     # There is no room for fresh cases beside those of the data.

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from comparisons.judging.decision import Verdict, decide, expecting_failure, roll_up
 from comparisons.judging.fresh_verdicts import compare_with_standing
 from comparisons.judging.judge import Judged, verdict_table
-from comparisons.judging.report_card import DIFFERS, judge_cards, judge_digits, overall
+from comparisons.judging.report_card import AGAIN, DIGITS, ModelCheck, check_models, overall
 from comparisons.judging.summary import summarise, worst_first
 
 NUMBERS = st.floats(-1e3, 1e3)
@@ -175,28 +175,32 @@ def test_fresh_cases_of_a_problem_file_are_between_its_standing_ones():
 
 
 @pytest.mark.parametrize(
-    ("verdicts", "expected"),
+    ("of_gates", "of_card", "expected"),
     [
-        ({"A": "PASS", "CARD-SAME-AGAIN": "PASS"}, "PASS"),
-        ({"A": "PASS", "CARD-SAME-AGAIN": "FAIL"}, "FAIL"),
-        ({"A": "PASS", "CARD-DIFFERS": "INCONCLUSIVE"}, "INCONCLUSIVE"),
-        ({"A": "FAIL", "CARD-DIFFERS": "INCONCLUSIVE"}, "FAIL"),
-        ({"CARD-SAME-AGAIN": "PASS", "CARD-DIFFERS": "PASS"}, "ERROR"),
-        ({"A": "NOT-APPLICABLE", "CARD-SAME-AGAIN": "PASS"}, "ERROR"),
-        ({}, "ERROR"),
+        (["PASS"], ["PASS"], "PASS"),
+        (["PASS"], ["PASS", "FAIL"], "FAIL"),
+        (["PASS"], ["INCONCLUSIVE"], "INCONCLUSIVE"),
+        (["FAIL"], ["INCONCLUSIVE"], "FAIL"),
+        (["NOT-APPLICABLE"], ["PASS"], "ERROR"),
+        ([], ["PASS", "PASS"], "ERROR"),
+        ([], [], "ERROR"),
     ],
 )
-def test_checks_of_a_card_count_beside_a_gate_and_not_in_its_place(verdicts, expected):
-    assert overall(pd.DataFrame({"gate": [*verdicts], "verdict": [*verdicts.values()]})) == expected
+def test_checks_of_a_card_count_beside_a_gate_and_not_in_its_place(of_gates, of_card, expected):
+    checks = [ModelCheck("mine", AGAIN, Verdict(verdict), "") for verdict in of_card]
+    assert overall(pd.DataFrame({"verdict": of_gates}), checks) == expected
 
 
 @pytest.mark.parametrize(
     ("again", "expected"), [(1.5, "PASS"), (1.5 + 1e-9, "PASS"), (1.5 - 3e-9, "FAIL"), (None, "FAIL")]
 )
 def test_a_repeated_value_is_the_same_within_what_is_allowed(again, expected):
-    case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": None, "first": 1.5, "again": again}
-    judged = judge_cards({"mine": {"repeated": {"cause": "noise", "cases": [case | {"allowed": 2e-9}]}}})
-    assert judged["verdict"].tolist() == [expected]
+    case = {"first": 1.5, "again": 1.5, "allowed": 2e-9}
+    repeated = {"cause": "noise", "cases": [case, case | {"again": again}, case]}
+    nothing_compared = pd.DataFrame(columns=["candidate", "value", "reference_value"])
+    assert check_models(nothing_compared, {"mine": {"repeated": repeated}}) == [
+        ModelCheck("mine", AGAIN, Verdict(expected), "noise")
+    ]
 
 
 def compared(same, other, reference="fscm", k=0.4, gate="A"):
@@ -222,10 +226,10 @@ def compared(same, other, reference="fscm", k=0.4, gate="A"):
     ],
 )
 def test_most_values_of_a_gate_are_not_those_of_a_numerical_reference(rows, expected):
-    judged = judge_digits(pd.DataFrame(rows), ["mine", "other"])
-    assert judged[["gate", "candidate", "verdict"]].values.tolist() == [[DIFFERS, "mine", expected]]
+    (check,) = check_models(pd.DataFrame(rows), {"mine": {}, "other": {}})
+    assert check[:3] == ("mine", DIGITS, expected)
 
 
 def test_where_nothing_is_compared_digits_are_not_judged():
     missing = [row | {"value": None} for row in compared(2, 0)]
-    assert judge_digits(pd.DataFrame(missing), ["mine"]).empty
+    assert check_models(pd.DataFrame(missing), {"mine": {}}) == []

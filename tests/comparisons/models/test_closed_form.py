@@ -18,7 +18,7 @@ from comparisons.models.closed_form import ClosedForm, monomial
 from comparisons.models.jkr_sphere import JKRSphere
 from comparisons.models.jkr_surface_tension import JKRSurfaceTension
 from comparisons.problem import Problem, Section
-from comparisons.quantities import ALL_QUANTITIES, QUANTITIES
+from comparisons.quantities import QUANTITIES
 
 #: Every closed form of the registry, also one that is new.
 MODELS = [name for name in registry.MODELS if isinstance(create(name), ClosedForm)]
@@ -89,13 +89,6 @@ def test_a_curve_passes_the_events_of_its_model(name: str, n: float, k: float, m
     if hasattr(model, "jump_out_displacement") and mu > 1.0:
         fold = value("jump_out_displacement")
         assert fold - 1e-12 * extent <= curve.displacement.min() < fold + 2e-3 * extent
-
-
-def test_what_a_model_takes_are_the_quantities_with_a_method(model: ClosedForm) -> None:
-    problem = problem_of(model, 5.0)
-    for quantity in ALL_QUANTITIES:
-        method = "pull_off_profile" if quantity in {"pull_off_pressure", "pull_off_gap"} else quantity
-        assert (model.skip(problem, quantity) is None) == hasattr(model, method)
 
 
 def exact_power(base: float, exponent: float, wrong_base: float = 0.0, wrong_exponent: float = 0.0) -> Decimal:

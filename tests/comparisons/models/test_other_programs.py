@@ -108,12 +108,6 @@ def test_two_spheres_attract_each_other_as_in_lammps(model):
         assert -load_at(problem, model, overlap) == pytest.approx(attraction, rel=1e-8)
 
 
-def test_the_force_of_two_spheres_at_first_contact_is_that_of_dmt():
-    force = evaluated(sphere(0.5e9, 0.3, 0.5e-3, 2.0), create("dmt"), "pull_off_force").value
-    assert force == pytest.approx(2.0 * math.pi * 1e-3, rel=1e-14)
-    assert force == pytest.approx(LAMMPS["dmt"][1e-13], rel=1e-9)
-
-
 def test_two_fits_of_one_curve_by_hertz_have_one_load():
     """The load of DMT above that at first contact is Hertz's."""
     loads = []

@@ -8,10 +8,9 @@ import pytest
 
 import fem_reference
 import fscm
-from comparisons.model import ComputationFailed, NotApplicable, Result
+from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models.fem_model import _LEVELS, FiniteElements, _surface_at_pull_off
 from comparisons.models.fscm_model import StieltjesModel
-from comparisons.models.solver import result_of
 from comparisons.numerics.curve_distance import curve_distance, mesh_difference
 from comparisons.problem import Problem
 from comparisons.quantities import CURVES, QUANTITIES
@@ -24,13 +23,6 @@ def no_surface_of_another_test():
     _surface_at_pull_off.cache_clear()
     yield
     _surface_at_pull_off.cache_clear()
-
-
-def test_a_result_has_the_value_and_the_bound_of_the_solution_in_its_unit():
-    solution = Result(value=3.0, u_num=0.5, size=9, iterations=8, residual=7e-16)
-    result = result_of(solution, unit=2.0)
-    assert (result.value, result.u_num) == (1.5, 0.25)
-    assert (result.size, result.iterations, result.residual) == (9, 8, 7e-16)
 
 
 def test_the_curve_of_the_reference_holds_its_own_pull_off():

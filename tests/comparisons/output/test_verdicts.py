@@ -12,6 +12,7 @@ from markdown_it import MarkdownIt
 
 from comparisons.data.file_names import VERDICT_FILES, is_of_verdicts
 from comparisons.judging.decision import Verdict
+from comparisons.judging.report_card import ModelCheck
 from comparisons.output.junit import junit
 from comparisons.output.markup import markdown
 from comparisons.output.verdicts import command, write_verdicts
@@ -40,7 +41,7 @@ AGAIN = partial(command, specs={})
 
 
 def test_junit_has_one_test_case_a_gate_and_case():
-    root = ElementTree.fromstring(junit(JUDGED, AGAIN))
+    root = ElementTree.fromstring(junit(JUDGED, [], AGAIN))
     assert root.attrib == {"name": "fscm-bench", "tests": "7", "errors": "1", "failures": "3", "skipped": "2"}
     assert [suite.get("name") for suite in root] == ["ONE", "TWO", "THREE", "FOUR", "FIVE"]
     cases = root.findall(".//testcase")
@@ -52,11 +53,20 @@ def test_junit_has_one_test_case_a_gate_and_case():
 
 def test_junit_has_an_error_where_no_gate_of_the_user_was_evaluated():
     passed = JUDGED[JUDGED["verdict"] == Verdict.PASS]
-    for judged in (passed.assign(gate="CARD-DIFFERS"), JUDGED.iloc[:0]):
-        root = ElementTree.fromstring(junit(judged, AGAIN))
-        assert (root.get("tests"), root.get("errors")) == (str(len(judged) + 1), "1")
+    for checks in ([ModelCheck("jkr", "digits", Verdict.PASS, "")], []):
+        root = ElementTree.fromstring(junit(JUDGED.iloc[:0], checks, AGAIN))
+        assert (root.get("tests"), root.get("errors")) == (str(len(checks) + 1), "1")
         assert len(root.findall(".//error")) == 1
-    assert ElementTree.fromstring(junit(passed, AGAIN)).get("errors") == "0"
+    assert ElementTree.fromstring(junit(passed, [], AGAIN)).get("errors") == "0"
+
+
+def test_junit_has_a_failure_where_a_report_card_fails():
+    passed = JUDGED[JUDGED["verdict"] == Verdict.PASS]
+    verdicts = (Verdict.PASS, Verdict.INCONCLUSIVE, Verdict.FAIL)
+    checks = [ModelCheck("jkr", "digits", verdict, f"\x00 {verdict}") for verdict in verdicts]
+    root = ElementTree.fromstring(junit(passed, checks, AGAIN))
+    assert (root.get("tests"), root.get("failures")) == (str(len(passed) + 3), "2")
+    assert [failure.text for failure in root.findall(".//failure")] == ["? INCONCLUSIVE", "? FAIL"]
 
 
 AT = "--quantity pull_off_force --n 2 --k 0.4 --mu 1"
@@ -78,7 +88,6 @@ AT = "--quantity pull_off_force --n 2 --k 0.4 --mu 1"
             "sweep --model jkr --quantity pull_off_force --problem pad.toml --vary 'punch.R=1 um'",
         ),
         (WHOLE_GATE, "list gates"),
-        (WHOLE_GATE | {"gate": "CARD-DIFFERS"}, "check-model jkr"),
     ],
 )
 def test_the_command_of_a_row(row, words):
@@ -86,7 +95,7 @@ def test_the_command_of_a_row(row, words):
 
 
 def test_the_files_are_worst_first(tmp_path):
-    write_verdicts(tmp_path, JUDGED, [], {})
+    write_verdicts(tmp_path, JUDGED, [], [], {})
     files = {path.name for path in tmp_path.iterdir()}
     assert files == {*VERDICT_FILES, "verdicts.md", "verdicts.tex"}
     assert all(map(is_of_verdicts, files))

@@ -117,7 +117,6 @@ REFUSED = {
         "mine, owner",
     ),
     "code": (of_a_file(b"README.md"), "README.md"),
-    "beside": (of_a_file(b"docs/board/submissions/notes.md"), "notes.md"),
     "hides": (hidden, "submission.toml"),
     "line end": (of_a_file(b"docs/board/submissions/mine/a\nb"), "not every system"),
     "bytes": (of_a_file(b"docs/board/submissions/mi\xffne/a"), "not every system"),

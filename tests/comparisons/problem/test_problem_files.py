@@ -250,14 +250,5 @@ def test_the_key_interaction_reaches_both_solvers_and_no_closed_form_of_vertical
     assert evaluate("jkr-sphere", "pull_off_force", problem).value is not None
 
 
-@pytest.mark.parametrize(
-    ("changed", "kinds", "words"),
-    [
-        ({"body": "bodies"}, {}, "derjaguin, body"),
-    ],
-)
-def test_an_interaction_that_is_not_known_is_refused(written, changed, kinds, words):
-    old, new = OF_BODY
-    for name, other in changed.items():
-        new = new.replace(name, other)
-    refused(words, written, old, new, **(BALL | kinds))
+def test_an_interaction_that_is_not_known_is_refused(written):
+    refused("derjaguin, body", written, *(text.replace("body", "bodies") for text in OF_BODY), **BALL)

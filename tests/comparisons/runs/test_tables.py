@@ -137,9 +137,3 @@ def test_a_table_whose_cells_are_not_those_of_its_columns_is_refused(tmp_path, t
     (tmp_path / "results.csv").write_text(text)
     with pytest.raises(ValueError, match="results"):
         read_table(tmp_path / "results.csv")
-
-
-def test_a_table_keeps_texts_of_several_lines(tmp_path):
-    table = pd.DataFrame({"model": ["a\nb", "c"], "n": [2.0, 3.0]})
-    write_table(table, tmp_path / "results")
-    assert read_table(tmp_path / "results.csv")["model"].tolist() == ["a\nb", "c"]

@@ -90,7 +90,7 @@ def write_run(folder: Path) -> Path:
     write_table(curve_frame(curves()), folder / "curves")
     write_table(kappa, folder / "kappa")
     write_table(largest(kappa), folder / "largest_kappa")
-    write_verdicts(folder, pd.DataFrame(VERDICTS), load_gates(gates_text()), SPECS)
+    write_verdicts(folder, pd.DataFrame(VERDICTS), [], load_gates(gates_text()), SPECS)
     write_record(record(len(every)), folder / "run.json")
     return folder
 

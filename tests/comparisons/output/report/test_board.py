@@ -6,13 +6,13 @@ from dataclasses import replace
 import pandas as pd
 import pytest
 
-from comparisons.output.report.standing import Entry, standing
+from comparisons.output.report.board import Entry, standing
 from comparisons.output.report.stored_run import Stored
 
 
 def entry(kappa, results, planned):
     columns = ["quantity", "model", "n", "k", "mu", "nu", "reference", "kappa", "u_kappa"]
-    empty = pd.DataFrame(columns=["gate", "candidate", "quantity", "verdict"])
+    empty = pd.DataFrame(columns=["gate", "candidate", "quantity", "verdict", "value", "reference_value"])
     return Entry(Stored({}, results, empty, pd.DataFrame(kappa, columns=columns), *[empty] * 5), planned)
 
 
@@ -36,8 +36,15 @@ def test_a_verdict_on_the_whole_model_counts_for_every_quantity():
     kappa = [("pull_off_force", "a", 2.0, 0.0, 1.0, math.nan, "exact", 0.0, 0.0)]
     run_entry = entry(kappa, results, {(("a", "pull_off_force", 2.0, 0.0, 1.0, None, ""), "exact")})
     rows = [("A", "a", "jump_in_gap", "ERROR"), ("A", "b", "pull_off_force", "FAIL")]
-    passed, on_whole = ("A", "a", "pull_off_force", "PASS"), ("CARD-DIFFERS", "a", "", "INCONCLUSIVE")
-    for more, expected in (([passed], "PASS"), ([passed, on_whole], "INCONCLUSIVE"), ([on_whole], "")):
-        verdicts = pd.DataFrame([*rows, *more], columns=["gate", "candidate", "quantity", "verdict"])
-        (row,) = standing(replace(run_entry, stored=replace(run_entry.stored, verdicts=verdicts))).to_dict("records")
+    passed = ("A", "a", "pull_off_force", "PASS")
+    changing = {"repeated": {"cause": "a clock", "cases": [{"first": 1.0, "again": 2.0, "allowed": 0.0}]}}
+    columns = ["gate", "candidate", "quantity", "verdict"]
+    for more, cards, expected in (
+        ([passed], {}, "PASS"),
+        ([passed], {"a": changing}, "FAIL"),
+        ([], {"a": changing}, ""),
+    ):
+        verdicts = pd.DataFrame([*rows, *more], columns=columns).assign(value=None, reference_value=None)
+        stored = replace(run_entry.stored, verdicts=verdicts, record={"cards": cards})
+        (row,) = standing(replace(run_entry, stored=stored)).to_dict("records")
         assert row["verdict"] == expected
