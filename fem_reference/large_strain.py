@@ -45,6 +45,10 @@ NEARLY_INCOMPRESSIBLE = 0.45
 #: small strain at least, whose exterior takes one.
 CORE_EXTENT = 32.0
 
+#: Side of the core in lengths 2 Y/E* of the surface tension, within which the surface resists as the solid does: the
+#: exterior has none.
+TENSION_EXTENT = 16.0
+
 #: Height of the punch, in lengths of the law, at the end of the core at least.
 CORE_HEIGHT = 1000.0
 
@@ -72,12 +76,6 @@ def _check(problem: Problem, friction: FrictionName, form: Form, interaction: In
             f"punch_solid = {problem.punch_solid!r} cannot be had at finite strain, where displacements do not add and "
             "the punch is rigid; take `solve`, or leave it out"
         )
-    tension = condition_of(problem.solid).tension
-    if tension:
-        raise ValueError(
-            f"surface_tension = {tension:g} is outside [0, 0] at finite strain, where the energy of the area of the "
-            "surface is not included; take `solve`, whose surface tension is that of small slopes"
-        )
     if problem.solid.modulus.surface_exponent > 0.0:
         raise ValueError(
             "the modulus vanishes at the surface, where any tension makes short waves of a compressible surface "
@@ -94,11 +92,15 @@ def _discretisation(
         raise ValueError("form 'displacement' has no incompressible solid; choose 'mixed' or 'auto'")
     mixed = form == "mixed" or (form == "auto" and largest > NEARLY_INCOMPRESSIBLE)
     width = max(event.spec.edge_width, min(EDGE_WIDTH * problem.law.z0 / event.radius, 0.25))
-    spec = replace(event.spec, edge_width=width)
+    # The first layer is as deep for its width as that of small strain.
+    depth = event.spec.surface_depth * width / event.spec.edge_width
+    spec = replace(event.spec, edge_width=width, surface_depth=depth)
     solid = problem.solid
     scaling = isinstance(solid.modulus, PowerLawModulus) and not isinstance(solid.poisson, PoissonRatio)
     attracting, reach = (radius_at_height(problem.punch, height * problem.law.z0) for height in (1.0, CORE_HEIGHT))
-    extent = max(CORE_EXTENT * max(event.radius, attracting), reach) / event.radius
+    stiffness = float(problem.solid.modulus(np.array(event.radius))) / (1.0 - largest**2)
+    tense = TENSION_EXTENT * 2.0 * condition_of(problem.solid).tension / stiffness
+    extent = max(CORE_EXTENT * max(event.radius, attracting), reach, tense) / event.radius
     if not scaling:
         extent = max(extent, spec.extent)
     force = interaction_of(problem.punch, problem.law, interaction)
@@ -119,7 +121,8 @@ def solve_large_strain(
     A pressure p acts normal to the deformed surface: the potential of the punch at the place of the point
     ("body"), or the law at the vertical gap H = f(r + u_r) - delta + u_z ("derjaguin").  The first is what the atoms of
     an incompressible solid do, and counts the work of adhesion for the true area of the contact; the second counts it
-    for the projected area.  Beyond 32 contact radii the solid is linear, and extends to infinity.
+    for the projected area.  A surface tension Y of the solid has the energy Y times the true area of the surface.
+    Beyond 32 contact radii the solid is linear, and extends to infinity.
 
     Parameters
     ----------

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from fem_reference._validation import check_tension
 from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
 
 __all__ = ["NeoHookean"]
@@ -26,6 +27,8 @@ class NeoHookean:
         Poisson's ratio in [0, 0.5].
     k, c0, z_s : float
         Exponent of the modulus, 0 <= k < 1, the depth at which it is E0, and the offset of the depth, >= 0.
+    surface_tension : float
+        Y, a force per length: the energy of the surface is Y times its true area.
 
     Raises
     ------
@@ -47,12 +50,14 @@ class NeoHookean:
     k: float = 0.0
     c0: float = 1.0
     z_s: float = 0.0
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.nu) and 0.0 <= self.nu <= 0.5):
             raise ValueError(f"Poisson ratio nu = {self.nu} is outside [0, 0.5]: 0.5 is incompressible")
         if not (math.isfinite(self.z_s) and self.z_s >= 0.0):
             raise ValueError(f"offset z_s = {self.z_s} is outside [0, infinity): it is added to the depth")
+        check_tension(self.surface_tension)
         self.modulus  # noqa: B018  # validates the rest
 
     @property

@@ -50,10 +50,11 @@ OTHER_RATIOS = 0.4
 #: Contact radius of JKR at pull-off in R x.
 _CONTACT = (9.0 * math.pi / 8.0) ** (1.0 / 3.0)
 
-#: Fall of s/x over x in the limit of mu -> infinity, and its uncertainty for an incompressible solid and another one
-#: (measured: for an incompressible solid at w/(E* R) = 1e-3, 0.056, 0.083 and 0.097 at mu = 3, 5 and 10; for others
-#: 0.02 to 0.15 at Tabor numbers from 2 to 5, most where the surface is nearly unstable).
-STRAIN_CURVATURE, U_INCOMPRESSIBLE, U_COMPRESSIBLE = 0.1, 0.05, 0.1
+#: Fall of s/x over x in the limit of mu -> infinity, with its uncertainty, for an incompressible solid and another one
+#: (measured: for an incompressible solid at w/(E* R) = 1e-3, 0.056, 0.083, 0.097 and 0.044 at mu = 3, 5, 10 and 30, and
+#: 0.054 and 0.064 at mu = 30 and 1e-4 and 1e-5; for others 0.02 to 0.15 at Tabor numbers from 2 to 5, most where the
+#: surface is nearly unstable).
+OF_INCOMPRESSIBLE, OF_COMPRESSIBLE = Change(0.07, 0.07), Change(0.1, 0.1)
 
 #: Heights of the apex, in z0, between which the load of a rigid ball has its minimum.
 _HEIGHTS = (-0.4, 2.0)
@@ -98,19 +99,19 @@ def _strain_at(softness: float, mu: float, nu: float) -> Change:
     if mu <= last:
         return at_tabor_number(nodes, mu, nodes[last])
     least = float(np.cbrt(SOFTNESS[0]))
-    base = _strains(SOFTNESS[0], nu)
-    value = at_tabor_number(base, mu, _limit(least, nu, strain_limit(nu) * _CONTACT))
+    base, limit = _strains(SOFTNESS[0], nu), _limit(least, nu, strain_limit(nu) * _CONTACT)
+    value, there = (at_tabor_number(base, number, limit) for number in (mu, last))
     if softness == SOFTNESS[0]:
         return value
-    distance = Change(nodes[last].value - base[last].value, nodes[last].uncertainty + base[last].uncertainty)
+    distance = Change(nodes[last].value - there.value, nodes[last].uncertainty + there.uncertainty)
     further = towards(_limit(float(np.cbrt(softness)) - least, nu), distance, last / mu)
     return Change(value.value + further.value, value.uncertainty + further.uncertainty)
 
 
 def _limit(x: float, nu: float, first: float = 0.0) -> Change:
     """A limit of s/x: that of first order, and its term of higher order."""
-    uncertainty = U_INCOMPRESSIBLE if nu == POISSON_RATIOS[-1] else U_COMPRESSIBLE
-    return Change(first - STRAIN_CURVATURE * x, uncertainty * x)
+    fall = OF_INCOMPRESSIBLE if nu == POISSON_RATIOS[-1] else OF_COMPRESSIBLE
+    return Change(first - fall.value * x, fall.uncertainty * x)
 
 
 def shape_change(softness: float, mu: float) -> Change | None:

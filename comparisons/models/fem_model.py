@@ -206,18 +206,19 @@ class LargeStrain(SolverModel):
         self._interaction = interaction
 
     def skip(self, problem: Problem, quantity: str) -> str | None:
-        """Return why not, unless a rigid punch is on a plane solid without surface tension and friction, in SI."""
+        """Return why not, unless a rigid punch is on a plane solid without friction, in SI."""
         if reason := self._undefined(quantity) or no_critical_number(problem, quantity):
             return reason
         if problem.is_dimensionless:
             return "n, k and mu do not state how large the strains are; give a problem file"
-        stated = [*problem.surface, *(["punch_solid"] if problem.punch_solid else [])]
+        stated = ["solid.friction"] if "solid.friction" in problem.surface else []
+        stated += ["punch_solid"] if problem.punch_solid else []
         stated += ["punch.R_solid"] if "R_solid" in problem.punch.values else []
         if not stated:
             return _refused(_compressible(problem))
         return (
-            f"finite strain is for a rigid punch on a plane solid without surface tension and friction: leave out "
-            f"{', '.join(stated)}, or take small strains"
+            f"finite strain is for a rigid punch on a plane solid without friction: leave out {', '.join(stated)}, or "
+            "take small strains"
         )
 
     def _result(self, problem: Problem, quantity: str) -> Result:
@@ -239,7 +240,9 @@ def _body(problem: Problem) -> fem_reference.Problem:
     body: fem_reference.Problem = _compressible(problem).build(fem_reference)
     if problem.solid.kind != "homogeneous":
         return body
-    return replace(body, solid=fem_reference.NeoHookean(problem.solid["E"], problem.solid["nu"]))
+    solid = problem.solid
+    tension = solid.get("surface_tension", 0.0)
+    return replace(body, solid=fem_reference.NeoHookean(solid["E"], solid["nu"], surface_tension=tension))
 
 
 def _compressible(problem: Problem) -> Problem:

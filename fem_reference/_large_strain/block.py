@@ -106,6 +106,7 @@ def block_of(
     order: int,
     mixed: bool,
     friction: FrictionName = "none",
+    tension: float = 0.0,
     extra: int = EXTRA_POINTS,
 ) -> Block:
     """Discretise a half-space.
@@ -122,6 +123,8 @@ def block_of(
         Whether the pressure is an unknown of its own; an incompressible solid needs it.
     friction : {"none", "bonded"}
         Whether the points of the surface are free to slide, or keep their radii.
+    tension : float
+        Largest tension on the surface.
     extra : int
         Gauss points a direction beyond the degree.
     """
@@ -132,7 +135,7 @@ def block_of(
             softness = np.divide((1.0 + ratio) * (1.0 - 2.0 * ratio), ratio * E)
         return E / (2.0 * (1.0 + ratio)), softness
 
-    core = core_of(grid, constants, order, mixed, extra)
+    core = core_of(grid, constants, order, mixed, tension, extra)
     trace = trace_of(grid, order)
     boundary, signs = square_boundary(grid, core.dofs, order)
     at_end = min(float(poisson_at(nu, np.array(grid.extent))), EXTERIOR_RATIO)
@@ -163,16 +166,23 @@ def factorised(K: sparse.csc_array) -> SuperLU:
         raise NotConverged(f"the tangent of the solid of finite strain is singular: {error}") from error
 
 
-def linear_response(block: Block, pressure: Array) -> tuple[Array, Array]:
-    """Displacement and pressures of the linear solid under a pressure at the Gauss points of its surface."""
+def linear_response(block: Block, pressure: Array, stiffness: Array) -> tuple[Array, Array]:
+    """Displacement and pressures of the linear solid under a pressure at the Gauss points of its surface.
+
+    Parameters
+    ----------
+    block : Block
+    pressure : ndarray, shape (q,)
+    stiffness : ndarray, shape (e, 2 (p + 1), 2 (p + 1))
+        That of the surface elements.
+    """
     core, trace = block.core, block.trace
     zero = np.zeros(core.size)
     elements = core.condensed(zero, core.no_pressure(), 1.0)
     if elements is None:
         raise AssertionError("the undeformed solid is not turned inside out")
-    e, _, n = trace.local.shape
-    factors = factorised(block.matrix(elements.tangent, np.zeros((e, 2 * n, 2 * n))))
-    down = (trace.weight * trace.s * pressure).reshape(e, 1, -1) @ trace.local
+    factors = factorised(block.matrix(elements.tangent, stiffness))
+    down = (trace.weight * trace.s * pressure).reshape(trace.local.shape[0], 1, -1) @ trace.local
     load = summed(block.surface_rows[:, 1::2], down, core.size)
     u = np.zeros(core.size)
     u[block.free] = factors.solve(load[block.free])

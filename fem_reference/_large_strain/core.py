@@ -26,10 +26,11 @@ __all__ = ["Condensed", "Constants", "Core", "core_of"]
 #: solution is incompressible, and Newton's steps leave this share of what the volumes lack.
 TANGENT_COMPRESSIBILITY = 1e-7
 
-#: Of the shear modulus: largest part of lambda that the displacement carries itself in the mixed form. The volume is
-#: kept in the mean over test functions only, and where the mean tension is above 2 G, displacements that change it
-#: between them would have no stiffness; the exact solution changes no volume there. It is a half of lambda at most.
-OWN_SHARE, OWN_STIFFNESS = 0.5, 8.0
+#: Part of lambda that the displacement carries itself in the mixed form: that many shear moduli, or that many of the
+#: largest tensions if this is more, and at most that share of lambda. The volume is kept in the mean over test
+#: functions only; at a mean tension T, displacements that change it between them have the stiffness 2 G - T + this part
+#: (derived for a change of one stretch), and the exact solution changes no volume there.
+OWN_STIFFNESS, OWN_TENSIONS, OWN_SHARE = 8.0, 1.5, 0.5
 
 #: Elements whose tangents are formed at once: the caches hold them.
 CHUNK = 64
@@ -76,6 +77,8 @@ class Core:
     grid : Grid
     dofs : skfem.Dofs
         Numbering of the scalar functions; component c of unknown i is row 2 i + c.
+    order : int
+        Degree p of the displacement; that of the pressure is p - 1.
     mixed : bool
         Whether the pressure is an unknown of its own.
     rows : ndarray of int, shape (e, 2 n)
@@ -93,6 +96,7 @@ class Core:
 
     grid: Grid
     dofs: Dofs
+    order: int
     mixed: bool
     rows: Index
     functions: Array
@@ -229,7 +233,9 @@ def _contracted(functions: Array, P: Array, D: Array) -> tuple[Array, Array]:
     return K, r
 
 
-def core_of(grid: Grid, constants: Constants, order: int, mixed: bool, extra: int = EXTRA_POINTS) -> Core:
+def core_of(
+    grid: Grid, constants: Constants, order: int, mixed: bool, tension: float = 0.0, extra: int = EXTRA_POINTS
+) -> Core:
     """Return the elements of a grid.
 
     Parameters
@@ -241,6 +247,8 @@ def core_of(grid: Grid, constants: Constants, order: int, mixed: bool, extra: in
         Degree p of the displacement; that of the pressure is p - 1.
     mixed : bool
         Whether the pressure is an unknown of its own.
+    tension : float
+        Largest tension on the surface.
     extra : int
         Gauss points a direction beyond the degree.
     """
@@ -254,8 +262,9 @@ def core_of(grid: Grid, constants: Constants, order: int, mixed: bool, extra: in
     r, z = grid.r[columns, None] + wide * X[0], grid.z[layers, None] + high * X[1]
     shear, softness = constants(z)
     stiff = np.divide(1.0, softness, out=np.full_like(softness, np.inf), where=softness > 0.0)
-    lame = np.minimum(OWN_SHARE * stiff, OWN_STIFFNESS * shear) if mixed else stiff
+    own = np.maximum(OWN_STIFFNESS * shear, OWN_TENSIONS * tension)
+    lame = np.minimum(OWN_SHARE * stiff, own) if mixed else stiff
     rest = np.where(np.isinf(stiff), 0.0, 1.0 / (stiff - lame)) if mixed else np.zeros_like(stiff)
     scale = np.stack([np.broadcast_to(1.0 / wide, r.shape), np.broadcast_to(1.0 / high, r.shape), 1.0 / r])
     functions, tests = np.stack([along_r, along_z, N]), pressure_functions(X, order - 1)
-    return Core(grid, dofs, mixed, rows, functions, tests, scale, r * W * wide * high, shear, lame, rest)
+    return Core(grid, dofs, order, mixed, rows, functions, tests, scale, r * W * wide * high, shear, lame, rest)

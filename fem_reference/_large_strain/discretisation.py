@@ -10,6 +10,7 @@ from typing import cast
 
 import numpy as np
 
+from fem_reference._contact.bodies import condition_of
 from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.friction import FrictionName
 from fem_reference._contact.mesh_lengths import scales
@@ -20,10 +21,11 @@ from fem_reference._elastic.elasticity import EXTRA_POINTS
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import variant
 from fem_reference._large_strain.block import Block, block_of
-from fem_reference._large_strain.equilibrium import Control, State, extrapolated, solve_state
+from fem_reference._large_strain.equilibrium import ROUGH_TOLERANCE, Control, State, extrapolated, solve_state
 from fem_reference._large_strain.start import small_strain_state
 from fem_reference._large_strain.surface import Surface
 from fem_reference._large_strain.surface_stability import largest_tension
+from fem_reference._large_strain.transfer import carried_over
 from fem_reference.errors import NotConverged
 from fem_reference.interaction import Interaction
 from fem_reference.modulus import Modulus, OffsetPowerLawModulus, PowerLawModulus
@@ -39,8 +41,14 @@ LARGEST_RATIO = 0.49
 #: Share of the tension at which a flat surface is unstable from which on it is named as the reason.
 NEAR_LIMIT = 0.75
 
+#: Degrees of the elements on which an event is sought first: fewer ones by so many, and the least.
+FEWER_DEGREES, LEAST_DEGREE = 2, 4
+
 #: Factor of the strains to begin with where the linear state is too far away; its first and its smallest step.
-FIRST_FINITENESS, FIRST_STEP, SMALLEST_STEP = 0.05, 0.2, 0.01
+FIRST_FINITENESS, FIRST_STEP, SMALLEST_STEP = 0.05, 0.2, 0.005
+
+#: Factor of the next step of the strains after a state that was found in a few Newton steps.
+LONGER, FEW = 1.5, 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,10 +94,10 @@ def linear_problem(problem: Problem, friction: FrictionName = "none") -> Problem
     if nu <= LARGEST_RATIO and stiffer == 1.0:
         return problem
     ratio = min(nu, LARGEST_RATIO)
-    E0 = modulus.E0 * stiffer * (1.0 - ratio**2) / (1.0 - nu**2)
+    E0, tension = modulus.E0 * stiffer * (1.0 - ratio**2) / (1.0 - nu**2), condition_of(solid).tension
     if isinstance(modulus, OffsetPowerLawModulus):
-        return replace(problem, solid=OffsetPowerLaw(E0, modulus.c0, modulus.k, modulus.z_s, ratio))
-    return replace(problem, solid=PowerLaw(E0, modulus.c0, modulus.k, ratio))
+        return replace(problem, solid=OffsetPowerLaw(E0, modulus.c0, modulus.k, modulus.z_s, ratio, tension))
+    return replace(problem, solid=PowerLaw(E0, modulus.c0, modulus.k, ratio, tension))
 
 
 def linear_event(
@@ -151,6 +159,11 @@ class Discretisation:
         solid = self.problem.solid
         return isinstance(solid.modulus, PowerLawModulus) and not isinstance(solid.poisson, PoissonRatio)
 
+    @property
+    def unit_of_traction(self) -> float:
+        """The modulus of a solid without a length, which has that of its elements as 1."""
+        return float(self.problem.solid.modulus(np.array(self.size))) if self._without_length else 1.0
+
     def block(self, radius: float) -> Block:
         """Return the elements with their edge at a radius."""
         solid = self.problem.solid
@@ -163,9 +176,26 @@ class Discretisation:
 
     def surface(self, block: Block, radius: float) -> Surface:
         """Return punch and law at a radius of the edge."""
-        unit = float(self.problem.solid.modulus(np.array(radius))) if self._without_length else 1.0
         punch, law = self.problem.punch, self.problem.law
-        return Surface(block.trace, block.slopes, punch, law, self.interaction, radius, unit)
+        unit = self.unit_of_traction
+        tension = condition_of(self.problem.solid).tension / (unit * radius)
+        return Surface(block.trace, block.slopes, punch, law, self.interaction, radius, unit, tension=tension)
+
+    @property
+    def coarser(self) -> Discretisation:
+        """The discretisation on which an event is sought first."""
+        return replace(self, spec=replace(self.spec, order=max(LEAST_DEGREE, self.spec.order - FEWER_DEGREES)))
+
+    def carried(self, state: State, radius: float, control: Callable[[Block], Control]) -> State:
+        """Solve a state from one on other elements.
+
+        Raises
+        ------
+        NotConverged
+            If it is not found.
+        """
+        block = self.block(radius)
+        return solve_state(carried_over(state, block, self.surface(block, radius)), control(block))
 
     def first_state(self, event: LinearEvent, radius: float, control: Callable[[Block], Control]) -> State:
         """Solve a state from one of small strain, in one step or by raising the factor of the strains to 1.
@@ -182,7 +212,7 @@ class Discretisation:
             return solve_state(linear, control(block))
         before: State | None = None
         state = replace(linear, surface=replace(surface, finiteness=FIRST_FINITENESS))
-        state, step = solve_state(state, control(block)), FIRST_STEP
+        state, step = solve_state(state, control(block), ROUGH_TOLERANCE), FIRST_STEP
         while state.surface.finiteness < 1.0:
             step = min(step, 1.0 - state.surface.finiteness)
             finiteness = 1.0 if step > 0.999 - state.surface.finiteness else state.surface.finiteness + step
@@ -191,7 +221,7 @@ class Discretisation:
                 if before is not None:
                     ratio = step / (state.surface.finiteness - before.surface.finiteness)
                     start = extrapolated(before, start, ratio)
-                following = solve_state(start, control(block))
+                following = solve_state(start, control(block), ROUGH_TOLERANCE)
             except NotConverged as error:
                 step *= 0.5
                 if step < SMALLEST_STEP:
@@ -201,14 +231,18 @@ class Discretisation:
                     ) from error
                 continue
             before, state = state, following
-        return state
+            if state.iterations <= FEW:
+                step *= LONGER
+        return solve_state(state, control(block))
 
 
 @lru_cache(maxsize=4)
 def _block(choice: Discretisation, spec: MeshSpec, modulus: Hashable, nu: Hashable) -> Block:
     grid = variant(spec, choice.feature).grid() if choice.feature else spec.grid()
     constants = cast(Modulus, modulus), cast(float, nu)
-    return block_of(grid, *constants, spec.order, choice.mixed, choice.friction, choice.extra)
+    law = choice.problem.law
+    tension = -float(law.traction(np.array(law.peak_gap))) / choice.unit_of_traction
+    return block_of(grid, *constants, spec.order, choice.mixed, choice.friction, tension, choice.extra)
 
 
 def _reason(problem: Problem) -> str:

@@ -12,14 +12,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fem_reference._large_strain.block import Block, factorised, summed
-from fem_reference._large_strain.surface import Faces, Surface
+from fem_reference._large_strain.faces import Faces
+from fem_reference._large_strain.surface import Surface
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 
-__all__ = ["Control", "State", "extrapolated", "solve_state"]
+__all__ = ["ROUGH_TOLERANCE", "Control", "State", "extrapolated", "solve_state"]
 
 #: Largest last step in lengths of the law: the next one would be about its square.
 NEWTON_TOLERANCE = 1e-6
+
+#: As that, of a state on the way to another one.
+ROUGH_TOLERANCE, ROUGH_STEPS = 1e-2, 6
 
 #: Steps before giving up.
 NEWTON_STEPS = 16
@@ -137,13 +141,15 @@ class _Step:
     residual: float
 
 
-def solve_state(start: State, control: Control) -> State:
+def solve_state(start: State, control: Control, tolerance: float = NEWTON_TOLERANCE) -> State:
     """Solve the equilibrium with a gap given.
 
     Parameters
     ----------
     start : State
     control : Control
+    tolerance : float
+        Largest last step in lengths of the law; fewer steps are tried for a larger one.
 
     Raises
     ------
@@ -152,12 +158,13 @@ def solve_state(start: State, control: Control) -> State:
     """
     state = start
     unit = start.surface.law.z0 / start.surface.size
-    for iteration in range(1, NEWTON_STEPS + 1):
+    steps = NEWTON_STEPS if tolerance <= NEWTON_TOLERANCE else ROUGH_STEPS
+    for iteration in range(1, steps + 1):
         step = _newton_step(state, control)
         factor = _damping(state, step)
         state = _moved(state, step, factor)
         size = float(np.abs(step.u).max())
-        if factor == 1.0 and size <= NEWTON_TOLERANCE * unit:
+        if factor == 1.0 and size <= tolerance * unit:
             return replace(
                 state,
                 iterations=iteration,

@@ -15,6 +15,7 @@ from fem_reference._large_strain.block import EXTERIOR_RATIO
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent
 from fem_reference._large_strain.equilibrium import State, solve_state
 from fem_reference._large_strain.events import Family, PathEvent, found_event
+from fem_reference.errors import NotConverged
 
 __all__ = ["Estimate", "Functional", "estimate", "state_bounds", "variants_of"]
 
@@ -62,18 +63,28 @@ def _events_of(
     starts: Mapping[str, PathEvent],
     stationary: bool,
 ) -> dict[str, PathEvent]:
-    """Events on meshes, sought from those of other meshes; a stationary quantity needs only the same parameter."""
+    """Events on elements, sought from those on other ones; a stationary quantity needs only the same parameter."""
     events: dict[str, PathEvent] = {}
     for name, discretisation in discretisations.items():
-        family = Family(discretisation, linear[name])
-        start = starts[name].x if name in starts else 0.0
-        if stationary and name in starts:
-            state = family.state(start)
-            events[name] = PathEvent(start, state, state)
+        family = Family(discretisation, linear[name], starts.get(name))
+        if stationary:
+            state = family.state(family.start)
+            events[name] = PathEvent(family.start, state, state)
             continue
         level = events[LEVELS[name]].state.displacement if name in LEVELS else 0.0
-        events[name] = found_event(name, family, start, level)
+        events[name] = found_event(name, family, level)
     return events
+
+
+def _first_events(
+    discretisations: Mapping[str, Discretisation], linear: Mapping[str, LinearEvent]
+) -> dict[str, PathEvent]:
+    """Events on elements of a lower degree; none where they have no states."""
+    coarser = {name: discretisation.coarser for name, discretisation in discretisations.items()}
+    try:
+        return _events_of(coarser, linear, {}, stationary=False)
+    except NotConverged:
+        return {}
 
 
 def estimate(
@@ -97,7 +108,7 @@ def estimate(
     NotConverged
         If an event is not found on one of the meshes.
     """
-    rough = _events_of(bases, linear, {}, stationary=False)
+    rough = _events_of(bases, linear, _first_events(bases, linear), stationary=False)
     # Lines of the punch or the solid, which lay where the edge of small strain puts them, get their places.
     placed = {
         name: base.at(linear[name].radius * math.exp(rough[name].x)) if linear[name].point.branch.touching else base
@@ -141,7 +152,8 @@ def state_bounds(state: State, base: Discretisation, linear: LinearEvent) -> tup
     NotConverged
         If the state is not found on one of the meshes.
     """
-    changed = [Family(variant, linear).state(0.0) for variant in variants_of(base).values()]
+    origin = PathEvent(0.0, state, state)
+    changed = [Family(variant, linear, origin).state(0.0) for variant in variants_of(base).values()]
 
     def bound(measure: Callable[[State], float]) -> float:
         value = measure(state)

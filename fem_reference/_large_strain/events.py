@@ -45,11 +45,19 @@ class Family:
     discretisation : Discretisation
     event : LinearEvent
         Event of small strain, at x = 0.
+    origin : PathEvent, optional
+        The event on other elements, from which the first state is carried over.
     """
 
     discretisation: Discretisation
     event: LinearEvent
+    origin: PathEvent | None = None
     _states: dict[float, State] = field(default_factory=dict)
+
+    @property
+    def start(self) -> float:
+        """Parameter of the first state."""
+        return 0.0 if self.origin is None else self.origin.x
 
     def state(self, x: float) -> State:
         """Return the state at the parameter.
@@ -65,8 +73,7 @@ class Family:
 
     def _solved(self, x: float) -> State:
         if not self._states:
-            radius, control = self._condition(x)
-            return self.discretisation.first_state(self.event, radius, control)
+            return self._first(x)
         nearest = min(self._states, key=lambda other: abs(other - x))
         try:
             return self._continued(x)
@@ -75,6 +82,14 @@ class Family:
                 raise
         self.state(0.5 * (x + nearest))
         return self.state(x)
+
+    def _first(self, x: float) -> State:
+        """Solve the first state, from that of other elements or of small strain."""
+        radius, control = self._condition(x)
+        if self.origin is not None:
+            with suppress(NotConverged):
+                return self.discretisation.carried(self.origin.state, radius, control)
+        return self.discretisation.first_state(self.event, radius, control)
 
     def _condition(self, x: float) -> tuple[float, Callable[[Block], Control]]:
         """Radius of the edge of the mesh, and the control."""
@@ -86,13 +101,13 @@ class Family:
         return self.event.radius, lambda block: Control(0, point.parameter + x * law.z0)
 
     def _continued(self, x: float) -> State:
-        """Solve a state from those nearest to it, or from that of small strain if the elements are others."""
+        """Solve a state from those nearest to it."""
         radius, control = self._condition(x)
         block = self.discretisation.block(radius)
         near, *others = sorted(self._states, key=lambda other: abs(other - x))
         state = self._states[near]
         if block.core.size != state.block.core.size:
-            return self.discretisation.first_state(self.event, radius, control)
+            return self.discretisation.carried(state, radius, control)
         start = replace(state, block=block, surface=self.discretisation.surface(block, radius))
         others = [other for other in others if abs(other - near) <= LARGEST_BASE]
         if others and self._states[others[0]].u.size == state.u.size:
@@ -128,16 +143,14 @@ EVENTS: Mapping[str, tuple[Measure, int]] = {
 }
 
 
-def found_event(name: str, family: Family, start: float = 0.0, level: float = 0.0) -> PathEvent:
-    """Find an event near a parameter.
+def found_event(name: str, family: Family, level: float = 0.0) -> PathEvent:
+    """Find an event near that of the origin of a family, or near that of small strain.
 
     Parameters
     ----------
     name : str
         Of `EVENTS`.
     family : Family
-    start : float
-        Parameter.
     level : float
         Value of the measure at a root.
 
@@ -148,20 +161,22 @@ def found_event(name: str, family: Family, start: float = 0.0, level: float = 0.
     """
     measure, kind = EVENTS[name]
     if kind:
-        return _extremum(family, lambda state: kind * measure(state), start)
-    return _root(family, lambda state: measure(state) - level, start)
+        return _extremum(family, lambda state: kind * measure(state))
+    return _root(family, lambda state: measure(state) - level)
 
 
-def _extremum(family: Family, measure: Measure, start: float) -> PathEvent:
-    """Find a minimum by polynomials through the nearest states, with shorter steps where states are hard to find."""
-    for step in FIRST_STEPS[:-1]:
-        with suppress(NotConverged):
-            return _extremum_by(step, family, measure, start)
-    return _extremum_by(FIRST_STEPS[-1], family, measure, start)
+def _extremum(family: Family, measure: Measure) -> PathEvent:
+    """Find a minimum, with shorter steps where one is near or states are hard to find."""
+    if family.origin is None:
+        for step in FIRST_STEPS[:-1]:
+            with suppress(NotConverged):
+                return _extremum_by(step, family, measure)
+    return _extremum_by(FIRST_STEPS[-1], family, measure)
 
 
-def _extremum_by(step: float, family: Family, measure: Measure, start: float) -> PathEvent:
-    """Find a minimum, going towards it by a step."""
+def _extremum_by(step: float, family: Family, measure: Measure) -> PathEvent:
+    """Find a minimum by polynomials through the nearest states, going towards it by a step."""
+    start = family.start
     values = {start: measure(family.state(start))}
     values[start - step] = measure(family.state(start - step))
     before: float | None = None
@@ -187,9 +202,9 @@ def _extremum_by(step: float, family: Family, measure: Measure, start: float) ->
     raise NotConverged("the path of finite strain has no such event near that of small strain")
 
 
-def _root(family: Family, measure: Measure, start: float) -> PathEvent:
+def _root(family: Family, measure: Measure) -> PathEvent:
     """Find a root by the secant method."""
-    before, x = start, start + FIRST_STEPS[-1]
+    before, x = family.start, family.start + FIRST_STEPS[-1]
     for _ in range(STEPS):
         first, second = measure(family.state(before)), measure(family.state(x))
         slope = (second - first) / (x - before)

@@ -7,6 +7,7 @@ import numpy as np
 from fem_reference._contact.states import Point
 from fem_reference._large_strain.block import Block, linear_response
 from fem_reference._large_strain.equilibrium import State
+from fem_reference._large_strain.faces import Faces
 from fem_reference._large_strain.surface import Surface
 
 __all__ = ["small_strain_state"]
@@ -31,5 +32,6 @@ def small_strain_state(point: Point, block: Block, surface: Surface) -> State:
     w[inside] = compliance.trace.evaluate(s[inside]) @ y[:-2]
     gap = w - y[-2] + surface.punch.height(edge * block.trace.s)
     pressure = np.asarray(surface.law.traction(gap)) / surface.modulus
-    u, pressures = linear_response(block, pressure)
+    undeformed = Faces(block.trace.s, np.ones_like(s), np.zeros_like(s), gap)
+    u, pressures = linear_response(block, pressure, surface.stiffness(undeformed))
     return State(block, surface, u, pressures, float(y[-2]) / surface.size)

@@ -1,4 +1,4 @@
-"""Surface force on the deformed surface: residual, tangent, load and energy.
+"""Surface force and surface tension on the deformed surface: residual, tangent, load and energy.
 
 The pressure p(rho, H) of an `Interaction` acts at the current radius rho = r + u_r and the vertical gap
 H = f(rho) + u_z - delta.  The energy is the integral of p over the solid, that is of e(rho, H) 2 pi rho d rho over the
@@ -19,31 +19,17 @@ import numpy as np
 
 from fem_reference._contact.far_rule import far_rule
 from fem_reference._elastic.trace import Trace
+from fem_reference._large_strain.faces import Faces
+from fem_reference._large_strain.surface_area import excess, excess_residual, excess_tangent
 from fem_reference._typing import Array, Index
 from fem_reference.interaction import Interaction
 from fem_reference.laws import SurfaceLaw
 from fem_reference.punch import Punch
 
-__all__ = ["Faces", "Surface"]
+__all__ = ["Surface", "local_slopes"]
 
 #: Gauss points for the load beyond the mesh, in x = R/rho.
 TAIL_POINTS = 48
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Faces:
-    """Values at the Gauss points of the surface.
-
-    Attributes
-    ----------
-    rho, stretch, tilt, gap : ndarray, shape (q,)
-        Current radius, its derivative, derivative of u_z, and vertical gap H.
-    """
-
-    rho: Array
-    stretch: Array
-    tilt: Array
-    gap: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,6 +49,8 @@ class Surface:
         Units of length and of traction.
     finiteness : float
         Factor of the strains and of the rotation of the surface.
+    tension : float
+        Surface tension of the solid, in units of both.
     """
 
     trace: Trace
@@ -73,6 +61,7 @@ class Surface:
     size: float
     modulus: float
     finiteness: float = 1.0
+    tension: float = 0.0
 
     def faces(self, radial: Array, axial: Array, delta: float) -> Faces:
         """Return the faces under coefficients of u_r and u_z in surface order, and an approach."""
@@ -101,11 +90,19 @@ class Surface:
         return (by_radius + by_gap * self.punch.slope(rho)) * unit, by_gap * unit
 
     def residual(self, faces: Faces) -> tuple[Array, Array]:
-        """Return the derivatives of the energy of the faces by both components, shape (e, p + 1)."""
+        """Return the derivatives of the energy of the faces and of their area by both components, shape (e, p + 1)."""
         p = self.trace.weight * self.pressure(faces) * faces.rho
         e = self.trace.functions.shape[0]
         across, down = (p * faces.tilt).reshape(e, 1, -1), (p * faces.stretch).reshape(e, 1, -1)
-        return self.finiteness * (across @ self.trace.local)[:, 0], -(down @ self.trace.local)[:, 0]
+        forces = self.finiteness * (across @ self.trace.local)[:, 0], -(down @ self.trace.local)[:, 0]
+        if not self.tension:
+            return forces
+        of_area = excess_residual(faces, self.trace.weight, self.trace.local, self.slopes, self.finiteness)
+        return forces[0] + self.tension * of_area[0], forces[1] + self.tension * of_area[1]
+
+    def stiffness(self, faces: Faces) -> Array:
+        """Return the derivative of the forces of the surface tension, as in `tangent`."""
+        return self.tension * excess_tangent(faces, self.trace.weight, self.trace.local, self.slopes)
 
     def tangent(self, faces: Faces) -> tuple[Array, Array]:
         """Return the derivative of the residual by displacements, shape (e, 2 (p + 1), 2 (p + 1)), and by delta.
@@ -127,6 +124,8 @@ class Surface:
         K[:, 0::2, 1::2] = t * (product(down * rho * tilt, N) + t * product(p * rho, dN))
         K[:, 1::2, 0::2] = -t * (product(across * rho * stretch + p * stretch, N) + product(p * rho, dN))
         K[:, 1::2, 1::2] = -product(down * rho * stretch, N)
+        if self.tension:
+            K += self.stiffness(faces)
         by_delta = np.empty((e, 2 * n))
         by_delta[:, 0::2] = -t * product(down * rho * tilt, np.ones((1, per, 1)))[:, :, 0]
         by_delta[:, 1::2] = product(down * rho * stretch, np.ones((1, per, 1)))[:, :, 0]
@@ -153,12 +152,13 @@ class Surface:
         return 2.0 * math.pi * self.size**2 * self.modulus * (inside + beyond)
 
     def energy(self, faces: Faces, end: float, delta: float) -> float:
-        """Energy of the faces in units of the input."""
+        """Energy of the faces, and of the area of the surface of the mesh, in units of the input."""
         density = self.trace.weight * self.interaction.energy(self.size * faces.rho, self.size * faces.gap)
         inside = float((density * faces.rho) @ faces.stretch)
         r, w, gap = self._beyond(end, delta)
         beyond = float(w * r @ self.interaction.energy(self.size * r, self.size * gap))
-        return 2.0 * math.pi * self.size**2 * (inside + beyond)
+        area = self.size * self.modulus * self.tension * excess(faces, self.trace.weight, self.finiteness)
+        return 2.0 * math.pi * self.size**2 * (inside + beyond + area)
 
 
 def local_slopes(trace: Trace) -> Array:

@@ -82,4 +82,3 @@ def test_what_has_no_answer_is_refused():
     for problem in (pair, tense):
         refused("critical modulus", solve, problem, "critical_modulus")
     refused("punch_solid = .* finite strain", solve_large_strain, pair, FORCE)
-    refused("surface_tension = 0.1 .* finite strain", solve_large_strain, tense, FORCE)

@@ -1,6 +1,7 @@
 """The finite elements with finite strain as a model: its curve, the bound of that, and what it refuses."""
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -44,3 +45,22 @@ def test_a_curve_on_finer_meshes_is_within_both_bounds(monkeypatch):
     finer = LargeStrain().curve(GEL)
     distance = curve_distance(curve.displacement, curve.load, finer.displacement, finer.load)
     assert distance.value <= curve.u_distance + finer.u_distance + distance.u_interpolation
+
+
+def test_the_solver_gets_the_tension_of_a_problem_and_no_friction_or_second_body(monkeypatch):
+    posed = []
+
+    def solve_large_strain(body, quantity, interaction):
+        posed.append(body.solid)
+        return SimpleNamespace(value=1.0, u_num=0.1, unknowns=1, iterations=0)
+
+    monkeypatch.setattr(fem_reference, "solve_large_strain", solve_large_strain)
+    for nu in (0.3, 0.5):
+        gel = ball_on(5e-3, 2.0, nu).with_value("solid.surface_tension", 0.3)
+        assert LargeStrain().skip(gel, "pull_off_force") is None
+        LargeStrain().evaluate(gel, "pull_off_force")
+    assert [(solid.poisson, solid.surface_tension) for solid in posed] == [(0.3, 0.3), (0.5, 0.3)]
+    bonded = GEL.with_value("solid.friction", "bonded")
+    assert "solid.friction" in LargeStrain().skip(bonded, "pull_off_force")
+    pair = replace(GEL, punch_solid=GEL.solid)
+    assert "punch_solid" in LargeStrain().skip(pair, "pull_off_force")
