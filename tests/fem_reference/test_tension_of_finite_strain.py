@@ -154,3 +154,8 @@ def test_a_liquid_has_the_force_of_small_slopes():
     slopes = replace(liquid, solid=Homogeneous(0.91, 0.3, surface_tension=10.0))
     assert solution.value == pytest.approx(solve(slopes, FORCE).value, rel=2e-3)
     assert 1.0 < solution.value / math.pi < 4.0 / 3.0
+
+
+def test_the_energy_lost_under_tension_is_refused():
+    with pytest.raises(ValueError, match="hysteresis_energy"):
+        solve_large_strain(ball(1e-2, 2.0, 0.5, 0.1), "hysteresis_energy")
