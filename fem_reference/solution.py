@@ -12,7 +12,7 @@ from functools import partial
 
 from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.critical import stiffer_than_critical
-from fem_reference._contact.event_mesh import EventMesh, chosen, path_over_meshes
+from fem_reference._contact.event_mesh import EventMesh, chosen, whole_path
 from fem_reference._contact.events import JUMP_IN
 from fem_reference._contact.friction import FrictionName, with_friction
 from fem_reference._contact.mesh_lengths import scales
@@ -213,7 +213,7 @@ def _by_terms(
     sums = {name: _sum(solved[term] for term in row.terms or (name,)) for name, row in rows.items()}
     for name, solution in sums.items():
         if rows[name].terms and isinstance(solution, Solution):
-            further = further_losses(path_over_meshes(problem, accuracy))
+            further = further_losses(whole_path(problem, accuracy))
             if further:
                 sums[name] = _sum((solution, *_solved_together(problem, further, accuracy).values()))
     return sums
@@ -291,7 +291,7 @@ def _estimated(row: Quantity, mesh: EventMesh) -> None:
     """
     with suppress(NoSuchEvent):
         _solution(row, events_on_meshes(mesh))
-        if not mesh.meshes.one_for_all:
+        if not mesh.meshes.scale:
             uncondensed_events(mesh).prepare((row.functional,))
 
 

@@ -161,8 +161,8 @@ def events_on_meshes(mesh: EventMesh) -> EventsOnMeshes:
     problem, contact = meshes.problem, fine.contact
     plain = replace(spec, order=SEARCH_DEGREE)
     # Another placement of the edge needs another mesh if the solid does not scale: that of the degree below.
-    placements = (-PLACEMENT, PLACEMENT) if meshes.one_for_all else ()
-    sides = (-1.0, 1.0) if mesh.event and fine.anchor(mesh.event).radius_error > 0.0 else ()
+    placements = (-PLACEMENT, PLACEMENT) if meshes.scale else ()
+    sides = () if meshes.scale or fine.anchor(mesh.event).radius_error == 0.0 else (-1.0, 1.0)
 
     def on(other: MeshSpec) -> Contact:
         return meshes.contact(other, mesh.size)

@@ -128,7 +128,7 @@ def test_the_loss_on_meshes_of_their_own_has_every_jump(name, monkeypatch):
         }
 
     monkeypatch.setattr(solution_module, "_solved_together", solved)
-    monkeypatch.setattr(solution_module, "path_over_meshes", lambda problem, accuracy: events)
+    monkeypatch.setattr(solution_module, "whole_path", lambda problem, accuracy: events)
     problem = sphere_on(Exponential(3.0, 1.0, 5.0, 0.1))
     row = TABLE["hysteresis_energy"]
     loss = solution_module._by_terms(problem, {"hysteresis_energy": row}, "default")["hysteresis_energy"]

@@ -27,7 +27,6 @@ from fem_reference._contact.completeness import complete_path, displacement_rang
 from fem_reference._contact.event_mesh import chosen, event_mesh
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.meshes import Meshes
-from fem_reference._contact.width_search import search_path_on
 from fem_reference.accuracy import level_for
 from fem_reference.quantities import TABLE
 from tests.fem_reference.analytic_branch import AnalyticBranch
@@ -182,13 +181,13 @@ def test_a_level_reached_only_at_a_turning_point_between_samples_counts():
 def test_the_path_begins_beyond_the_jump_out_of_contact():
     """The jump out of a soft solid ends at a distance of 13 lengths of the law; on the coarsest mesh alone."""
     mesh = chosen(problem_with(0.0, 8.0), ("zero_load",), "quick")
-    points = search_path_on(mesh.meshes, mesh.spec, mesh.size).points
+    points = mesh.whole_path.points
     assert points[0].state.displacement < min(p.state.displacement for p in points if p.branch.touching) < -12.0
 
 
 def test_a_power_law_has_the_same_mesh_at_neighbouring_radii():
     """A narrow edge has a mesh for each radius, and each mesh would need a condensation."""
     narrow = Meshes(problem_with(0.0, 1500.0), level_for("default"))
-    assert not narrow.one_for_all
+    assert not narrow.scale
     width = 1.01 * 2.0**-26
     assert len({narrow.spec_at(width, radius) for radius in (58.0, 58.5, 59.0)}) == 1
