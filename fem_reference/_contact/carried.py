@@ -16,7 +16,7 @@ import numpy as np
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeGap, GapRise, Size
 from fem_reference._contact.cusp import cusp_from
-from fem_reference._contact.events import CUSP, Anchor, Jump, PathEvents, beginning_of, excess_of, slope_at
+from fem_reference._contact.events import CUSP, Anchor, PathEvents, beginning_of, excess_of, slope_at
 from fem_reference._contact.states import WIDTH_SHARE, Branch, Point, edge_width, point_at
 from fem_reference._typing import Array
 from fem_reference.errors import Failure, NotConverged
@@ -92,11 +92,6 @@ class CarriedEvents:
         """Return an event as other meshes begin with it."""
         point, of_path = self.at(event), self._path.anchor(event)
         return Anchor(point, of_path.slope if point.pinned else slope_at(event, point), of_path.radius_error)
-
-    @property
-    def jumps(self) -> tuple[Jump, ...]:
-        """The jumps of the path."""
-        return self._path.jumps
 
     def _cusp(self) -> Point:
         """Find the cusp from that of the path."""

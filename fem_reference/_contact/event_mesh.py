@@ -13,6 +13,7 @@ from fem_reference._contact.contact import Contact
 from fem_reference._contact.events import CUSP, PathEvents
 from fem_reference._contact.followed import FollowedPath, followed_path, path_on
 from fem_reference._contact.meshes import Meshes
+from fem_reference._contact.states import edge_is_resolved
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import SEARCH_DEGREE, finer_levels
 from fem_reference.errors import NotConverged
@@ -75,6 +76,19 @@ class EventMesh:
             If the path cannot be traced.
         """
         return _carried(self)
+
+    def resolves(self, event: str) -> bool:
+        """Whether the mesh is fine at the contact edge of an event; one that scales is fine at all of them.
+
+        An edge on elements that are longer than it is wide has an error that does not fall from one degree to the next:
+        they do not bound it.
+
+        Raises
+        ------
+        NoSuchEvent, NotConverged
+            If the event is not found.
+        """
+        return self.meshes.scale or edge_is_resolved(self.events.at(event))
 
     @property
     def whole_path(self) -> PathEvents:

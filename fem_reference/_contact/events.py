@@ -11,7 +11,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import count, pairwise
-from typing import Protocol
 
 from scipy.optimize import brentq
 
@@ -30,13 +29,11 @@ __all__ = [
     "LANDING",
     "SEPARATED",
     "Anchor",
-    "Events",
     "Jump",
     "Pair",
     "PathEvents",
     "beginning_of",
     "beyond_pull_off",
-    "energy_lost",
     "event_energy",
     "excess_of",
     "kind_of",
@@ -81,19 +78,6 @@ Pair = tuple[Point, Point]
 Jump = tuple[str, str]
 
 
-class Events(Protocol):
-    """Points of a path at its events, and its jumps."""
-
-    def at(self, event: str) -> Point:
-        """Return the point at an event."""
-        ...
-
-    @property
-    def jumps(self) -> tuple[Jump, ...]:
-        """Every jump of a cycle of approach and retreat."""
-        ...
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Anchor:
     """An event of a path, from which the same event on another mesh is found.
@@ -135,12 +119,6 @@ def beginning_of(event: str) -> str | None:
     kind = kind_of(event)
     beginning = {LANDING: JUMP_IN, SEPARATED: JUMP_OUT}.get(kind)
     return None if beginning is None else beginning + event.removeprefix(kind)
-
-
-def energy_lost(events: Events, jump: Jump) -> float:
-    """Return the energy lost by a jump: that at its fold less that at its end."""
-    fold, end = jump
-    return event_energy(events.at(fold)) - event_energy(events.at(end))
 
 
 def beyond_pull_off(event: str) -> bool:

@@ -51,8 +51,6 @@ ROUNDING = 1e-14
 #: Distance by which the contact edge is placed beside its node, in halves of the element beyond it.
 PLACEMENT = 0.5
 
-Functional = Callable[[CarriedEvents], float]
-
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
@@ -104,7 +102,7 @@ class EventsOnMeshes:
     degrees: tuple[int, int, int]
     accuracy: float
 
-    def estimate(self, functional: Functional) -> Estimate:
+    def estimate(self, functional: Callable[[CarriedEvents], float]) -> Estimate:
         """Return the values of a quantity and the parts of its error.
 
         Raises
@@ -131,7 +129,13 @@ class EventsOnMeshes:
         )
         return Estimate(values, dict(zip(PARTS, parts, strict=True)))
 
-    def _change(self, functional: Functional, name: str, values: tuple[float, float, float], mesh: float) -> float:
+    def _change(
+        self,
+        functional: Callable[[CarriedEvents], float],
+        name: str,
+        values: tuple[float, float, float],
+        mesh: float,
+    ) -> float:
         """Difference that a coarser feature makes."""
         base, _, fine = values
         with suppress(NotConverged):

@@ -23,8 +23,9 @@ from fem_reference import (
     solve_together,
 )
 from fem_reference._contact import completeness
+from fem_reference._contact import event_mesh as event_mesh_module
 from fem_reference._contact.completeness import complete_path, displacement_range
-from fem_reference._contact.event_mesh import chosen, event_mesh
+from fem_reference._contact.event_mesh import EventMesh, chosen, event_mesh
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.meshes import Meshes
 from fem_reference.accuracy import level_for
@@ -46,9 +47,11 @@ CONE = replace(GRADED, solid=Exponential(0.9, 0.3, 5.0, 0.1), punch=PowerPunch(1
 def _own(problem, points, missed=(), monkeypatch=None):
     """Quantities that get a mesh of their own, from which events are resolved on that of the first."""
     resolved = {"pull_off": False, **points}
-    monkeypatch.setattr(solution_module, "edge_is_resolved", lambda event: resolved[event])
+    monkeypatch.setattr(event_mesh_module, "edge_is_resolved", lambda event: resolved[event])
+    monkeypatch.setattr(EventMesh, "events", SimpleNamespace(at=lambda event: event))
+    mesh = EventMesh(SimpleNamespace(meshes=Meshes(problem, level_for("quick"))), "the mesh", 1.0, "pull_off")
     solved = {name: None for name in NAMES if name not in missed}
-    return list(solution_module._unresolved(problem, ROWS, solved, missed, SimpleNamespace(at=lambda event: event)))
+    return list(solution_module._unresolved(mesh, ROWS, solved, missed))
 
 
 def test_a_quantity_whose_edge_is_not_resolved_or_that_is_missed_gets_its_own_mesh(monkeypatch):
@@ -59,9 +62,10 @@ def test_a_quantity_whose_edge_is_not_resolved_or_that_is_missed_gets_its_own_me
     assert names({"jump_in": True, "jump_out": True}) == []
     # The mesh of the jump out of contact serves the other one, which has no contact edge.
     assert names({"jump_in": False, "jump_out": False}) == [JUMP_OUT, JUMP_IN]
-    # One mesh serves every event of a solid that scales.
-    scaling = replace(GRADED, solid=PowerLaw(1.0, 1.0, 0.4, 0.3))
-    assert _own(scaling, {"jump_in": False, "jump_out": False}, monkeypatch=monkeypatch) == []
+    # One mesh serves every event of a solid that scales, unless it misses one.
+    scaling = partial(_own, replace(GRADED, solid=PowerLaw(1.0, 1.0, 0.4, 0.3)), monkeypatch=monkeypatch)
+    assert scaling({"jump_in": False, "jump_out": False}) == []
+    assert scaling({"jump_in": False, "jump_out": False}, {JUMP_OUT: NotConverged()}) == [JUMP_OUT]
 
 
 def test_every_order_of_quantities_finds_the_events_after_a_jump_before_contact():
