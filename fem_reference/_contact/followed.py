@@ -35,7 +35,7 @@ from fem_reference._contact.mesh_lengths import (
     spot_length,
 )
 from fem_reference._contact.meshes import Meshes
-from fem_reference._contact.path import BEYOND_LAST_TURN, approach, beginning, contact_points, traced
+from fem_reference._contact.path import BEYOND_LAST_TURN, approach, beginning, completed, contact_points, traced
 from fem_reference._contact.states import NARROWER, WIDTH_SHARE, Point, edge_width
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import SEARCH_DEGREE
@@ -146,7 +146,8 @@ class FollowedPath:
         if meshes.scale:
             states.states[start.parameter] = start
         highest = displacement_range(separate)[1]
-        touching = contact_points(states.at, start.edge_radius, kinks, highest, turn, meshes.scale)
+        points = contact_points(states.at, start.edge_radius, kinks, highest, turn, meshes.scale)
+        touching = completed(states.at, points, meshes.scale)
         before = complete_path([*beginning(separate, touching), *separate])
         return PathEvents((*before, *touching), states.at)
 

@@ -38,6 +38,7 @@ __all__ = [
     "EDGE_RISE",
     "approach",
     "beginning",
+    "completed",
     "contact_points",
     "interpolated",
     "separate_points",
@@ -176,7 +177,7 @@ def contact_points(
     last_turn: float = 0.0,
     exact_rates: bool = False,
 ) -> list[Point]:
-    """Return states in contact, so close that no pair of turning points is between two.
+    """Return states in contact, from the first edge until neither load nor displacement can turn back.
 
     Parameters
     ----------
@@ -196,13 +197,31 @@ def contact_points(
     Raises
     ------
     NotConverged
-        If a state is not found, or turning points cannot be excluded.
+        If a state is not found.
     """
     points: list[Point] = []
-    for radius in _radii(inner, kinks, SIZE_STEP if exact_rates else LOG_STEP):
+    for radius in _radii(inner, kinks, math.log1p(SIZE_STEP) if exact_rates else LOG_STEP):
         points.append(at(radius))
         if radius >= BEYOND_LAST_TURN * last_turn and len(points) >= RATE_POINTS and _settled(points, highest):
             break
+    return points
+
+
+def completed(at: Callable[[float], Point], points: Sequence[Point], exact_rates: bool = False) -> list[Point]:
+    """Return states in contact with others between, so close that no pair of turning points is between two.
+
+    Parameters
+    ----------
+    at, exact_rates
+        As for `contact_points`.
+    points : sequence of Point
+        As it returns them.
+
+    Raises
+    ------
+    NotConverged
+        If a state is not found, or turning points cannot be excluded.
+    """
     rates = list if exact_rates else with_rates
     length = points[0].branch.contact.law.z0
     tension = abs(min(point.state.load for point in points))

@@ -14,7 +14,7 @@ from fem_reference._contact.edge_states import EdgeStates
 from fem_reference._contact.events import Anchor, PathEvents
 from fem_reference._contact.jkr_tension import jkr_curve
 from fem_reference._contact.meshes import Meshes
-from fem_reference._contact.path import BEYOND_LAST_TURN, contact_points, separate_points, traced
+from fem_reference._contact.path import BEYOND_LAST_TURN, completed, contact_points, separate_points, traced
 from fem_reference.accuracy import level_for
 from tests.fem_reference.solved_together import sphere_on
 from tests.marks import heavy
@@ -82,7 +82,8 @@ def _minima(points):
 
 
 def _path(height, inner=0.5, last_turn=0.0, kinks=(), highest=0.0):
-    return contact_points(_States(height).at, inner, kinks, highest, last_turn)
+    at = _States(height).at
+    return completed(at, contact_points(at, inner, kinks, highest, last_turn))
 
 
 def test_a_path_over_meshes_goes_from_the_first_edge_into_compression():
