@@ -193,12 +193,14 @@ class EdgeStates:
     def _on_neighbour_mesh(self, radius: float) -> Point | None:
         """The state on the mesh of the nearest one, if its elements there are short enough."""
         nearest = self._nearest(radius)
-        wide = SHARED * WIDTH_SHARE * edge_width(nearest) * nearest.edge_radius
+        # Where the meshes scale, theirs tell the width of the edge at the events, and are as fine as it asks for.
+        shared = 1.0 if self.meshes.scale else SHARED
+        wide = shared * WIDTH_SHARE * edge_width(nearest) * nearest.edge_radius
         if nearest.parameter not in self.states or element_length(nearest, radius) > wide:
             return None
         with suppress(NotConverged):
             point = nearest.branch.solve(radius, nearest.predict(radius))
-            if point.state.iterations <= MOST_STEPS and edge_is_resolved(point, SHARED):
+            if point.state.iterations <= MOST_STEPS and edge_is_resolved(point, shared):
                 return point
         return None
 

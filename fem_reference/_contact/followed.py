@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property, lru_cache
 
@@ -74,9 +73,9 @@ BESIDE_EXTREMUM = 2e-4
 #: at the pull-off on a soft layer with a Tabor number of 160).
 WIDEST_EDGE = 5.0
 
-#: Ratio of the density of a mesh for the spot on which contact begins to that of the others, and the largest number of
-#: such meshes.
-SPOT_DENSITY, SPOT_MESHES = 1.5, 4
+#: Ratio of the density of the first mesh for the spot on which contact begins to that of the others, and the largest
+#: number of such meshes.
+SPOT_DENSITY, SPOT_MESHES = 1.5, 6
 
 #: Largest number of meshes tried for the edge where folds merge, and of those in a row on which the path cannot be
 #: traced.
@@ -97,18 +96,23 @@ class FollowedPath:
     @cached_property
     def meshes(self) -> Meshes:
         """The meshes; those that scale extend as far from the spot on which contact begins."""
-        meshes = self._meshes
+        meshes, density = self._meshes, SPOT_DENSITY
         for _ in range(SPOT_MESHES if meshes.scale else 0):
             spec, size = meshes.first()
-            coarse = replace(spec, order=SEARCH_DEGREE, density=SPOT_DENSITY * spec.density)
-            # Where the path cannot be traced, contact begins on a spot as small as the solid and the law allow.
-            spot = balance_length(meshes.problem, size)
-            with suppress(NotConverged):
+            try:
+                coarse = replace(spec, order=SEARCH_DEGREE, density=density * spec.density)
                 separate, start = approach(meshes.contact(coarse, size))
+            except NotConverged:
+                if density == 1.0:
+                    # Contact begins on a spot as small as the solid and the law allow, far from the rest of the punch.
+                    spot = min(meshes.spot, balance_length(meshes.problem, size))
+                    meshes = replace(meshes, spot=spot, failures=meshes.failures + 1)
+                density = 1.0
+            else:
                 spot = min(point.state.size for point in (*separate, start))
-            meshes = replace(meshes, spot=min(meshes.spot, spot))
-            if meshes.first()[0] == spec:
-                break
+                meshes = replace(meshes, spot=min(meshes.spot, spot))
+                if meshes.first()[0] == spec:
+                    break
         return meshes
 
     @cached_property
@@ -200,7 +204,7 @@ class FollowedPath:
         if not any(beyond_pull_off(event) for event in events):
             # Beyond the pull-off the edge is sharper relative to its radius, but that part is not needed.
             deepest = min(range(len(points)), key=lambda i: points[i].state.load)
-            points = points[: deepest + 2]
+            points = points[: deepest + 3]
         narrowest = min((edge_width(point) for point in points if point.branch.touching), default=WIDEST)
         width = min(WIDTH_SHARE * narrowest, self._first[0].edge_width)
         check_width(width)

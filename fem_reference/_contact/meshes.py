@@ -17,6 +17,7 @@ from fem_reference._contact.mesh_lengths import (
     scales,
     spot_length,
 )
+from fem_reference._contact.states import NARROWER
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import VariantSpec
 from fem_reference.accuracy import Level
@@ -45,11 +46,14 @@ class Meshes:
         Degree and density of the meshes.
     spot : float
         Radius on which contact begins, where it is known and the meshes scale: they extend as far from there.
+    failures : int
+        Meshes on which the path could not be followed to there: each makes them finer at the edge and far from it.
     """
 
     problem: Problem
     level: Level
     spot: float = math.inf
+    failures: int = 0
 
     @property
     def scale(self) -> bool:
@@ -81,7 +85,7 @@ class Meshes:
         rise = radius_at_height(punch, EDGE_RISE * law.z0)
         if self.scale:
             smallest, size = min(self.spot, rise), 2.0 * radius_at_height(punch, law.z0)
-            far_share = FAR_SHARE if smallest < SMALL_SPOT * rise else 1.0
+            far_share = FAR_SHARE ** max(self.failures, int(smallest < SMALL_SPOT * rise))
             return mesh_spec(self.problem, self.level, width, size, smallest, far_share)
         smallest = min(radius, rise)
         apex = spot_length(self.problem, 2.0 * radius_at_height(punch, law.z0))
@@ -90,6 +94,6 @@ class Meshes:
     def first(self) -> tuple[MeshSpec, float]:
         """Mesh on which a path begins, and the radius of its edge."""
         size = 2.0 * radius_at_height(self.problem.punch, self.problem.law.z0)
-        width = 0.5 * balance_length(self.problem, size) / size
+        width = 0.5 * balance_length(self.problem, size) / size * NARROWER**self.failures
         check_width(width)
         return self.spec_at(width, size), size

@@ -15,8 +15,9 @@ from fem_reference._contact.events import Anchor, PathEvents
 from fem_reference._contact.jkr_tension import jkr_curve
 from fem_reference._contact.meshes import Meshes
 from fem_reference._contact.path import BEYOND_LAST_TURN, completed, contact_points, separate_points, traced
+from fem_reference._contact.states import edge_is_resolved
 from fem_reference.accuracy import level_for
-from tests.fem_reference.solved_together import sphere_on
+from tests.fem_reference.solved_together import problem_with, sphere_on
 from tests.marks import heavy
 
 HOMOGENEOUS = sphere_on(Coating(1.0, 1.0, 1.0, 0.0, 0.0))
@@ -202,12 +203,21 @@ def test_a_power_law_has_one_path_over_its_meshes():
     touching = [point for point in path.events().points if point.branch.touching]
     assert all(point.rates is None and point.branch.contact.compliance.scales for point in touching)
     assert len({id(point.branch.contact.compliance.matrix) for point in touching}) <= 3
+    assert all(edge_is_resolved(point, 1.3) for point in touching)
     spec, size = path.mesh(("pull_off", "landing"))
     whole = PathEvents(traced(path.meshes.contact(replace(spec, order=5), size)))
     for event in ("pull_off", "jump_in", "jump_out", "landing", "separated", "zero_load"):
         there, on_one = path.events().at(event).state, whole.at(event).state
         assert there.load == pytest.approx(on_one.load, abs=2e-4), event
         assert there.displacement == pytest.approx(on_one.displacement, abs=2e-4), event
+
+
+def test_the_mesh_of_a_small_spot_is_made_finer_until_the_path_reaches_it():
+    """Contact under a nearly flat punch begins on a spot far from the rim: two meshes lost the path before it."""
+    path = followed.followed_path(Meshes(problem_with(0.55, 4.12, 5.65, 0.1), level_for("quick")))
+    assert path.meshes.failures > 0
+    assert path.meshes.spot < 0.25 * path.meshes.first()[1]
+    assert path.events("jump_in").jump_in.state.displacement < 0.0
 
 
 def test_contact_on_a_soft_coating_begins_where_it_jumps_in():
