@@ -12,11 +12,11 @@ What a solver of an equilibrium path must have, and where it is:
    to that beyond it: `_elastic.exterior`, `_contact.tail`;
 3. an equation: a state, its residual with the exact tangent, Newton's method: `_contact.contact`,
    `_contact.controls`, `_contact.newton`;
-4. a continuation from far separation into compression: `_contact.states`, and `_contact.path` where one mesh carries
-   the path, or `_contact.edge_states` and `_contact.edge_path` where each radius of the edge has a mesh;
+4. a continuation from far separation into compression, on one mesh before contact and then with a state for each radius
+   of the contact edge, on a mesh that resolves it: `_contact.states`, `_contact.edge_states`, `_contact.path`;
 5. completeness, a proof that no turning point is missed between two points: `_contact.completeness`;
 6. events as roots of rates, the jumps between stable branches, and the mesh of each: `_contact.events`,
-   `_contact.event_mesh`;
+   `_contact.followed`, `_contact.event_mesh`;
 7. the value at an event from the whole system: `_contact.uncondensed` and `_linear`;
 8. a bound of the error of every value by its causes: `_contact.carried` and `_contact.parts`;
 9. quantities, each a row that names its event and its functional: `quantities`; `solution` computes them by 1 to 8.

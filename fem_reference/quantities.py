@@ -1,68 +1,66 @@
-"""Quantities of a contact problem: one table of event, functional and kind."""
+"""Quantities of a contact problem: one table of weights, functionals, events and kinds."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
-from fem_reference._contact.events import JUMP_IN, JUMP_OUT, LANDING, SEPARATED, Events, energy_lost, event_energy
+from fem_reference._contact.events import JUMP_IN, JUMP_OUT, LANDING, SEPARATED, PathEvents, event_energy
+from fem_reference._contact.quantity import Quantity, Term
+from fem_reference._contact.states import Point
 
 __all__ = [
     "CRITICAL_MODULUS",
     "LOSSES",
     "QUANTITIES",
     "TABLE",
-    "Quantity",
     "critical_quantity",
     "further_losses",
     "quantity_named",
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class Quantity:
-    """One row of the table.
-
-    Attributes
-    ----------
-    events : tuple of str
-        The events that it needs.  The mesh is finest at the contact edge of the first.
-    functional : callable
-        Its value from the events of a path, in the units of the problem.
-    kind : {"force", "length", "energy", "modulus"}
-        A length near zero is measured by the length of the surface law.
-    terms : tuple of str
-        Quantities whose sum it is, each with the contact edge at one radius.
-    """
-
-    events: tuple[str, ...]
-    functional: Callable[[Events], float]
-    kind: Literal["force", "length", "energy", "modulus"]
-    terms: tuple[str, ...] = ()
+def _displacement(point: Point) -> float:
+    return point.state.displacement
 
 
-#: Energies lost by the jump into contact and the jump out of contact. Each needs the contact edge at one radius only,
-#: so that the mesh of a solid that is not a power law can be fine there. Their sum is the hysteresis energy, unless the
+def _central_gap(point: Point) -> float:
+    return point.state.central_gap
+
+
+def _load(point: Point) -> float:
+    return point.state.load
+
+
+def _one(
+    event: str, functional: Callable[[Point], float], kind: Literal["force", "length"], weight: float = 1.0
+) -> Quantity:
+    """A quantity of one state."""
+    return Quantity((Term(weight, functional, event),), kind)
+
+
+#: What the jump out of contact and the jump into contact lose: the energy at the fold less that where the jump ends.
+#: The contact edge is at one radius, so that a mesh can be fine there.
+_LOST_OUT = Term(1.0, event_energy, JUMP_OUT), Term(-1.0, event_energy, SEPARATED)
+_LOST_IN = Term(-1.0, event_energy, LANDING), Term(1.0, event_energy, JUMP_IN)
+
+#: Energies lost by the jump into contact and the jump out of contact. Their sum is the hysteresis energy, unless the
 #: displacement has more folds at which the cycle jumps: see `further_losses`.
 LOSSES = ("jump_in_energy", "jump_out_energy")
 
 #: Quantities by name; pull_off_force is the positive number -min P.
 TABLE = {
-    "pull_off_force": Quantity(("pull_off",), lambda e: -e.at("pull_off").state.load, "force"),
-    "pull_off_displacement": Quantity(("pull_off",), lambda e: e.at("pull_off").state.displacement, "length"),
-    "jump_in_displacement": Quantity(("jump_in",), lambda e: e.at("jump_in").state.displacement, "length"),
-    "jump_in_gap": Quantity(("jump_in",), lambda e: e.at("jump_in").state.central_gap, "length"),
-    "jump_out_displacement": Quantity(("jump_out",), lambda e: e.at("jump_out").state.displacement, "length"),
-    "jump_out_gap": Quantity(("jump_out",), lambda e: e.at("jump_out").state.central_gap, "length"),
-    "zero_load_displacement": Quantity(("zero_load",), lambda e: e.at("zero_load").state.displacement, "length"),
-    "hysteresis_energy": Quantity(
-        (JUMP_OUT, LANDING), lambda e: math.fsum(energy_lost(e, jump) for jump in e.jumps), "energy", terms=LOSSES
-    ),
-    "jump_in_energy": Quantity((LANDING,), lambda e: energy_lost(e, (JUMP_IN, LANDING)), "energy"),
-    "jump_out_energy": Quantity((JUMP_OUT,), lambda e: energy_lost(e, (JUMP_OUT, SEPARATED)), "energy"),
+    "pull_off_force": _one("pull_off", _load, "force", -1.0),
+    "pull_off_displacement": _one("pull_off", _displacement, "length"),
+    "jump_in_displacement": _one("jump_in", _displacement, "length"),
+    "jump_in_gap": _one("jump_in", _central_gap, "length"),
+    "jump_out_displacement": _one("jump_out", _displacement, "length"),
+    "jump_out_gap": _one("jump_out", _central_gap, "length"),
+    "zero_load_displacement": _one("zero_load", _displacement, "length"),
+    "hysteresis_energy": Quantity((*_LOST_OUT, *_LOST_IN), "energy", addends=LOSSES),
+    "jump_in_energy": Quantity(_LOST_IN, "energy"),
+    "jump_out_energy": Quantity(_LOST_OUT, "energy"),
 }
 
 #: Names of the quantities of a problem; `solve` takes those of `LOSSES` too.
@@ -82,10 +80,10 @@ def critical_quantity(E0: float) -> Quantity:
     E0 : float
         Modulus of that path.
     """
-    return Quantity(("cusp",), lambda events: E0 * events.at("cusp").branch.contact.compliance.stiffness, "modulus")
+    return Quantity((Term(E0, lambda point: point.branch.contact.compliance.stiffness, "cusp"),), "modulus")
 
 
-def further_losses(path: Events) -> dict[str, Quantity]:
+def further_losses(path: PathEvents) -> dict[str, Quantity]:
     """Return quantities whose sum is the energy lost by the jumps of a cycle that are not of `LOSSES`.
 
     Each needs the contact edge at one radius only: the energy at the fold, and the negative one where the jump ends.
@@ -94,7 +92,7 @@ def further_losses(path: Events) -> dict[str, Quantity]:
 
     Parameters
     ----------
-    path : Events
+    path : PathEvents
         The path of the problem.
 
     Returns
@@ -105,17 +103,15 @@ def further_losses(path: Events) -> dict[str, Quantity]:
     rows: dict[str, Quantity] = {}
     for fold, end in path.jumps:
         if (fold, end) not in ((JUMP_IN, LANDING), (JUMP_OUT, SEPARATED)):
-            at_end = path.at(end).state
+            energy = partial(_energy_continued, path.at(end))
             for event, sign in ((fold, 1.0), (end, -1.0)):
-                functional = partial(_energy_at, event, sign, at_end.displacement, at_end.load)
-                rows[f"energy at {event}"] = Quantity((event,), functional, "energy")
+                rows[f"energy at {event}"] = Quantity((Term(sign, energy, event),), "energy")
     return rows
 
 
-def _energy_at(event: str, sign: float, displacement: float, load: float, events: Events) -> float:
-    """Energy of an event, continued to a displacement with a load."""
-    point = events.at(event)
-    return sign * (event_energy(point) - load * (point.state.displacement - displacement))
+def _energy_continued(end: Point, point: Point) -> float:
+    """Energy of a point, continued with the load of the end of a jump to the displacement there."""
+    return event_energy(point) - end.state.load * (point.state.displacement - end.state.displacement)
 
 
 def quantity_named(name: str) -> Quantity:

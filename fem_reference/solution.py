@@ -10,14 +10,13 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 
-from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.critical import stiffer_than_critical
-from fem_reference._contact.event_mesh import EventMesh, chosen, path_over_meshes
+from fem_reference._contact.event_mesh import EventMesh, chosen, whole_path
 from fem_reference._contact.events import JUMP_IN
 from fem_reference._contact.friction import FrictionName, with_friction
 from fem_reference._contact.mesh_lengths import scales
 from fem_reference._contact.parts import EventsOnMeshes, events_on_meshes
-from fem_reference._contact.states import edge_is_resolved
+from fem_reference._contact.quantity import Quantity
 from fem_reference._contact.uncondensed import uncondensed_events
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
@@ -30,7 +29,6 @@ from fem_reference.quantities import (
     CRITICAL_MODULUS,
     QUANTITIES,
     TABLE,
-    Quantity,
     critical_quantity,
     further_losses,
     quantity_named,
@@ -180,7 +178,7 @@ def _no_less_certain(
 
     On the finer mesh the bound may be larger: it is what the degrees happen to show.
     """
-    results = _by_terms(problem, rows, accuracy)
+    results = _by_addends(problem, rows, accuracy)
     coarser = coarser_accuracy(accuracy)
     if coarser is None:
         return results
@@ -189,7 +187,7 @@ def _no_less_certain(
     at_default: dict[str, Solution | NoSuchEvent] = {}
     if uncertain:
         with suppress(NotConverged):
-            at_default = _by_terms(problem, {name: rows[name] for name in uncertain}, coarser[1])
+            at_default = _by_addends(problem, {name: rows[name] for name in uncertain}, coarser[1])
     for name, alternative in at_default.items():
         if isinstance(alternative, Solution):
             seconds = solved[name].seconds + alternative.seconds
@@ -198,22 +196,22 @@ def _no_less_certain(
     return results
 
 
-def _by_terms(
+def _by_addends(
     problem: Problem, rows: Mapping[str, Quantity], accuracy: float | str
 ) -> dict[str, Solution | NoSuchEvent]:
-    """Compute quantities; where no mesh is fine at every contact edge, those of several edges by their terms."""
-    if scales(problem):
-        return _solved_together(problem, rows, accuracy)
+    """Compute quantities, those of several contact edges as a sum where no mesh is fine at more than one."""
     single: dict[str, Quantity] = {}
     for name, row in rows.items():
-        single |= {term: quantity_named(term) for term in row.terms} or {name: row}
+        addends = () if scales(problem) else row.addends
+        single |= {addend: quantity_named(addend) for addend in addends} or {name: row}
     # A jump into contact before there is an edge gets a path without contact, on which no other event is.
     single = dict(sorted(single.items(), key=lambda item: item[1].events[0] == JUMP_IN))
     solved = _solved_together(problem, single, accuracy)
-    sums = {name: _sum(solved[term] for term in row.terms or (name,)) for name, row in rows.items()}
+    parts = {name: (name,) if name in single else row.addends for name, row in rows.items()}
+    sums = {name: _sum(solved[part] for part in names) for name, names in parts.items()}
     for name, solution in sums.items():
-        if rows[name].terms and isinstance(solution, Solution):
-            further = further_losses(path_over_meshes(problem, accuracy))
+        if rows[name].addends and isinstance(solution, Solution):
+            further = further_losses(whole_path(problem, accuracy))
             if further:
                 sums[name] = _sum((solution, *_solved_together(problem, further, accuracy).values()))
     return sums
@@ -268,14 +266,14 @@ def _solved_together(
             except NotConverged as reason:
                 missed[name] = reason
     solved = {name: solution for name, solution in results.items() if isinstance(solution, Solution)}
-    unresolved = _unresolved(problem, rows, solved, missed, meshes.fine)
+    unresolved = _unresolved(mesh, rows, solved, missed)
     # All events of the whole system are columns of one linear system.
     events = uncondensed_events(mesh)
     on_mesh = [name for name in solved if name not in unresolved]
-    events.prepare(rows[name].functional for name in on_mesh)
+    events.prepare(rows[name] for name in on_mesh)
     seconds = time.perf_counter() - begin
     for name in on_mesh:
-        results[name] = replace(solved[name].with_whole_system(events.value(rows[name].functional)), seconds=seconds)
+        results[name] = replace(solved[name].with_whole_system(events.value(rows[name])), seconds=seconds)
     if unresolved:
         results |= _solved_together(problem, unresolved, accuracy)
     for name, failure in missed.items():
@@ -291,34 +289,27 @@ def _estimated(row: Quantity, mesh: EventMesh) -> None:
     """
     with suppress(NoSuchEvent):
         _solution(row, events_on_meshes(mesh))
-        if not mesh.meshes.one_for_all:
-            uncondensed_events(mesh).prepare((row.functional,))
+        if not mesh.meshes.scale:
+            uncondensed_events(mesh).prepare((row,))
 
 
 def _unresolved(
-    problem: Problem,
-    rows: Mapping[str, Quantity],
-    solved: Mapping[str, Solution],
-    missed: Iterable[str],
-    path: CarriedEvents,
+    mesh: EventMesh, rows: Mapping[str, Quantity], solved: Iterable[str], missed: Iterable[str]
 ) -> dict[str, Quantity]:
     """Quantities whose contact edge is not resolved on the mesh of another event, or which that mesh has missed.
 
-    An edge on elements that are longer than it is wide has an error that does not fall from one degree to the next:
-    they do not bound it.  The quantities of the jump out of contact come first: before the jump into contact there is
-    no edge, and the mesh of the other jump is fine enough for it.
+    The quantities of the jump out of contact come first: before the jump into contact there is no edge, and the mesh of
+    the other jump is fine enough for it.
     """
-    if scales(problem):
-        return {}
     candidates = [name for name in rows if name in solved or name in missed]
     elsewhere = [name for name in candidates if rows[name].events[0] != rows[candidates[0]].events[0]]
-    poor = [name for name in elsewhere if name in missed or not edge_is_resolved(path.at(rows[name].events[0]))]
+    poor = [name for name in elsewhere if name in missed or not mesh.resolves(rows[name].events[0])]
     return {name: rows[name] for name in sorted(poor, key=lambda name: rows[name].events[0] != "jump_out")}
 
 
 def _solution(row: Quantity, meshes: EventsOnMeshes) -> Solution:
     """Evaluate a quantity on the condensed system of all meshes."""
-    estimate = meshes.estimate(row.functional)
+    estimate = meshes.estimate(lambda events: row.value(events.at))
     for event in row.events:
         point = meshes.fine.at(event)
         check_contact(point.branch.contact.punch, point.edge_radius)

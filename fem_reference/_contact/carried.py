@@ -16,9 +16,8 @@ import numpy as np
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeGap, GapRise, Size
 from fem_reference._contact.cusp import cusp_from
-from fem_reference._contact.events import CUSP, Anchor, Jump, PathEvents, beginning_of, excess_of, slope_at
+from fem_reference._contact.events import CUSP, Anchor, PathEvents, beginning_of, excess_of, slope_at
 from fem_reference._contact.states import WIDTH_SHARE, Branch, Point, edge_width, point_at
-from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
 from fem_reference.errors import Failure, NotConverged
 
@@ -94,11 +93,6 @@ class CarriedEvents:
         point, of_path = self.at(event), self._path.anchor(event)
         return Anchor(point, of_path.slope if point.pinned else slope_at(event, point), of_path.radius_error)
 
-    @property
-    def jumps(self) -> tuple[Jump, ...]:
-        """The jumps of the path."""
-        return self._path.jumps
-
     def _cusp(self) -> Point:
         """Find the cusp from that of the path."""
         original = self._path.at(CUSP)
@@ -156,7 +150,7 @@ def _largest_shift(point: Point) -> float:
 
 def _moves_over_elements(point: Point) -> bool:
     """Whether the mesh stays where it is when the contact edge moves."""
-    return point.branch.touching and isinstance(point.branch.contact.compliance, FixedCompliance)
+    return point.branch.touching and not point.branch.contact.compliance.scales
 
 
 def carried(point: Point, contact: Contact, placement: float = 0.0) -> tuple[Branch, float, Array]:
@@ -165,7 +159,7 @@ def carried(point: Point, contact: Contact, placement: float = 0.0) -> tuple[Bra
     branch = point.branch
     c, parameter = point.state.size, point.parameter
     fixed: Control = branch.fixed
-    if isinstance(contact.compliance, FixedCompliance):
+    if not contact.compliance.scales:
         c = contact.compliance.size
         fixed = Size(c)
     elif placement:

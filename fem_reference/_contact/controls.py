@@ -23,6 +23,7 @@ __all__ = [
     "EdgeRadius",
     "GapRise",
     "Size",
+    "mesh_control",
 ]
 
 
@@ -143,6 +144,11 @@ class GapRise:
         row = _unit(y.size, contact.compliance.trace.edge) - _unit(y.size, 0)
         row[-1] = float(contact.punch.slope(y[-1]))
         return row
+
+
+def mesh_control(contact: Contact, following: Control) -> Control:
+    """Return the control of a mesh: what it follows, or its size if its compliance holds at one size only."""
+    return following if contact.compliance.scales else Size(contact.compliance.size)
 
 
 # A Newton iteration asks for the same radius at every step, and for its value and its gradient.

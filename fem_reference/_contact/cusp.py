@@ -17,9 +17,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import linalg
 
-from fem_reference._contact.controls import CentralGap, Control, GapRise, Size
+from fem_reference._contact.controls import CentralGap, GapRise, mesh_control
 from fem_reference._contact.states import Branch, Point, point_at
-from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
 from fem_reference.errors import Failure, NotConverged
 
@@ -169,9 +168,7 @@ def cusp_from(point: Point) -> Point:
 def _by_central_gap(point: Point) -> Point:
     """The same point on a branch whose parameter is the central gap."""
     contact, y = point.branch.contact, point.state.y
-    fixed: Control = GapRise(GapRise(0.0).value(contact, y))
-    if isinstance(contact.compliance, FixedCompliance):
-        fixed = Size(point.state.size)
+    fixed = mesh_control(contact, GapRise(GapRise(0.0).value(contact, y)))
     return Branch(contact, fixed, CentralGap, touching=False).solve(point.state.central_gap, y)
 
 

@@ -1,8 +1,8 @@
 """States in contact by the radius of their edge, each on a mesh that resolves its edge.
 
-A solid that does not scale has a compliance for one size.  On one mesh the contact edge crosses elements that are
-longer than it is wide, and the load along the path has minima at the nodes that the problem has not.  Here a state is
-solved on a mesh that is fine at its own edge, or on that of a neighbour if that one resolves it.
+On a mesh that is too coarse the contact edge crosses elements that are longer than it is wide, and the load along the
+path has minima at the nodes that the problem has not.  Here a state is solved on a mesh that is fine at its own edge,
+or on that of a neighbour if that one resolves it: one that scales follows the edge.
 """
 
 from __future__ import annotations
@@ -16,14 +16,13 @@ import numpy as np
 
 from fem_reference._contact.carried import projected
 from fem_reference._contact.contact import Contact
-from fem_reference._contact.controls import EdgeRadius, Size
 from fem_reference._contact.mesh_lengths import check_width
 from fem_reference._contact.meshes import Meshes
 from fem_reference._contact.states import (
     NARROWER,
     WIDTH_SHARE,
-    Branch,
     Point,
+    contact_branch,
     edge_is_resolved,
     edge_width,
     element_length,
@@ -194,12 +193,14 @@ class EdgeStates:
     def _on_neighbour_mesh(self, radius: float) -> Point | None:
         """The state on the mesh of the nearest one, if its elements there are short enough."""
         nearest = self._nearest(radius)
-        wide = SHARED * WIDTH_SHARE * edge_width(nearest) * nearest.edge_radius
-        if nearest is self.start or element_length(nearest, radius) > wide:
+        # Where the meshes scale, theirs tell the width of the edge at the events, and are as fine as it asks for.
+        shared = 1.0 if self.meshes.scale else SHARED
+        wide = shared * WIDTH_SHARE * edge_width(nearest) * nearest.edge_radius
+        if nearest.parameter not in self.states or element_length(nearest, radius) > wide:
             return None
         with suppress(NotConverged):
             point = nearest.branch.solve(radius, nearest.predict(radius))
-            if edge_is_resolved(point, SHARED):
+            if point.state.iterations <= MOST_STEPS and edge_is_resolved(point, shared):
                 return point
         return None
 
@@ -223,7 +224,7 @@ class EdgeStates:
 
 def _state_from(nearest: Point, contact: Contact, radius: float) -> Point:
     """The state with the contact edge at a radius where a mesh is fine, from one on another mesh."""
-    branch = Branch(contact, Size(radius), EdgeRadius, touching=True)
+    branch = contact_branch(contact)
     for start in (_shifted, _projected):
         with suppress(NotConverged):
             point = branch.solve(radius, start(nearest, contact, radius))

@@ -23,7 +23,6 @@ from fem_reference._contact.events import CUSP, JUMP_IN, JUMP_OUT, beginning_of,
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.newton import State
 from fem_reference._contact.states import Point, point_at
-from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
 
 __all__ = ["EventEquations"]
@@ -61,7 +60,7 @@ class EventEquations:
         self.contact = point.branch.contact
         start = _state_on(other, point)
         # The mesh of a solid that does not scale has one size.
-        c = (point if isinstance(self.contact.compliance, FixedCompliance) else start).state.size
+        c = (start if self.contact.compliance.scales else point).state.size
         self.y = projected(start, self.contact, c)
         # The rate is an unknown at a fold only; elsewhere it is a part of the tangent.
         self.rate = projected_rate(start, self.contact, c) if self.is_fold else point.state.rate.copy()

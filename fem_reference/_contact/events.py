@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import count, pairwise
-from typing import Protocol
 
 from scipy.optimize import brentq
 
 from fem_reference._contact.completeness import complete_path
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import cusp_from, slowest
+from fem_reference._contact.path import interpolated
 from fem_reference._contact.states import Point, joined, point_at
 from fem_reference.errors import Failure, NoSuchEvent, NotConverged
 
@@ -29,13 +29,11 @@ __all__ = [
     "LANDING",
     "SEPARATED",
     "Anchor",
-    "Events",
     "Jump",
     "Pair",
     "PathEvents",
     "beginning_of",
     "beyond_pull_off",
-    "energy_lost",
     "event_energy",
     "excess_of",
     "kind_of",
@@ -70,24 +68,14 @@ CUSP = "cusp"
 #: Relative change of the parameter for the slope of a rate: an error of this size slows the secant method only.
 SLOPE_STEP = 1e-4
 
+#: Change of the logarithm of the radius for the slope of an interpolated function: it slows the secant method only.
+LOG_SLOPE_STEP = 1e-3
+
 Pair = tuple[Point, Point]
 
 #: Names of the fold where a jump begins and of the point where it ends. Those of a further jump have a number, from 2
 #: on and from outside to inside: "jump_in_2" and "landing_2", "jump_out_2" and "separated_2".
 Jump = tuple[str, str]
-
-
-class Events(Protocol):
-    """Points of a path at its events, and its jumps."""
-
-    def at(self, event: str) -> Point:
-        """Return the point at an event."""
-        ...
-
-    @property
-    def jumps(self) -> tuple[Jump, ...]:
-        """Every jump of a cycle of approach and retreat."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -133,12 +121,6 @@ def beginning_of(event: str) -> str | None:
     return None if beginning is None else beginning + event.removeprefix(kind)
 
 
-def energy_lost(events: Events, jump: Jump) -> float:
-    """Return the energy lost by a jump: that at its fold less that at its end."""
-    fold, end = jump
-    return event_energy(events.at(fold)) - event_energy(events.at(end))
-
-
 def beyond_pull_off(event: str) -> bool:
     """Whether an event lies on the path beyond the pull-off, where the edge is sharper relative to its radius."""
     return kind_of(event) in ("zero_load", LANDING)
@@ -150,12 +132,15 @@ class PathEvents:
     Parameters
     ----------
     samples : sequence of Point
-        As `fem_reference._contact.path.traced` returns them.
+        The path; complete where `state_at` is given.
+    state_at : callable, optional
+        Returns the state with a radius of the edge, on a mesh that resolves it.
     """
 
-    def __init__(self, samples: Sequence[Point]) -> None:
-        self.samples = samples
+    def __init__(self, samples: Sequence[Point], state_at: Callable[[float], Point] | None = None) -> None:
+        self.samples, self._state_at = samples, state_at
         self._anchors: dict[str, Anchor] = {}
+        self._slopes: dict[Point, float] = {}
 
     @property
     def contact(self) -> Contact:
@@ -171,10 +156,13 @@ class PathEvents:
         NotConverged
             If such a pair cannot be excluded.
         """
-        return tuple(complete_path(self.samples))
+        return tuple(complete_path(self.samples)) if self._state_at is None else self.samples
 
     def between(self, a: Point, b: Point, parameter: float) -> Point:
-        """Return the state at a parameter from the nearer one of two neighbours."""
+        """Return the state at a parameter between two neighbours."""
+        if self._state_at is not None and a.branch.touching:
+            rates = None if a.rates is None else interpolated(a, b, math.log(parameter)).rates
+            return replace(self._state_at(parameter), rates=rates)
         return point_at(min(a, b, key=lambda point: abs(point.parameter - parameter)), parameter)
 
     def at(self, event: str) -> Point:
@@ -210,7 +198,12 @@ class PathEvents:
 
     def slope(self, event: str, point: Point) -> float:
         """Return the derivative, at an event, of the function that vanishes there."""
-        return slope_at(event, point)
+        return self._slopes[point] if point in self._slopes else slope_at(event, point)
+
+    def relocate(self, event: str, anchor: Anchor) -> None:
+        """Move an event to its state on the mesh that is fine at its edge, which the path has within its error."""
+        (vars(self) if event == kind_of(event) else self._further)[event] = anchor.point
+        self._slopes[anchor.point], self._anchors[event] = anchor.slope, anchor
 
     def minima(self, event: str) -> list[Point]:
         """Return every minimum of the load ("pull_off") or of the displacement ("jump_out") along the path."""
@@ -377,7 +370,12 @@ class PathEvents:
         return None
 
     def root(self, pair: Pair, function: Callable[[Point], float]) -> Point:
-        """Find the point between two neighbours where the function vanishes."""
+        """Find the point between two neighbours where the function vanishes.
+
+        Where the neighbours tell the rates, the cubic through both has it.
+        """
+        if pair[0].rates is not None:
+            return self._interpolated_root(*pair, function)
         solved = {pair[0].parameter: pair[0], pair[1].parameter: pair[1]}
 
         def value(parameter: float) -> float:
@@ -392,6 +390,16 @@ class PathEvents:
         )
         value(root)
         return solved[root]
+
+    def _interpolated_root(self, a: Point, b: Point, function: Callable[[Point], float]) -> Point:
+        def value(x: float) -> float:
+            return function(interpolated(a, b, x))
+
+        x = float(brentq(value, math.log(a.parameter), math.log(b.parameter)))
+        point = self.between(a, b, math.exp(x))
+        slope = (value(x + LOG_SLOPE_STEP) - value(x - LOG_SLOPE_STEP)) / (2.0 * LOG_SLOPE_STEP)
+        self._slopes[point] = slope / point.parameter
+        return point
 
 
 def slope_at(event: str, point: Point) -> float:

@@ -1,4 +1,4 @@
-"""The path over meshes for each radius of the edge, and the meshes that are fine at the edges of its events."""
+"""The path of a problem, each state in contact on a mesh that resolves its edge, and the meshes of its events."""
 
 from __future__ import annotations
 
@@ -9,26 +9,40 @@ from functools import cached_property, lru_cache
 
 from fem_reference._contact.bodies import are_one_power_law
 from fem_reference._contact.completeness import complete_path, displacement_range
-from fem_reference._contact.edge_path import FARTHER, EventsOfEdgePath, edge_path
+from fem_reference._contact.cusp import slowest_sample
 from fem_reference._contact.edge_states import EdgeStates
-from fem_reference._contact.events import JUMP_IN, LANDING, SEPARATED, Anchor, PathEvents, beginning_of, excess_of
+from fem_reference._contact.events import (
+    CUSP,
+    JUMP_IN,
+    LANDING,
+    SEPARATED,
+    Anchor,
+    PathEvents,
+    beginning_of,
+    beyond_pull_off,
+    excess_of,
+)
 from fem_reference._contact.jkr_tension import last_turn
 from fem_reference._contact.mesh_lengths import (
     EDGE_PER_BALANCE,
+    EDGE_RISE,
     OTHER_LENGTHS,
     WIDEST,
+    balance_length,
     check_width,
     kinks_within,
     spot_length,
 )
 from fem_reference._contact.meshes import Meshes
-from fem_reference._contact.path import beginning, equilibrium_points
-from fem_reference._contact.states import WIDTH_SHARE, Point, edge_width
+from fem_reference._contact.path import BEYOND_LAST_TURN, approach, beginning, completed, contact_points, traced
+from fem_reference._contact.states import NARROWER, WIDTH_SHARE, Point, edge_width
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import SEARCH_DEGREE
+from fem_reference.errors import Failure, NotConverged
+from fem_reference.punch import radius_at_height
 from fem_reference.tabulated_law import TabulatedLaw
 
-__all__ = ["FollowedPath", "followed_path"]
+__all__ = ["FollowedPath", "followed_path", "path_on"]
 
 #: Difference of two minima, relative to the load or in lengths of the law, up to which their own meshes decide.
 TIE = 1e-2
@@ -59,6 +73,14 @@ BESIDE_EXTREMUM = 2e-4
 #: at the pull-off on a soft layer with a Tabor number of 160).
 WIDEST_EDGE = 5.0
 
+#: Ratio of the density of the first mesh for the spot on which contact begins to that of the others, and the largest
+#: number of such meshes.
+SPOT_DENSITY, SPOT_MESHES = 1.5, 6
+
+#: Largest number of meshes tried for the edge where folds merge, and of those in a row on which the path cannot be
+#: traced.
+CUSP_MESHES, FAILURES = 10, 3
+
 
 class FollowedPath:
     """The path of a problem, each state in contact on a mesh that resolves its edge.
@@ -66,29 +88,45 @@ class FollowedPath:
     Parameters
     ----------
     meshes : Meshes
-        Of a problem with a mesh for each radius of the edge.
     """
 
     def __init__(self, meshes: Meshes) -> None:
         self._meshes = meshes
 
     @cached_property
+    def meshes(self) -> Meshes:
+        """The meshes; those that scale extend as far from the spot on which contact begins."""
+        meshes, density = self._meshes, SPOT_DENSITY
+        for _ in range(SPOT_MESHES if meshes.scale else 0):
+            spec, size = meshes.first()
+            try:
+                coarse = replace(spec, order=SEARCH_DEGREE, density=density * spec.density)
+                separate, start = approach(meshes.contact(coarse, size))
+            except NotConverged:
+                if density == 1.0:
+                    # Contact begins on a spot as small as the solid and the law allow, far from the rest of the punch.
+                    spot = min(meshes.spot, balance_length(meshes.problem, size))
+                    meshes = replace(meshes, spot=spot, failures=meshes.failures + 1)
+                density = 1.0
+            else:
+                spot = min(point.state.size for point in (*separate, start))
+                meshes = replace(meshes, spot=min(meshes.spot, spot))
+                if meshes.first()[0] == spec:
+                    break
+        return meshes
+
+    @cached_property
     def _first(self) -> tuple[MeshSpec, float]:
         """The mesh on which the path begins."""
-        return self._meshes.first()
+        return self.meshes.first()
 
     @cached_property
     def _approach(self) -> tuple[list[Point], Point]:
         """The path before contact, and its first state in contact, on the first mesh."""
         spec, size = self._first
-        points = equilibrium_points(self._meshes.contact(replace(spec, order=SEARCH_DEGREE), size))
-        approach: list[Point] = []
-        for point in points:
-            if point.branch.touching:
-                *approach, contact_start = complete_path([*approach, point])
-                return approach, contact_start
-            approach.append(point)
-        raise AssertionError("a path that does not reach contact raises NotConverged")
+        separate, start = approach(self.meshes.contact(replace(spec, order=SEARCH_DEGREE), size))
+        *separate, start = complete_path([*separate, start])
+        return separate, start
 
     def events(self, event: str = "") -> PathEvents:
         """Return the events of the path; for a jump into contact before there is an edge, of that part of it.
@@ -104,26 +142,38 @@ class FollowedPath:
         return any(point.displacement_rate <= 0.0 for point in self._approach[0])
 
     @cached_property
-    def _whole(self) -> EventsOfEdgePath:
-        problem, turn = self._meshes.problem, self._last_turn()
-        # Edges beyond reach are refused here, and not after minutes.
-        ratio = EDGE_PER_BALANCE / FARTHER if are_one_power_law(problem, kinks_within(problem)) else WIDEST_EDGE
-        check_width(ratio * WIDTH_SHARE * spot_length(problem, self._first[1]) / turn)
-        approach, contact_start = self._approach
-        states = EdgeStates(self._meshes, contact_start, SEARCH_DEGREE, self._meshes.level.density)
-        highest = displacement_range(approach)[1]
-        touching = edge_path(states, contact_start.edge_radius, turn, kinks_within(problem), highest)
-        before = complete_path([*beginning(approach, touching), *approach])
-        return EventsOfEdgePath(before, touching, states)
+    def _whole(self) -> PathEvents:
+        meshes, kinks = self.meshes, kinks_within(self.meshes.problem)
+        turn = 0.0 if meshes.scale else self._last_turn(kinks)
+        separate, start = self._approach
+        states = EdgeStates(meshes, start, SEARCH_DEGREE, meshes.level.density)
+        if meshes.scale:
+            states.states[start.parameter] = start
+        highest = displacement_range(separate)[1]
+        points = contact_points(states.at, start.edge_radius, kinks, highest, turn, meshes.scale)
+        touching = completed(states.at, points, meshes.scale)
+        before = complete_path([*beginning(separate, touching), *separate])
+        return PathEvents((*before, *touching), states.at)
 
-    def _last_turn(self) -> float:
-        """Radius beyond which neither load nor displacement turns back."""
-        size = self._first[1]
-        spec = replace(self._meshes.spec_at(WIDEST, size), density=SCAN_DENSITY, order=SEARCH_DEGREE)
-        return last_turn(self._meshes.contact(spec, size), size)
+    def _last_turn(self, kinks: tuple[float, ...]) -> float:
+        """Radius beyond which neither load nor displacement turns back; edges out of reach up to it are refused."""
+        problem, size = self.meshes.problem, self._first[1]
+        spec = replace(self.meshes.spec_at(WIDEST, size), density=SCAN_DENSITY, order=SEARCH_DEGREE)
+        turn = last_turn(self.meshes.contact(spec, size), size)
+        ratio = EDGE_PER_BALANCE / BEYOND_LAST_TURN if are_one_power_law(problem, kinks) else WIDEST_EDGE
+        check_width(ratio * WIDTH_SHARE * spot_length(problem, size) / turn)
+        return turn
 
-    def mesh(self, event: str) -> tuple[MeshSpec, float]:
-        """Return the mesh that is fine at the contact edge of an event, and the radius of that edge.
+    def mesh(self, events: Sequence[str], start: tuple[MeshSpec, float] | None = None) -> tuple[MeshSpec, float]:
+        """Return the mesh that is fine at the contact edge of the first event, and the radius of that edge.
+
+        A mesh that scales is fine at the edges of all of them.
+
+        Parameters
+        ----------
+        events : sequence of str
+        start : tuple, optional
+            The mesh and size of a similar problem, to begin with at the cusp.
 
         Raises
         ------
@@ -132,6 +182,11 @@ class FollowedPath:
         NotConverged
             As `events`, or if the edge is narrower than a mesh can resolve.
         """
+        event = events[0]
+        if event == CUSP:
+            return self._mesh_of_cusp(start)
+        if self.meshes.scale:
+            return self._mesh_of_all(events)
         if event == JUMP_IN and self._jumps_before_contact():
             return self._first
         located = [self._located(event, point) for point in self._lowest(event)]
@@ -139,12 +194,60 @@ class FollowedPath:
         self._whole.relocate(event, anchor)
         return mesh
 
+    def _mesh_of_all(self, events: Sequence[str]) -> tuple[MeshSpec, float]:
+        """The mesh for the narrowest edge of the part of the path in which several events are, with the pull-off."""
+        if events[0] == JUMP_IN and self._jumps_before_contact():
+            return self._first
+        points = self._whole.points
+        for event in events:
+            self._whole.at(event)
+        if not any(beyond_pull_off(event) for event in events):
+            # Beyond the pull-off the edge is sharper relative to its radius, but that part is not needed.
+            deepest = min(range(len(points)), key=lambda i: points[i].state.load)
+            points = points[: deepest + 3]
+        narrowest = min((edge_width(point) for point in points if point.branch.touching), default=WIDEST)
+        width = min(WIDTH_SHARE * narrowest, self._first[0].edge_width)
+        check_width(width)
+        size = self._first[1]
+        return self.meshes.spec_at(width, size), size
+
+    def _mesh_of_cusp(self, start: tuple[MeshSpec, float] | None) -> tuple[MeshSpec, float]:
+        """The mesh for the edge where folds merge, on which the whole path is traced: they merge before it is sharp."""
+        meshes, failures = self.meshes, 0
+        problem = meshes.problem
+        spec, size = self._first
+        if start is not None:
+            spec, size = start
+        elif not meshes.scale:
+            size = radius_at_height(problem.punch, EDGE_RISE * problem.law.z0)
+            spec = meshes.spec_at(0.5 * balance_length(problem, size) / size, size)
+        for _ in range(CUSP_MESHES):
+            width = NARROWER * spec.edge_width
+            try:
+                samples = path_on(meshes, replace(spec, order=SEARCH_DEGREE), size).samples
+            except NotConverged:
+                failures += 1
+                if failures == FAILURES:
+                    raise
+            else:
+                edges = [point for point in samples[: slowest_sample(samples) + 2] if point.branch.touching]
+                narrowest = min(map(edge_width, edges), default=WIDEST)
+                # The gap falls at the edge of a mesh that is too coarse to tell the width.
+                width, failures = (WIDTH_SHARE * narrowest if narrowest > 0.0 else width), 0
+                if width >= spec.edge_width:
+                    return spec, size
+            check_width(width)
+            spec = meshes.spec_at(width, size)
+        raise NotConverged(
+            "the width of the contact edge was not found: the edge is narrower than the mesh can resolve", Failure.MESH
+        )
+
     def _lowest(self, event: str) -> Sequence[Point]:
         """The state at an event, and others that may be it on their own meshes."""
         deepest = self._whole.at(event)
         if event not in ("pull_off", "jump_out"):
             return [deepest]
-        unit = abs(deepest.state.load) if event == "pull_off" else self._meshes.problem.law.z0
+        unit = abs(deepest.state.load) if event == "pull_off" else self.meshes.problem.law.z0
         limit = _height(event, deepest) + TIE * unit
         return [point for point in self._whole.minima(event) if _height(event, point) <= limit]
 
@@ -157,11 +260,11 @@ class FollowedPath:
             return self._first, Anchor(replace(point, pinned=pinned), slope)
         level = 0.0 if beginning is None else self._whole.at(beginning).state.displacement
         # Its own finest mesh decides where the edge is, because the rates on coarser ones are less certain.
-        order, density = self._meshes.level.order, self._meshes.level.density
+        order, density = self.meshes.level.order, self.meshes.level.density
         is_extremum = beginning is None and event != "zero_load"
         if is_extremum and edge_width(point) < NARROW_EDGE:
             return self._extremum(event, point)
-        states = EdgeStates(self._meshes, point, order, density, EVENT_SHARE)
+        states = EdgeStates(self.meshes, point, order, density, EVENT_SHARE)
         excess = excess_of(event, level)
         spec, radius = states.located(excess, slope)
         if is_extremum:
@@ -180,10 +283,10 @@ class FollowedPath:
 
     def _extremum(self, event: str, point: Point) -> tuple[tuple[MeshSpec, float], Anchor]:
         """As `_located`, by the values of states beside it; other elements tell the error of the radius."""
-        order, density = self._meshes.level.order, self._meshes.level.density
+        order, density = self.meshes.level.order, self.meshes.level.density
 
         def states_near(start: Point, order: int, density: float) -> EdgeStates:
-            return EdgeStates(self._meshes, start, order, density, EVENT_SHARE)
+            return EdgeStates(self.meshes, start, order, density, EVENT_SHARE)
 
         def height(state: Point) -> float:
             return _height(event, state)
@@ -191,7 +294,7 @@ class FollowedPath:
         states = states_near(point, order, density)
         radius, slope = states.extremum(height)
         others = [(order - 1, density)]
-        if isinstance(self._meshes.problem.law, TabulatedLaw):
+        if isinstance(self.meshes.problem.law, TabulatedLaw):
             others += [(order, ratio * density) for ratio in OTHER_LENGTHS]
         radii = [states_near(states.start, *other).extremum(height)[0] for other in others]
         spec, point_there = states_near(states.start, order, density).on_fine_mesh(radius)
@@ -209,3 +312,16 @@ def followed_path(meshes: Meshes) -> FollowedPath:
 def _height(event: str, point: Point) -> float:
     """Load or displacement, the lowest of which is the event."""
     return point.state.load if event == "pull_off" else point.state.displacement
+
+
+# The search for the mesh of a cusp ends on the path that it is found on.
+@lru_cache(maxsize=2)
+def path_on(meshes: Meshes, spec: MeshSpec, size: float) -> PathEvents:
+    """Return the events of the path on one mesh.
+
+    Raises
+    ------
+    NotConverged
+        If it cannot be traced there.
+    """
+    return PathEvents(traced(meshes.contact(spec, size)))

@@ -26,10 +26,8 @@ from fem_reference.solids import Solid
 
 __all__ = [
     "EDGE_PER_BALANCE",
-    "NARROWEST",
-    "NARROWEST_OF_ONE_MESH",
+    "EDGE_RISE",
     "OTHER_LENGTHS",
-    "UNRESOLVED",
     "WIDEST",
     "balance_length",
     "check_width",
@@ -42,6 +40,10 @@ __all__ = [
 #: Ratios of other lengths of the elements, whose differences tell the error by kinks of a law (measured: at most 0.44
 #: of the sum of both bounds in 44 values on seven solids, of which eight were up to 11 times outside by degrees alone).
 OTHER_LENGTHS = (0.6, 0.8, 1.25)
+
+#: Gap at the node s = 1 above the central gap before contact, in lengths of the law: small, so that the edge is the
+#: parameter before any pull-off (a flat punch, n = 5 and more, pulls off 0.1 z0 below the gap of peak tension).
+EDGE_RISE = 0.05
 
 #: Radial length resolved at r = 0, relative to the edge radius: a cone then has its pull-off force to 3e-10.
 APEX_WIDTH = 0.05
@@ -66,10 +68,6 @@ NARROWEST, WIDEST = 1e-8, 0.25
 
 #: The smallest of a mesh that carries a whole path: it extends far beyond the spot on which contact begins.
 NARROWEST_OF_ONE_MESH = 1e-6
-
-#: Share of the narrowest edge of one mesh below which an edge is refused there: on elements that are longer the edge
-#: has several equilibria. The value is chosen; edges of a hundredth of it are found at k above 0.85 and mu above 5.
-UNRESOLVED = 0.02
 
 #: Ratio of the width of an edge to its length of balance (measured at the pull-off at mu = 160 and 1000, k = 0), and
 #: share of it that is resolved.
@@ -274,7 +272,7 @@ def spot_length(problem: Problem, radius: float) -> float:
     return min(balance_length(problem, radius), balance_length(problem, SMALLEST_APEX * radius))
 
 
-def check_width(width: float, smallest: float = NARROWEST) -> None:
+def check_width(width: float) -> None:
     """Refuse an edge, of that width relative to its radius, that is narrower than the smallest of a mesh.
 
     Raises
@@ -285,9 +283,9 @@ def check_width(width: float, smallest: float = NARROWEST) -> None:
     --------
     >>> check_width(1e-3)
     """
-    if width < smallest:
+    if width < NARROWEST:
         raise NotConverged(
             f"the contact edge needs elements of {width:.1e} of its radius, and the smallest that are meshed have "
-            f"{smallest:g}: the adhesion is too strong for the solid at its surface",
+            f"{NARROWEST:g}: the adhesion is too strong for the solid at its surface",
             Failure.MESH,
         )

@@ -51,8 +51,6 @@ ROUNDING = 1e-14
 #: Distance by which the contact edge is placed beside its node, in halves of the element beyond it.
 PLACEMENT = 0.5
 
-Functional = Callable[[CarriedEvents], float]
-
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
@@ -104,7 +102,7 @@ class EventsOnMeshes:
     degrees: tuple[int, int, int]
     accuracy: float
 
-    def estimate(self, functional: Functional) -> Estimate:
+    def estimate(self, functional: Callable[[CarriedEvents], float]) -> Estimate:
         """Return the values of a quantity and the parts of its error.
 
         Raises
@@ -131,7 +129,13 @@ class EventsOnMeshes:
         )
         return Estimate(values, dict(zip(PARTS, parts, strict=True)))
 
-    def _change(self, functional: Functional, name: str, values: tuple[float, float, float], mesh: float) -> float:
+    def _change(
+        self,
+        functional: Callable[[CarriedEvents], float],
+        name: str,
+        values: tuple[float, float, float],
+        mesh: float,
+    ) -> float:
         """Difference that a coarser feature makes."""
         base, _, fine = values
         with suppress(NotConverged):
@@ -161,8 +165,8 @@ def events_on_meshes(mesh: EventMesh) -> EventsOnMeshes:
     problem, contact = meshes.problem, fine.contact
     plain = replace(spec, order=SEARCH_DEGREE)
     # Another placement of the edge needs another mesh if the solid does not scale: that of the degree below.
-    placements = (-PLACEMENT, PLACEMENT) if meshes.one_for_all else ()
-    sides = (-1.0, 1.0) if mesh.event and fine.anchor(mesh.event).radius_error > 0.0 else ()
+    placements = (-PLACEMENT, PLACEMENT) if meshes.scale else ()
+    sides = () if meshes.scale or fine.anchor(mesh.event).radius_error == 0.0 else (-1.0, 1.0)
 
     def on(other: MeshSpec) -> Contact:
         return meshes.contact(other, mesh.size)

@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 
 from fem_reference._contact.contact import Contact
-from fem_reference._contact.controls import Control, EdgeRadius
+from fem_reference._contact.controls import Control, EdgeGap, EdgeRadius, Size, mesh_control
 from fem_reference._contact.newton import State, newton
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
@@ -21,10 +21,12 @@ from fem_reference.punch import kinks_of
 
 __all__ = [
     "NARROWER",
+    "SIZE_STEP",
     "WIDTH_SHARE",
     "Branch",
     "Point",
     "branches_of",
+    "contact_branch",
     "continuation",
     "edge_is_resolved",
     "edge_width",
@@ -131,6 +133,12 @@ class Point:
         return self.orientation * self.state.displacement_rate if self.rates is None else self.rates[1]
 
 
+def contact_branch(contact: Contact) -> Branch:
+    """Return the branch of the radius of the edge: the mesh follows the edge, or the edge moves over it."""
+    family = Size if contact.compliance.scales else EdgeRadius
+    return Branch(contact, mesh_control(contact, EdgeGap()), family, touching=True)
+
+
 def continuation(point: Point, step: float, stop: float) -> Iterator[Point]:
     """Continue a branch from a point towards `stop`, yielding every converged point after the first.
 
@@ -189,8 +197,10 @@ def edge_width(point: Point) -> float:
 
 
 def element_length(point: Point, radius: float) -> float:
-    """Length of the element inside a radius on the mesh of a state."""
+    """Length of the element inside a radius on the mesh of a state, which follows the edge there if it can."""
     size, nodes = point.state.size, point.branch.contact.compliance.trace.nodes
+    if point.branch.contact.compliance.scales:
+        size = radius
     outer = min(max(int(np.searchsorted(nodes, radius / size)), 1), nodes.size - 1)
     return float(size * (nodes[outer] - nodes[outer - 1]))
 
@@ -204,11 +214,10 @@ def edge_is_resolved(point: Point, share: float = 1.0) -> bool:
 
 
 def joined(a: Point, b: Point) -> bool:
-    """Whether the path is smooth between two neighbours: one branch, or meshes for two edges without a kink between."""
-    if a.branch is b.branch:
-        return True
+    """Whether the path is smooth between two neighbours: one branch or mesh for each, without a kink between."""
     low, high = sorted((a.edge_radius, b.edge_radius))
-    return low > 0.0 and not any(low < kink < high for kink in kinks_of(a.branch.contact.punch))
+    kinked = any(low < kink < high for kink in kinks_of(a.branch.contact.punch))
+    return not kinked and (a.branch is b.branch or low > 0.0)
 
 
 def branches_of(points: Sequence[Point]) -> list[list[Point]]:

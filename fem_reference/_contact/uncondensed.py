@@ -27,8 +27,9 @@ from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.event_equations import EventEquations
 from fem_reference._contact.event_mesh import EventMesh
-from fem_reference._contact.events import Jump, PathEvents, beginning_of
+from fem_reference._contact.events import PathEvents, beginning_of
 from fem_reference._contact.full_system import FullSystem
+from fem_reference._contact.quantity import Quantity
 from fem_reference._contact.states import Point
 from fem_reference._elastic.assembly import HalfSpace
 from fem_reference._elastic.compliance import Addend
@@ -37,7 +38,7 @@ from fem_reference._linear.linear_solver import LinearResult, solve_cg
 from fem_reference._typing import Array
 from fem_reference.errors import Failure, NotConverged
 
-__all__ = ["PointsAtEvents", "UncondensedEvents", "UncondensedValue", "uncondensed_events"]
+__all__ = ["UncondensedEvents", "UncondensedValue", "uncondensed_events"]
 
 #: Residual of the displacements in the first step, about their relative error in energy, and in the last one at least.
 LINEAR_TOLERANCE, LEAST_TOLERANCE = 1e-10, 1e-12
@@ -102,44 +103,6 @@ class UncondensedValue:
     residual: float
 
 
-class PointsAtEvents:
-    """Points of a path at its events.
-
-    Parameters
-    ----------
-    points : mapping of str to Point
-        By the names of the events.
-    path : PathEvents or CarriedEvents
-        The path.
-    """
-
-    def __init__(self, points: Mapping[str, Point], path: PathEvents | CarriedEvents) -> None:
-        self.points, self._path = points, path
-
-    def at(self, event: str) -> Point:
-        """Return the point at an event."""
-        return self.points[event]
-
-    @property
-    def jumps(self) -> tuple[Jump, ...]:
-        """The jumps of the path."""
-        return self._path.jumps
-
-
-Functional = Callable[[PointsAtEvents], float]
-
-
-class _Condensed(dict[str, Point]):
-    """Points of the condensed path; those that were requested are the keys."""
-
-    def __init__(self, path: PathEvents | CarriedEvents) -> None:
-        super().__init__()
-        self._path = path
-
-    def __missing__(self, name: str) -> Point:
-        return self.setdefault(name, self._path.at(name))
-
-
 class UncondensedEvents:
     """Events of a condensed path, each solved again on the whole mesh.
 
@@ -163,7 +126,7 @@ class UncondensedEvents:
         self._points: dict[str, Point] = {}
         self._shifted: dict[str, Point] = {}
 
-    def prepare(self, functionals: Iterable[Functional]) -> None:
+    def prepare(self, quantities: Iterable[Quantity]) -> None:
         """Solve the events of several quantities together.
 
         Raises
@@ -173,19 +136,19 @@ class UncondensedEvents:
         NotConverged
             If the whole system misses a tolerance.
         """
-        condensed = _Condensed(self._path)
-        for functional in functionals:
-            functional(PointsAtEvents(condensed, self._path))
-        missing = {name: point for name, point in condensed.items() if name not in self._points}
+        self._prepare(event for quantity in quantities for event in quantity.events)
+
+    def _prepare(self, events: Iterable[str]) -> None:
+        missing = {event: self._path.at(event) for event in events if event not in self._points}
+        # A jump ends at the displacement where it begins, which therefore comes first.
+        for end in sorted(missing):
+            begin = None if missing[end].pinned else beginning_of(end)
+            if begin is not None:
+                missing = {begin: self._path.at(begin), **missing}
         if missing:
-            # A jump ends at the displacement where it begins, which therefore comes first.
-            for end in sorted(missing):
-                begin = None if missing[end].pinned else beginning_of(end)
-                if begin is not None:
-                    missing = {begin: condensed[begin], **missing}
             self._solve(missing)
 
-    def value(self, functional: Functional) -> UncondensedValue:
+    def value(self, quantity: Quantity) -> UncondensedValue:
         """Return a quantity, with what is known of its rounding.
 
         Raises
@@ -193,15 +156,13 @@ class UncondensedEvents:
         NoSuchEvent, NotConverged
             As `prepare`.
         """
-        self.prepare((functional,))
-        condensed = _Condensed(self._path)
-        difference = functional(PointsAtEvents(condensed, self._path))
-        value = functional(PointsAtEvents(self._points, self._path))
-        left = abs(functional(PointsAtEvents(self._shifted, self._path)) - value)
-        states = [self._points[name].state for name in condensed]
+        self.prepare((quantity,))
+        value = quantity.value(self._points.__getitem__)
+        left = abs(quantity.value(self._shifted.__getitem__) - value)
+        states = [self._points[event].state for event in quantity.events]
         return UncondensedValue(
             value,
-            abs(value - difference) + left,
+            abs(value - quantity.value(self._path.at)) + left,
             min(state.iterations for state in states),
             max(state.residual for state in states),
         )
@@ -214,7 +175,7 @@ class UncondensedEvents:
         NoSuchEvent, NotConverged
             As `prepare`.
         """
-        self.prepare((lambda points: points.points[event].state.load,))
+        self._prepare((event,))
         return self._points[event]
 
     def _solve(self, condensed: Mapping[str, Point]) -> None:

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, Protocol, cast
+from typing import Any, cast
 
 import numpy as np
 from scipy import linalg
@@ -33,8 +33,6 @@ from fem_reference.poisson import PoissonRatio
 __all__ = [
     "Addend",
     "Compliance",
-    "FixedCompliance",
-    "ScalingCompliance",
     "compliance_for",
     "is_power_law",
     "is_scaling",
@@ -44,47 +42,6 @@ __all__ = [
     "surface_compliance",
     "unit_of",
 ]
-
-
-class Compliance(Protocol):
-    """Surface compliance as a function of the size c of the mesh."""
-
-    @property
-    def trace(self) -> Trace:
-        """The surface functions."""
-        ...
-
-    @property
-    def unknowns(self) -> int:
-        """Unknowns of the finite-element mesh behind it."""
-        ...
-
-    def factor(self, c: float) -> float:
-        """Factor of `matrix` at size c."""
-        ...
-
-    def factor_slope(self, c: float) -> float:
-        """Return the derivative of `factor` with respect to c."""
-        ...
-
-    @property
-    def matrix(self) -> Array:
-        """Normal displacement per load vector, shape (m, m), per unit factor."""
-        ...
-
-    @property
-    def parts(self) -> tuple[Addend, ...]:
-        """The bodies, whose matrices add to `matrix`."""
-        ...
-
-    @property
-    def stiffness(self) -> float:
-        """Modulus relative to that of the solid that was condensed."""
-        ...
-
-    def stiffened(self, ratio: float) -> Compliance:
-        """Return the compliance of a solid whose modulus is larger by a factor everywhere."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -104,80 +61,71 @@ class Addend:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ScalingCompliance:
-    """Compliance of E = E0 (z/c0)^k: one matrix for every size.
+class Compliance:
+    """Surface compliance as a function of the size c of the mesh, or on a mesh of one size.
 
     Attributes
     ----------
+    trace : Trace
+        The surface functions.
+    matrix : ndarray, shape (m, m)
+        Normal displacement per load vector, per unit factor.
+    unknowns : int
+        Unknowns of the finite-element mesh behind it.
+    size : float
+        Of the mesh; immaterial with a law.
+    unit : float
+        Factor at that size.
+    law : PowerLawModulus, optional
+        E = E0 (z/c0)^k of a solid whose matrix serves every size.
+    stiffness : float
+        Modulus relative to that of the solid that was condensed.
     second : Addend, optional
         The part of `matrix` that is the second of two bodies.
     """
 
     trace: Trace
     matrix: Array
-    modulus: PowerLawModulus
     unknowns: int
-    stiffness: float = 1.0
-    second: Addend | None = None
-
-    @property
-    def parts(self) -> tuple[Addend, ...]:
-        """Both bodies, or the only one."""
-        return _parts(self.matrix, self.second)
-
-    def factor(self, c: float) -> float:
-        """c^(1-k) c0^k / E0, with the modulus of `stiffness`."""
-        return _factor(self.modulus, c, self.stiffness)
-
-    def factor_slope(self, c: float) -> float:
-        """(1 - k) factor / c."""
-        return (1.0 - self.modulus.k) * self.factor(c) / c
-
-    def stiffened(self, ratio: float) -> ScalingCompliance:
-        """Return the compliance of a solid whose modulus is larger by a factor everywhere."""
-        return replace(self, stiffness=ratio * self.stiffness)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class FixedCompliance:
-    """Compliance on a mesh of one size, `unit` times a matrix; `second` as for `ScalingCompliance`.
-
-    Raises
-    ------
-    ValueError
-        From `factor`, at any size but that of the mesh.
-    """
-
-    trace: Trace
-    matrix: Array
     size: float
-    unknowns: int
     unit: float
+    law: PowerLawModulus | None = None
     stiffness: float = 1.0
     second: Addend | None = None
 
     @property
+    def scales(self) -> bool:
+        """Whether the size of the mesh can change."""
+        return self.law is not None
+
+    @property
     def parts(self) -> tuple[Addend, ...]:
-        """Both bodies, or the only one."""
-        return _parts(self.matrix, self.second)
+        """Both bodies, or the only one; their matrices add to `matrix`."""
+        if self.second is None:
+            return (Addend(1.0, self.matrix),)
+        return (Addend(1.0, self.matrix - self.second.matrix), self.second)
 
     def factor(self, c: float) -> float:
-        """Factor at c, which must be the size of the mesh: `unit`, with the modulus of `stiffness`."""
+        """Factor of `matrix` at a size, with the modulus of `stiffness`: c^(1-k) c0^k / E0 of a power law.
+
+        Raises
+        ------
+        ValueError
+            At any size but that of the mesh, without a law.
+        """
+        if self.law is not None:
+            return _factor(self.law, c, self.stiffness)
         if abs(c / self.size - 1.0) > 1e-12:
             raise ValueError(f"this compliance holds at the size {self.size}, not {c}: the mesh has one size")
         return self.unit / self.stiffness
 
     def factor_slope(self, c: float) -> float:
-        """Zero: the size cannot change."""
-        return 0.0
+        """Return the derivative of `factor` with respect to c; zero if the size cannot change."""
+        return 0.0 if self.law is None else (1.0 - self.law.k) * self.factor(c) / c
 
-    def stiffened(self, ratio: float) -> FixedCompliance:
+    def stiffened(self, ratio: float) -> Compliance:
         """Return the compliance of a solid whose modulus is larger by a factor everywhere."""
         return replace(self, stiffness=ratio * self.stiffness)
-
-
-def _parts(matrix: Array, second: Addend | None) -> tuple[Addend, ...]:
-    return (Addend(1.0, matrix),) if second is None else (Addend(1.0, matrix - second.matrix), second)
 
 
 def sum_of(first: Compliance, second: Compliance, size: float) -> Compliance:
@@ -193,10 +141,8 @@ def sum_of(first: Compliance, second: Compliance, size: float) -> Compliance:
     share = second.factor(size) / first.factor(size)
     added, unknowns = Addend(share, share * second.matrix), first.unknowns + second.unknowns
     matrix = first.matrix + added.matrix
-    match first, second:
-        case ScalingCompliance(), ScalingCompliance() if first.modulus.k == second.modulus.k:
-            return replace(first, matrix=matrix, unknowns=unknowns, second=added)
-    return FixedCompliance(first.trace, matrix, size, unknowns, first.factor(size), second=added)
+    law = first.law if first.law and second.law and first.law.k == second.law.k else None
+    return Compliance(first.trace, matrix, unknowns, size, first.factor(size), law, second=added)
 
 
 @lru_cache(maxsize=24)
@@ -227,13 +173,13 @@ def _unit_half_space(k: float, nu: float, spec: MeshSpec, condition: SurfaceCond
 @lru_cache(maxsize=8)
 def _tense_compliance(
     law: PowerLawModulus, nu: float, spec: MeshSpec, size: float, recoverable: bool, condition: SurfaceCondition
-) -> FixedCompliance:
+) -> Compliance:
     """Compliance of a power law under surface tension, which is in units of the mesh."""
     stiffness, unknowns = _unit_stiffness(law.k, nu, spec, recoverable, condition.bonded)
     skin = SurfaceTension(spec.grid().r, spec.order, law.k)
     half_space = _unit_half_space(law.k, nu, spec, condition) if recoverable else None
     matrix = _inverse(stiffness + condition.tension * skin.matrix.toarray(), half_space)
-    return FixedCompliance(trace_of(spec.grid(), spec.order), matrix, size, unknowns, _factor(law, size))
+    return Compliance(trace_of(spec.grid(), spec.order), matrix, unknowns, size, _factor(law, size))
 
 
 def _factor(law: PowerLawModulus, c: float, stiffness: float = 1.0) -> float:
@@ -395,17 +341,15 @@ def compliance_for(
     if condition.tension:
         return _tense_compliance(law, ratio, spec, size, recoverable, unit_of(law, ratio, size, condition)[2])
     trace, matrix, unknowns = _unit_compliance(law.k, ratio, spec, recoverable, condition.bonded)
-    of_every_size = ScalingCompliance(trace, matrix, law, unknowns)
-    if scaling and is_scaling(modulus, nu, spec.kinks):
-        return of_every_size
-    return FixedCompliance(trace, matrix, size, unknowns, of_every_size.factor(size))
+    of_every_size = law if scaling and is_scaling(modulus, nu, spec.kinks) else None
+    return Compliance(trace, matrix, unknowns, size, _factor(law, size), of_every_size)
 
 
 # The search for the width of the edge, and the mesh of it that the bounds need again; a few MB each.
 @lru_cache(maxsize=8)
 def _fixed_compliance(
     modulus: Any, nu: Any, spec: MeshSpec, size: float, recoverable: bool, condition: SurfaceCondition
-) -> FixedCompliance:
+) -> Compliance:
     grid, assembly = spec.grid(), half_space_of if recoverable else assembled
     try:
         scaled, ratio, in_units = unit_of(modulus, nu, size, condition)
@@ -414,7 +358,7 @@ def _fixed_compliance(
     except NotConverged as error:
         _refuse_thin_elements(grid, size, error)
         raise
-    return FixedCompliance(trace_of(grid, spec.order), matrix, size, half_space.unknowns, size)
+    return Compliance(trace_of(grid, spec.order), matrix, half_space.unknowns, size, size)
 
 
 def _refuse_thin_elements(grid: Grid, size: float, error: NotConverged) -> None:

@@ -15,7 +15,7 @@ class AnalyticBranch:
     def __init__(self, displacement, load, touching=True):
         self.displacement, self.load, self.touching = displacement, Polynomial(load), touching
         self.rate = displacement.deriv() if isinstance(displacement, Polynomial) else displacement.derivative()
-        self.contact = SimpleNamespace(law=SimpleNamespace(z0=1.0), energy=lambda y: self.work(y[0]))
+        self.contact = SimpleNamespace(law=SimpleNamespace(z0=1.0), punch=None, energy=lambda y: self.work(y[0]))
 
     def largest_step(self, parameter):
         return math.inf

@@ -79,7 +79,7 @@ def rows(number: int, accuracy: str = "quick") -> list[dict[str, object]]:
     for name, solution in solutions.items():
         row = {**head, "quantity": name, "status": type(solution).__name__}
         if isinstance(solution, Solution):
-            error = abs(QUANTITIES[name].functional(reference) - solution.value)
+            error = abs(QUANTITIES[name].value(reference.at) - solution.value)
             row |= {"status": "value", "value": solution.value, "u_num": solution.u_num, "error": error}
         table.append(row)
     return table

@@ -10,14 +10,14 @@ import pytest
 
 from fem_reference import Coating, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve
 from fem_reference._contact import followed
-from fem_reference._contact.edge_path import FARTHER, EventsOfEdgePath, edge_path
 from fem_reference._contact.edge_states import EdgeStates
-from fem_reference._contact.events import Anchor
+from fem_reference._contact.events import Anchor, PathEvents
 from fem_reference._contact.jkr_tension import jkr_curve
 from fem_reference._contact.meshes import Meshes
-from fem_reference._contact.path import equilibrium_points
+from fem_reference._contact.path import BEYOND_LAST_TURN, completed, contact_points, separate_points, traced
+from fem_reference._contact.states import edge_is_resolved
 from fem_reference.accuracy import level_for
-from tests.fem_reference.solved_together import sphere_on
+from tests.fem_reference.solved_together import problem_with, sphere_on
 from tests.marks import heavy
 
 HOMOGENEOUS = sphere_on(Coating(1.0, 1.0, 1.0, 0.0, 0.0))
@@ -83,7 +83,8 @@ def _minima(points):
 
 
 def _path(height, inner=0.5, last_turn=0.0, kinks=(), highest=0.0):
-    return edge_path(_States(height), inner, last_turn, kinks, highest)
+    at = _States(height).at
+    return completed(at, contact_points(at, inner, kinks, highest, last_turn))
 
 
 def test_a_path_over_meshes_goes_from_the_first_edge_into_compression():
@@ -99,7 +100,7 @@ def test_a_path_over_meshes_goes_from_the_first_edge_into_compression():
 def test_a_path_over_meshes_goes_on_while_tension_can_return():
     end = _path(0.0)[-1]
     farther = _path(0.0, last_turn=2.0 * end.edge_radius)[-1]
-    assert farther.edge_radius >= 2.0 * FARTHER * end.edge_radius
+    assert farther.edge_radius >= 2.0 * BEYOND_LAST_TURN * end.edge_radius
     higher = _path(0.0, highest=end.state.displacement + 1.0)[-1]
     assert higher.state.displacement >= end.state.displacement + 1.0
 
@@ -110,7 +111,7 @@ def test_a_second_minimum_is_found_between_states():
 
 def test_an_event_moves_to_its_state_on_the_mesh_of_its_edge():
     """Other meshes begin with it there, and take the error of its radius into their bound."""
-    events = EventsOfEdgePath([], _path(0.0), _States(0.0))
+    events = PathEvents(_path(0.0), _States(0.0).at)
     anchor = Anchor(_States(0.0).at(math.exp(2.1)), 0.7, 1e-3)
     events.relocate("pull_off", anchor)
     assert events.at("pull_off") is anchor.point
@@ -195,6 +196,30 @@ def test_the_force_on_a_stiff_coating_is_certain_to_a_millionth():
     assert solution.value == pytest.approx(663.18121e3, abs=solution.u_num)
 
 
+def test_a_power_law_has_one_path_over_its_meshes():
+    """Its states share few compliances, of every size, and the events are those of one mesh that is fine throughout."""
+    problem = sphere_on(PowerLaw(0.5, 1.0, 0.4, 0.3))
+    path = followed.followed_path(Meshes(problem, level_for("quick")))
+    touching = [point for point in path.events().points if point.branch.touching]
+    assert all(point.rates is None and point.branch.contact.compliance.scales for point in touching)
+    assert len({id(point.branch.contact.compliance.matrix) for point in touching}) <= 3
+    assert all(edge_is_resolved(point, 1.3) for point in touching)
+    spec, size = path.mesh(("pull_off", "landing"))
+    whole = PathEvents(traced(path.meshes.contact(replace(spec, order=5), size)))
+    for event in ("pull_off", "jump_in", "jump_out", "landing", "separated", "zero_load"):
+        there, on_one = path.events().at(event).state, whole.at(event).state
+        assert there.load == pytest.approx(on_one.load, abs=2e-4), event
+        assert there.displacement == pytest.approx(on_one.displacement, abs=2e-4), event
+
+
+def test_the_mesh_of_a_small_spot_is_made_finer_until_the_path_reaches_it():
+    """Contact under a nearly flat punch begins on a spot far from the rim: two meshes lost the path before it."""
+    path = followed.followed_path(Meshes(problem_with(0.55, 4.12, 5.65, 0.1), level_for("quick")))
+    assert path.meshes.failures > 0
+    assert path.meshes.spot < 0.25 * path.meshes.first()[1]
+    assert path.events("jump_in").jump_in.state.displacement < 0.0
+
+
 def test_contact_on_a_soft_coating_begins_where_it_jumps_in():
     """It begins on a spot of 1e-4 of the mesh, and the solid rises by several lengths of the law before it."""
     path = followed.followed_path(Meshes(soft_coating(1.0), level_for("default")))
@@ -205,7 +230,7 @@ def test_a_path_on_a_very_soft_solid_begins_farther_away():
     """At a Tabor number of 2e4 there is no equilibrium with the central gap that suits stiffer solids."""
     solid = Coating(1e-3, 1e-3, 1.0, 0.0, 0.3)
     meshes = Meshes(Problem(solid, PowerPunch(2.0, 3400.0), LennardJones(10.6, 0.404)), level_for("quick"))
-    start = next(equilibrium_points(meshes.contact(*meshes.first())))
+    start = next(separate_points(meshes.contact(*meshes.first())))
     assert start.state.central_gap > 12.0 * 0.404
 
 

@@ -44,7 +44,7 @@ def _finer_events():
 @pytest.mark.parametrize("quantity", TABLE)
 def test_parts_add_up_to_a_bound_that_covers_the_error_against_a_finer_mesh(quantity):
     solution = solved()[quantity]
-    assert abs(solution.value - TABLE[quantity].functional(_finer_events())) <= solution.u_num
+    assert abs(solution.value - TABLE[quantity].value(_finer_events().at)) <= solution.u_num
     assert tuple(solution.parts) == PARTS
     assert all(0.0 <= part < math.inf for part in solution.parts.values())
     assert math.fsum(solution.parts.values()) == pytest.approx(solution.u_num, rel=1e-12)
@@ -65,9 +65,10 @@ def test_every_part_responds_to_a_mesh_that_is_worse_in_every_feature():
     mesh = _chosen()
     spec = mesh.spec
     worse = replace(spec, **{name: factor * getattr(spec, name) for name, factor in WORSE.items()})
-    functional = TABLE["jump_in_displacement"].functional
+    row = TABLE["jump_in_displacement"]
     good, bad = (
-        meshes.estimate(functional).parts for meshes in (_meshes(), events_on_meshes(replace(mesh, spec=worse)))
+        meshes.estimate(lambda events: row.value(events.at)).parts
+        for meshes in (_meshes(), events_on_meshes(replace(mesh, spec=worse)))
     )
     assert all(bad[part] > 3.0 * good[part] for part in ("first layer", "interior and exterior", "edge", "tail"))
 

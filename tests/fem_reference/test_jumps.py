@@ -18,7 +18,7 @@ from fem_reference import (
     Solution,
     solve_together,
 )
-from fem_reference._contact.events import PathEvents, energy_lost
+from fem_reference._contact.events import PathEvents, event_energy
 from fem_reference.quantities import LOSSES, TABLE, further_losses
 from tests.fem_reference.analytic_branch import AnalyticBranch
 from tests.fem_reference.solved_together import sphere_on
@@ -84,8 +84,9 @@ def test_the_hysteresis_is_the_sum_over_all_jumps(name):
     turns = PATHS[name][0]
     events = _events(turns)
     exact = _lost(turns, retreat=False) + _lost(turns, retreat=True)
-    assert TABLE["hysteresis_energy"].functional(events) == pytest.approx(exact, rel=1e-4)
-    both = energy_lost(events, ("jump_in", "landing")) + energy_lost(events, ("jump_out", "separated"))
+    both = TABLE["hysteresis_energy"].value(events.at)
+    further = [row.value(events.at) for row in further_losses(events).values()]
+    assert both + sum(further) == pytest.approx(exact, rel=1e-4)
     assert (both == pytest.approx(exact, rel=1e-4)) is (len(events.jumps) == 2)
 
 
@@ -111,8 +112,9 @@ def test_the_parts_of_a_further_jump_are_its_loss(error):
     end = events.at("separated_2")
     moved = end.branch.solve(end.parameter + error, None)
     meshes = {"jump_out_2": events, "separated_2": SimpleNamespace(at=lambda event: moved)}
-    parts = sum(row.functional(meshes[row.events[0]]) for row in rows.values())
-    assert parts == pytest.approx(energy_lost(events, ("jump_out_2", "separated_2")), abs=1e-7 + 10.0 * error**2)
+    parts = sum(row.value(meshes[row.events[0]].at) for row in rows.values())
+    lost = event_energy(events.at("jump_out_2")) - event_energy(events.at("separated_2"))
+    assert parts == pytest.approx(lost, abs=1e-7 + 10.0 * error**2)
 
 
 @pytest.mark.parametrize("name", ["one pair", "two jumps on retreat"])
@@ -123,17 +125,18 @@ def test_the_loss_on_meshes_of_their_own_has_every_jump(name, monkeypatch):
     def solved(problem, rows, accuracy):
         requested.extend(rows)
         return {
-            row: Solution(quantity.functional(events), 1e-8, 1, 1, 0.0, 1.0, (4, 6, 7), (1.0, 1.0, 1.0), {"mesh": 1e-8})
+            row: Solution(quantity.value(events.at), 1e-8, 1, 1, 0.0, 1.0, (4, 6, 7), (1.0, 1.0, 1.0), {"mesh": 1e-8})
             for row, quantity in rows.items()
         }
 
     monkeypatch.setattr(solution_module, "_solved_together", solved)
-    monkeypatch.setattr(solution_module, "path_over_meshes", lambda problem, accuracy: events)
+    monkeypatch.setattr(solution_module, "whole_path", lambda problem, accuracy: events)
     problem = sphere_on(Exponential(3.0, 1.0, 5.0, 0.1))
     row = TABLE["hysteresis_energy"]
-    loss = solution_module._by_terms(problem, {"hysteresis_energy": row}, "default")["hysteresis_energy"]
+    loss = solution_module._by_addends(problem, {"hysteresis_energy": row}, "default")["hysteresis_energy"]
     assert requested[:2] == list(LOSSES)
-    assert loss.value == pytest.approx(row.functional(events))
+    further = sum(addend.value(events.at) for addend in further_losses(events).values())
+    assert loss.value == pytest.approx(row.value(events.at) + further)
     assert loss.u_num == pytest.approx(1e-8 * len(requested))
     # A further jump has two parts.
     assert len(requested) == 2 * len(events.jumps) - 2

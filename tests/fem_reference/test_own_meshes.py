@@ -23,11 +23,11 @@ from fem_reference import (
     solve_together,
 )
 from fem_reference._contact import completeness
+from fem_reference._contact import event_mesh as event_mesh_module
 from fem_reference._contact.completeness import complete_path, displacement_range
-from fem_reference._contact.event_mesh import chosen, event_mesh
+from fem_reference._contact.event_mesh import EventMesh, chosen, event_mesh
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.meshes import Meshes
-from fem_reference._contact.width_search import search_path_on
 from fem_reference.accuracy import level_for
 from fem_reference.quantities import TABLE
 from tests.fem_reference.analytic_branch import AnalyticBranch
@@ -47,9 +47,11 @@ CONE = replace(GRADED, solid=Exponential(0.9, 0.3, 5.0, 0.1), punch=PowerPunch(1
 def _own(problem, points, missed=(), monkeypatch=None):
     """Quantities that get a mesh of their own, from which events are resolved on that of the first."""
     resolved = {"pull_off": False, **points}
-    monkeypatch.setattr(solution_module, "edge_is_resolved", lambda event: resolved[event])
+    monkeypatch.setattr(event_mesh_module, "edge_is_resolved", lambda event: resolved[event])
+    monkeypatch.setattr(EventMesh, "events", SimpleNamespace(at=lambda event: event))
+    mesh = EventMesh(SimpleNamespace(meshes=Meshes(problem, level_for("quick"))), "the mesh", 1.0, "pull_off")
     solved = {name: None for name in NAMES if name not in missed}
-    return list(solution_module._unresolved(problem, ROWS, solved, missed, SimpleNamespace(at=lambda event: event)))
+    return list(solution_module._unresolved(mesh, ROWS, solved, missed))
 
 
 def test_a_quantity_whose_edge_is_not_resolved_or_that_is_missed_gets_its_own_mesh(monkeypatch):
@@ -60,9 +62,10 @@ def test_a_quantity_whose_edge_is_not_resolved_or_that_is_missed_gets_its_own_me
     assert names({"jump_in": True, "jump_out": True}) == []
     # The mesh of the jump out of contact serves the other one, which has no contact edge.
     assert names({"jump_in": False, "jump_out": False}) == [JUMP_OUT, JUMP_IN]
-    # One mesh serves every event of a solid that scales.
-    scaling = replace(GRADED, solid=PowerLaw(1.0, 1.0, 0.4, 0.3))
-    assert _own(scaling, {"jump_in": False, "jump_out": False}, monkeypatch=monkeypatch) == []
+    # One mesh serves every event of a solid that scales, unless it misses one.
+    scaling = partial(_own, replace(GRADED, solid=PowerLaw(1.0, 1.0, 0.4, 0.3)), monkeypatch=monkeypatch)
+    assert scaling({"jump_in": False, "jump_out": False}) == []
+    assert scaling({"jump_in": False, "jump_out": False}, {JUMP_OUT: NotConverged()}) == [JUMP_OUT]
 
 
 def test_every_order_of_quantities_finds_the_events_after_a_jump_before_contact():
@@ -182,13 +185,13 @@ def test_a_level_reached_only_at_a_turning_point_between_samples_counts():
 def test_the_path_begins_beyond_the_jump_out_of_contact():
     """The jump out of a soft solid ends at a distance of 13 lengths of the law; on the coarsest mesh alone."""
     mesh = chosen(problem_with(0.0, 8.0), ("zero_load",), "quick")
-    points = search_path_on(mesh.meshes, mesh.spec, mesh.size).points
+    points = mesh.whole_path.points
     assert points[0].state.displacement < min(p.state.displacement for p in points if p.branch.touching) < -12.0
 
 
 def test_a_power_law_has_the_same_mesh_at_neighbouring_radii():
     """A narrow edge has a mesh for each radius, and each mesh would need a condensation."""
     narrow = Meshes(problem_with(0.0, 1500.0), level_for("default"))
-    assert not narrow.one_for_all
+    assert not narrow.scale
     width = 1.01 * 2.0**-26
     assert len({narrow.spec_at(width, radius) for radius in (58.0, 58.5, 59.0)}) == 1

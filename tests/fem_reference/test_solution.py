@@ -98,7 +98,7 @@ def test_finer_meshes_are_taken_where_a_path_cannot_be_traced(monkeypatch, trace
         tried.append(meshes.level)
         if traceable is None or meshes.level != level_for(traceable):
             raise NotConverged("the path stops")
-        return EventMesh(meshes, "the mesh", 1.0)
+        return EventMesh(SimpleNamespace(meshes=meshes), "the mesh", 1.0, "pull_off")
 
     monkeypatch.setattr(event_mesh, "event_mesh", suitable)
     problem = problem_with(0.0, 1.0)

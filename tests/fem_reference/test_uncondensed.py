@@ -90,8 +90,8 @@ def test_the_value_is_that_of_the_whole_system_and_not_of_the_condensed_path(
     """A wrong compliance moves every condensed value; the whole system brings each back and tells how far it was."""
     events = UncondensedEvents(spoiled_path, lower, lambda: soft_system)
     for name, row in TABLE.items():
-        right, wrong = row.functional(soft_path), row.functional(spoiled_path)
-        solution = events.value(row.functional)
+        right, wrong = row.value(soft_path.at), row.value(spoiled_path.at)
+        solution = events.value(row)
         assert abs(wrong - right) > 10 * ALGEBRA, name
         assert solution.value == pytest.approx(right, abs=ALGEBRA), name
         assert solution.rounding >= 0.99 * abs(wrong - right), name
@@ -105,7 +105,7 @@ def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeyp
     monkeypatch.setattr(uncondensed, "RESIDUAL_TOLERANCE", 1e-2)
     events = UncondensedEvents(soft_path, _soft_contact(), lambda: soft_system)
     for name, row in TABLE.items():
-        solution, right = events.value(row.functional), row.functional(soft_path)
+        solution, right = events.value(row), row.value(soft_path.at)
         estimate = solution.rounding - abs(solution.value - right)
         assert estimate == pytest.approx(abs(solution.value - right), rel=SECOND_ORDER), name
 
@@ -115,7 +115,7 @@ def test_a_missed_tolerance_is_no_number(soft_path, lower, soft_system, monkeypa
     monkeypatch.setattr(uncondensed, tolerance, 1e-25)
     events = UncondensedEvents(soft_path, lower, lambda: soft_system)
     with pytest.raises(NotConverged, match=r"Newton step|nonlinear system"):
-        events.value(TABLE["pull_off_force"].functional)
+        events.value(TABLE["pull_off_force"])
 
 
 def test_an_equilibrium_that_is_left_after_one_step_is_refused_for_its_residual(lower, soft_system, monkeypatch):
@@ -124,7 +124,7 @@ def test_an_equilibrium_that_is_left_after_one_step_is_refused_for_its_residual(
     monkeypatch.setattr(uncondensed, "NEWTON_TOLERANCE", 1e-4)
     events = UncondensedEvents(path, lower, lambda: soft_system)
     with pytest.raises(NotConverged, match="residual"):
-        events.value(TABLE["pull_off_force"].functional)
+        events.value(TABLE["pull_off_force"])
 
 
 def test_the_end_of_a_jump_moves_with_its_beginning(soft_path):
@@ -172,7 +172,7 @@ def test_an_event_is_taken_beside_where_it_is(soft_path):
 def test_every_event_takes_iterations_and_none_is_refused(soft_path, lower, soft_system, monkeypatch):
     """The start is another discretisation: an event whose displacement pyamg did not make is no number."""
     events = UncondensedEvents(soft_path, lower, lambda: soft_system)
-    events.prepare(row.functional for row in TABLE.values())
+    events.prepare(TABLE.values())
     assert {"pull_off", "jump_in", "jump_out", "landing"} <= set(events._points)
     assert min(point.state.iterations for point in events._points.values()) > 5
 
@@ -183,7 +183,7 @@ def test_every_event_takes_iterations_and_none_is_refused(soft_path, lower, soft
     monkeypatch.setattr(uncondensed, "solve_cg", idle)
     again = UncondensedEvents(soft_path, lower, lambda: soft_system)
     with pytest.raises(NotConverged, match="no iteration"):
-        again.value(TABLE["pull_off_force"].functional)
+        again.value(TABLE["pull_off_force"])
 
 
 def test_the_whole_system_ends_where_its_condensation_does_from_any_start(soft_path, lower, soft_system):
@@ -191,10 +191,10 @@ def test_the_whole_system_ends_where_its_condensation_does_from_any_start(soft_p
     other = _soft_contact(spec=replace(SPEC, density=1.1))
     for start in (_soft_contact(), lower, other):
         events = UncondensedEvents(soft_path, start, lambda: soft_system)
-        events.prepare(row.functional for row in TABLE.values())
+        events.prepare(TABLE.values())
         for name, row in TABLE.items():
-            value = events.value(row.functional)
-            assert value.value == pytest.approx(row.functional(soft_path), abs=ALGEBRA), name
+            value = events.value(row)
+            assert value.value == pytest.approx(row.value(soft_path.at), abs=ALGEBRA), name
             assert value.iterations > 0, name
 
 
@@ -202,9 +202,9 @@ def test_a_coarse_displacement_is_repaired_in_the_steps_that_follow(soft_path, l
     """What the first step leaves of its load is a part of the load of the next one."""
     monkeypatch.setattr(uncondensed, "LINEAR_TOLERANCE", 1e-4)
     monkeypatch.setattr(uncondensed, "SHARPER", 1e-8)
-    functional = TABLE["pull_off_force"].functional
-    value = UncondensedEvents(soft_path, lower, lambda: soft_system).value(functional)
-    assert value.value == pytest.approx(functional(soft_path), abs=ALGEBRA)
+    row = TABLE["pull_off_force"]
+    value = UncondensedEvents(soft_path, lower, lambda: soft_system).value(row)
+    assert value.value == pytest.approx(row.value(soft_path.at), abs=ALGEBRA)
     assert value.rounding <= ALGEBRA
 
 
