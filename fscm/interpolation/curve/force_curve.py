@@ -262,11 +262,11 @@ def _of_series(n: Numbers, k: Numbers, mu: Numbers, points: int) -> States:
             share = 0.5 * (position + 1.0)
     approach, contact, compression = parts
     begin, end = (1.0 - share) ** _SPREAD, share**_SPREAD
-    meeting = [
+    displacement, load = (
         y + begin * (x[:, -1:] - y[:, :1]) + end * (z[:, :1] - y[:, -1:])
         for x, y, z in zip(approach[:2], contact[:2], compression[:2], strict=True)
-    ]
-    return _joined(approach, States(*meeting, contact.contact_radius), compression)
+    )
+    return _joined(approach, States(displacement, load, contact.contact_radius), compression)
 
 
 def _of_jkr(n: Numbers, k: Numbers, mu: Numbers, points: int) -> States:
