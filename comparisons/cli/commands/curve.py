@@ -108,6 +108,7 @@ def _cycles(points_of_models: dict[str, Points], stiffness: float) -> tuple[pd.D
     from comparisons.fitting.equilibria import Equilibria
     from comparisons.fitting.machine import Machine
 
+    columns = ("model", "branch", "position [m]", "displacement [m]", "load [N]")
     frames, failed = [], False
     for name, points in points_of_models.items():
         try:
@@ -121,9 +122,8 @@ def _cycles(points_of_models: dict[str, Points], stiffness: float) -> tuple[pd.D
         jumps = (f"{word} at {_short(x, 'm')} and {_short(y, 'N')}" for word, (x, y) in ends.items())
         note(f"{name}: {', '.join(jumps) if machine.jumps else 'no jumps'}")
         for branch, (position, load) in cycle.items():
-            columns = {"position [m]": position, "displacement [m]": position - load / stiffness, "load [N]": load}
-            frames.append(pd.DataFrame({"model": name, "branch": branch, **columns}))
-    columns = ["model", "branch", "position [m]", "displacement [m]", "load [N]"]
+            values = (name, branch, position, position - load / stiffness, load)
+            frames.append(pd.DataFrame(dict(zip(columns, values, strict=True))))
     return (pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=columns)), failed
 
 

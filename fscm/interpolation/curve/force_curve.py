@@ -105,7 +105,7 @@ class ForceCurve:
         --------
         >>> curve = force_curve(2, 0, 2.0)
         >>> curve.load_at([-3.0, -2.0], "approach").value.round(2).tolist()
-        [-0.12, -1.58]
+        [-0.2, -1.57]
         """
         if self.displacement.ndim != 1:
             raise ValueError("load_at needs one curve: give n, k and mu as numbers, or take one curve after the other")

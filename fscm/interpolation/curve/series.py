@@ -78,10 +78,11 @@ def cells_of_curve(n: Array, k: Array, mu: Array) -> tuple[NDArray[np.int_], ...
     [1, 2, 1]
     """
     of_n = np.where(n == SPHERE, 1, np.where(n > SPHERE, 0, 2))
-    _, of_k, of_mu = coordinates(n, k, mu)
+    of_k = np.where(k == 0.0, 0, np.where(k > 0.5 * BOX["k"][1], 2, 1))
+    of_mu = coordinates(n, k, mu)[2]
     # Chebyshev nodes are as many in equal parts of the angle.
     number = np.arccos(np.clip(-of_mu, -1.0, 1.0)) * (3.0 / np.pi)
-    return of_n, np.where(k == 0.0, 0, np.where(of_k > 0.0, 2, 1)), np.minimum(number.astype(np.int_), 2)
+    return of_n, of_k, np.minimum(number.astype(np.int_), 2)
 
 
 @dataclass(frozen=True)
