@@ -147,6 +147,17 @@ def test_arrays_are_their_numbers_one_by_one():
         curves.load_at(0.0, "approach")
 
 
+@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.5, 2.0), (3.0, 0.2, 0.4)])
+def test_pieces_meet(n, k, mu):
+    """Where two series meet, the step of a dense curve is no longer than those beside it."""
+    curve = force_curve(n, k, mu, points=MANY)
+    for values in (curve.displacement, curve.load):
+        steps = np.abs(np.diff(values))
+        for meeting in (MANY // 3 - 1, MANY - 1 - MANY // 6):
+            beside = np.append(steps[meeting - 5 : meeting], steps[meeting + 1 : meeting + 6])
+            assert steps[meeting] < 2.0 * beside.max()
+
+
 def test_branches_are_stable_but_for_the_one_between():
     curve = force_curve(2, 0.0, 5.0)
     rises = np.diff(curve.displacement) > 0.0
