@@ -151,14 +151,13 @@ def test_a_thin_stiff_film_on_a_soft_solid_is_fitted():
     assert result.residual < 1.1 * result.noise
 
 
-@pytest.mark.parametrize(
-    ("n", "mu", "share"), [(2.0, 2.7, 3e-4), (1.5, 2.7, 1e-3), *heavy((2.0, 0.3, 3e-4), (2.0, 7.0, 3e-4))]
-)
-def test_series_and_grid_of_tabor_numbers_are_as_good_as_a_path(n, mu, share):
-    """Loads differ by less than a share of the pull-off force from those of the path of the problem itself."""
+@pytest.mark.parametrize(("mu", "share"), [(2.7, 3e-4), (12.0, 1e-3), *heavy((0.3, 3e-4), (7.0, 3e-4))])
+def test_series_and_grid_of_tabor_numbers_are_as_good_as_a_path(mu, share):
+    """Loads differ by less than a share of the pull-off force from those of the path of the problem itself.
+
+    Series end at a Tabor number of 10.
+    """
     problem = of_tabor_number(mu)
-    if n != 2.0:
-        problem = replace(problem, punch=Section("power-law", {"n": n, "Q": 200e-9}))
     own, between = (Machine.of(by_fscm(problem, 1e-9, exact), math.inf) for exact in (True, False))
     x = np.linspace(max(own.contact[0, 0], between.contact[0, 0]), own.contact[0, -1], 400)[4:-1]
     loads = [np.interp(x, *machine.contact) for machine in (own, between)]
