@@ -17,6 +17,7 @@ from .experiment import (
     load_controlled_retreat as load_controlled_retreat,
 )
 from .interpolation.atlas import ATLAS_QUANTITIES as ATLAS_QUANTITIES, AtlasValue as AtlasValue, atlas as atlas
+from .interpolation.curve.force_curve import ForceCurve as ForceCurve, force_curve as force_curve
 from .path import EquilibriumPath as EquilibriumPath, trace as trace
 from .problem import Problem as Problem
 from .quantities import EVENTS as EVENTS

@@ -3,10 +3,11 @@
 Paths of neighbouring problems are compared point by point: at equal shares of their lengths between landmarks, which
 are start, the folds of the displacement, pull-off and end.
 
-The dimensionless path of a power law depends on n, k and mu alone.  It is computed at Tabor numbers of a fixed grid,
-even in ln mu, and between them it is the cubic through four neighbours.  So a fit needs some ten paths, and the next
-curve of the same punch often none.  Any other path is linear in the fitted numbers, near those at which it and its
-derivatives were computed.
+The dimensionless path of a power law depends on n, k and mu alone.  That of a sphere is a series, `fscm.force_curve`,
+in the range of Tabor numbers of the series.  Any other is computed at Tabor numbers of a fixed grid, even in ln mu, and
+between them it is the cubic through four neighbours.  So such a fit needs some ten paths, and the next curve of the
+same punch often none.  The path of a problem that is no power law is linear in the fitted numbers, near those at which
+it and its derivatives were computed.
 """
 
 from __future__ import annotations
@@ -28,6 +29,9 @@ from comparisons.models.jkr import JKR
 from comparisons.numerics.bounds import relative_difference
 from comparisons.problem import Problem
 from comparisons.runs.tasks import evaluate
+from fscm.interpolation.coordinates import BOX
+from fscm.interpolation.curve.pieces import LARGEST_LOAD
+from fscm.interpolation.curve.series import SPHERE
 
 #: Ratio of neighbouring Tabor numbers of the grid.  The load between them is within 1e-3 of the pull-off force of a
 #: path of its own (measured worst 8e-4, n = 2, k = 0, mu = 4.7, at the fold of the approach).
@@ -35,6 +39,9 @@ _RATIO = 1.25
 
 #: Points of a path between two of its landmarks, and between two states that were computed.
 _POINTS, _BETWEEN = 240, 8
+
+#: Points of a series.  Measured: loads between them are within 1e-5 of the pull-off force.
+_OF_SERIES = 1200
 
 #: Longest step between two states, and degrees: a spline needs fewer than a polygon.  Measured: loads are within 1e-3
 #: of those of a path with a third of the step (eleven problems, n from 0.8 to 5, k up to 0.8, mu from 0.05 to 15).
@@ -80,7 +87,8 @@ def by_fscm(problem: Problem, largest: float, exact: bool = False) -> Equilibria
     largest : float
         The load in N that the path reaches.
     exact : bool
-        Whether the path is computed for this problem alone, and not between Tabor numbers of the grid.
+        Whether the path is computed for this problem alone, and is neither a series nor between Tabor numbers of the
+        grid.
 
     Raises
     ------
@@ -92,7 +100,10 @@ def by_fscm(problem: Problem, largest: float, exact: bool = False) -> Equilibria
         raise ComputationFailed("a search does not need a contact as stiff")
     # The power of two above a load: few different ends of paths.
     end = 2.0 ** math.ceil(math.log2(max(largest / units["load"], 2.0)))
-    displacement, load = paths_alike([posed], end)[0] if exact else _between(posed, end)
+    if exact:
+        displacement, load = paths_alike([posed], end)[0]
+    else:
+        displacement, load = _by_series(posed) if _has_series(posed, end) else _between(posed, end)
     return Equilibria(displacement * units["displacement"], load * units["load"])
 
 
@@ -158,6 +169,20 @@ def paths_alike(problems: Sequence[fscm.Problem], end: float) -> list[Array]:
     # Paths with other numbers of folds have only those of approach and retreat in common, if all of them fold.
     common = counts.pop() if len(counts) == 1 else min(2, *counts)
     return [_resampled(problem, end, common) for problem in problems]
+
+
+def _has_series(problem: fscm.Problem, end: float) -> bool:
+    """Return whether the path to a load is known as a series that is good enough for a fit."""
+    (_, most_k), (least_mu, most_mu) = BOX["k"], BOX["mu"]
+    is_inside = problem.k <= most_k and least_mu <= problem.mu <= most_mu
+    return problem.n == SPHERE and is_inside and end <= LARGEST_LOAD
+
+
+@lru_cache(maxsize=256)
+def _by_series(problem: fscm.Problem) -> Array:
+    """Return the path of a series, shape (2, m)."""
+    curve = fscm.force_curve(problem.n, problem.k, problem.mu, points=_OF_SERIES)
+    return np.array([curve.displacement, curve.load])
 
 
 def _between(problem: fscm.Problem, end: float) -> Array:

@@ -15,6 +15,8 @@ from comparisons.model import Array, ComputationFailed
 #: A section is continued beyond its fold by a straight line, so that a fit feels a fold in the wrong place: over this
 #: share of the way from the fold to pull-off and beyond, along its secant.
 _SECANT = 0.2
+#: Points of a cycle that are farther away than the equilibria begin.
+_BEYOND = 40
 
 
 @dataclass(frozen=True)
@@ -95,6 +97,39 @@ class Machine:
         if not sections or falls[-1] + 2 >= position.size or falls[0] == 0:
             raise ComputationFailed("the contact is not stable far away or at the largest load of the record")
         return cls(_joined(sections[:-1]), -_joined([-part[:, ::-1] for part in sections[:0:-1]])[:, ::-1], True)
+
+    def cycle(self) -> dict[str, Array]:
+        """Return position and load on approach and on retreat, each of shape (2, m), with both ends of a jump.
+
+        Raises
+        ------
+        comparisons.model.ComputationFailed
+            If the equilibria end before a jump lands.
+
+        Examples
+        --------
+        >>> displacement = np.array([-9.0, -2.0, -1.0, -5.0, 0.0, 1.0])
+        >>> machine = Machine.of(Equilibria(displacement, np.array([0.0, -1.0, -2.0, -6.0, -5.0, 3.0])), np.inf)
+        >>> machine.cycle()["approach"][0].tolist(), machine.cycle()["retreat"][0].tolist()
+        ([-9.0, -2.0, -1.0, -1.0, 0.0, 1.0], [1.0, 0.0, -5.0, -5.0, -9.0])
+        """
+        if not self.jumps:
+            return {"approach": self.far, "retreat": self.far[:, ::-1]}
+        snap_in, snap_out = float(self.far[0, -1]), float(self.contact[0, 0])
+        if snap_in >= self.contact[0, -1]:
+            raise ComputationFailed("the equilibria end before the jump into contact lands on them")
+        far = self.far
+        if snap_out <= far[0, 0]:
+            # A soft cantilever parts farther away than the equilibria begin.
+            beyond = np.linspace(snap_out - (far[0, 0] - snap_out) - (snap_in - far[0, 0]), far[0, 0], _BEYOND)[:-1]
+            far = np.concatenate([[beyond, self._far_away(beyond)], far], axis=1)
+        landed = np.array([[snap_in], [np.interp(snap_in, *self.contact)]])
+        parted = np.array([[snap_out], self._far_away(np.array([snap_out]))])
+        pressed, apart = self.contact[:, self.contact[0] > snap_in], far[:, far[0] < snap_out]
+        return {
+            "approach": np.concatenate([far, landed, pressed], axis=1),
+            "retreat": np.concatenate([self.contact[:, ::-1], parted, apart[:, ::-1]], axis=1),
+        }
 
     def load(self, position: Array, observed: Observations) -> Array:
         """Return the load at each point of a record, whose zeros are those of the equilibria.

@@ -34,8 +34,9 @@ _STIFF = (0.5, 0.1, 3.0, 0.02)
 #: The key on which every pull-off force depends.
 _ADHESION = "law.work_of_adhesion"
 
-#: Errors of the equilibria between Tabor numbers of the grid, as a share of the pull-off force (measured worst 8e-4, at
-#: a fold; a tenth of that elsewhere): a record without noise does not ask for more.
+#: Errors of the equilibria as a share of the pull-off force, between Tabor numbers of the grid (measured worst 8e-4, at
+#: a fold; a tenth of that elsewhere) or of a series (measured worst 1e-4): a record without noise does not ask for
+#: more.
 _MODEL_ERROR = 3e-4
 
 #: A model describes a record where its residuals are at most twice the noise.

@@ -3,6 +3,7 @@
 python -m fscm.interpolation design SWEEP.toml LOWER UPPER CRITICAL
 python -m fscm.interpolation collect NODES.csv RESULTS.csv...
 python -m fscm.interpolation fit NODES.csv
+python -m fscm.interpolation curves PATHS OTHERS
 """
 
 from __future__ import annotations
@@ -14,7 +15,10 @@ from pathlib import Path
 import pandas as pd
 
 from fscm.interpolation.builder.building import build, layouts, write
+from fscm.interpolation.builder.curve_fit import fitted_curves
+from fscm.interpolation.builder.curve_nodes import curve_nodes, solve_nodes, solved_nodes
 from fscm.interpolation.builder.design import critical_nodes, lower_nodes, sweep_text, upper_nodes
+from fscm.interpolation.curve.series import DATA
 
 __all__ = ["collect", "main", "nodes_in"]
 
@@ -51,6 +55,9 @@ def main(arguments: list[str] | None = None) -> None:
     collected.add_argument("path", type=Path)
     collected.add_argument("results", type=Path, nargs="+")
     commands.add_parser("fit", help="fit the series to a table of nodes").add_argument("path", type=Path)
+    curves = commands.add_parser("curves", help="trace the nodes of the force curves into a file, and fit the series")
+    curves.add_argument("path", type=Path)
+    curves.add_argument("others", type=int, help="nodes besides spheres and homogeneous solids")
     options = parser.parse_args(arguments)
     if options.command == "design":
         above = upper_nodes(options.upper)
@@ -58,6 +65,11 @@ def main(arguments: list[str] | None = None) -> None:
         options.path.write_text(text, encoding="utf-8")
     elif options.command == "collect":
         collect(options.path, options.results)
+    elif options.command == "curves":
+        solve_nodes(curve_nodes(options.others), options.path)
+        series, sizes = fitted_curves(solved_nodes(options.path))
+        series.save(DATA)
+        print(sizes)
     else:
         data = build(nodes_in(options.path), layouts())
         write(data)

@@ -12,6 +12,7 @@ from fscm._typing import Array
 from fscm.errors import NoSuchEvent, OutsideAtlas
 from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, RELATIVE, Composition
 from fscm.interpolation.coordinates import BOX, MOST_MU, cells_of, patch_ends, plane_cells, seam
+from fscm.interpolation.curve.limits import JKR_QUANTITIES, jkr_value
 from fscm.interpolation.forms import FORMS, Points, critical_of_smooth
 from fscm.interpolation.storage import Stored, stored
 
@@ -19,6 +20,10 @@ __all__ = ["ATLAS_QUANTITIES", "AtlasValue", "atlas"]
 
 #: Quantities of the atlas.
 ATLAS_QUANTITIES = (*QUANTITIES, CRITICAL)
+#: Tabor numbers at which the distance of JKR is known; more than one, because it changes its sign for some n and k.
+#: Measured with mu = 14 and 20 at five pairs of n and k: from there it falls at least as 1/mu, but for a factor of 1.27
+#: at n = 5, k = 0.2, whose sign changes near 10; the bound has twice the distance.
+_KNOWN_DISTANCES, _SAFETY = (5.0, 7.0, MOST_MU), 2.0
 #: Powers of w with which a component starts at the critical Tabor number (`fscm.interpolation.forms`).
 _POWERS = {"power_1_2": 0.5, "power_3_2": 1.5, "quarter": 2.0}
 
@@ -44,7 +49,9 @@ class AtlasValue(NamedTuple):
     bound: float | Array
 
 
-def atlas(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str, *, missing: str = "raise") -> AtlasValue:
+def atlas(
+    n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str, *, missing: str = "raise", outside: str = "raise"
+) -> AtlasValue:
     """Interpolate a quantity of the FSCM for a power-law punch, a power-law solid and the Lennard-Jones 9-3 law.
 
     Parameters
@@ -55,6 +62,9 @@ def atlas(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str, *, missing: 
         One of `ATLAS_QUANTITIES`.
     missing : str
         Where the quantity does not exist, below the critical Tabor number: "raise" an error, or return "nan".
+    outside : str
+        Above the largest Tabor number: "raise" an error, or return the value of "jkr", with a bound that covers its
+        distance from the model; for the quantities that JKR has.
 
     Returns
     -------
@@ -82,14 +92,23 @@ def atlas(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str, *, missing: 
         raise ValueError(f"the atlas has no quantity {quantity!r}; it has {', '.join(ATLAS_QUANTITIES)}")
     if missing not in ("raise", "nan"):
         raise ValueError(f'missing = {missing!r} is unknown; it is "raise" or "nan"')
-    parameters = [_inside(name, values) for name, values in (("n", n), ("k", k), ("mu", mu))]
+    if outside not in ("raise", "jkr"):
+        raise ValueError(f'outside = {outside!r} is unknown; it is "raise" or "jkr"')
+    if outside == "jkr" and quantity not in JKR_QUANTITIES:
+        raise ValueError(f"JKR has no {quantity}, so that it has no limit; it has {', '.join(JKR_QUANTITIES)}")
+    most_mu = math.inf if outside == "jkr" else MOST_MU
+    parameters = [_inside("n", n), _inside("k", k), _inside("mu", mu, most_mu)]
     try:
         grids = np.broadcast_arrays(*parameters)
     except ValueError:
         shapes = ", ".join(str(values.shape) for values in parameters)
         raise ValueError(f"the shapes {shapes} of n, k and mu do not fit together") from None
     flat = tuple(np.ascontiguousarray(grid, dtype=float).ravel() for grid in grids)
-    value, bound = _evaluated(stored(), flat[0], flat[1], flat[2], quantity)
+    inside = np.minimum(flat[2], MOST_MU)
+    value, bound = _evaluated(stored(), flat[0], flat[1], inside, quantity)
+    beyond = flat[2] > MOST_MU
+    if beyond.any():
+        value[beyond], bound[beyond] = _limit(stored(), flat[0][beyond], flat[1][beyond], flat[2][beyond], quantity)
     if missing == "raise" and np.isnan(value).any():
         i = int(np.flatnonzero(np.isnan(value))[0])
         at = tuple(values[i : i + 1] for values in flat)
@@ -102,8 +121,8 @@ def atlas(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str, *, missing: 
     return AtlasValue(value.reshape(grids[0].shape), bound.reshape(grids[0].shape))
 
 
-def _inside(name: str, values: ArrayLike) -> Array:
-    low, high = BOX[name]
+def _inside(name: str, values: ArrayLike, most: float = math.inf) -> Array:
+    low, high = BOX[name][0], BOX[name][1] if name != "mu" else most
     array = np.asarray(values)
     if array.dtype.kind not in "iuf":
         raise ValueError(f"{name} = {values!r} is not a real number, nor an array of them")
@@ -132,6 +151,19 @@ def _evaluated(data: Stored, n: Array, k: Array, mu: Array, quantity: str) -> tu
             scale = np.abs(value[mask]) + (0.0 if quantity in RELATIVE else 1.0)
             bound[mask] = of_cell[cells_of(is_upper, *of_patch)] * scale + cusp
     return value, bound
+
+
+def _limit(data: Stored, n: Array, k: Array, mu: Array, quantity: str) -> tuple[Array, Array]:
+    """Values of JKR, and bounds on their distance from the model, which falls at least like 1/mu."""
+    floor = 0.0 if quantity in RELATIVE else 1.0
+    relative = np.zeros(n.shape)
+    for at in _KNOWN_DISTANCES:
+        known = np.full(n.shape, at)
+        value, bound = _evaluated(data, n, k, known, quantity)
+        limit = jkr_value(n, k, known, quantity)
+        relative = np.maximum(relative, at / mu * (np.abs(value - limit) + bound) / (np.abs(limit) + floor))
+    limit = jkr_value(n, k, mu, quantity)
+    return limit, _SAFETY * relative * (np.abs(limit) + floor)
 
 
 def _critical(data: Stored, n: Array, k: Array) -> tuple[Array, Array]:

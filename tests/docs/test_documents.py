@@ -29,6 +29,9 @@ QUOTED = {
     "own_shape_and_law.py": ["paraboloid    9-3   pull-off force 1.78848171", "rounded cone  10-4"],
     "own_modulus.py": ["27.06620 nN", "25.96979 nN", "25.69680 nN", "27.08988 nN"],
     "errors_of_a_model.py": ["md-improved", "1.788482"],
+    "curve_fit_of_a_record.py": ["modulus (MPa)  800 +- "],
+    "lmfit_model.py": ["modulus  3 +- ", "z0       0.4 +- 0"],
+    "table_for_dem.py": ["overlap_m,force_on_approach_N,force_on_retreat_N,bound_N"],
     # The tables of docs/which_model.md, whose numbers are rounded to what any machine computes.
     "model_choice.py": [
         line

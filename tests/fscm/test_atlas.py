@@ -7,13 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import fscm
 from fscm import ATLAS_QUANTITIES, NoSuchEvent, OutsideAtlas, atlas
 from fscm.interpolation.__main__ import main, nodes_in
 from fscm.interpolation.builder import fitting
 from fscm.interpolation.builder.building import FACTOR, build, layouts, tail_bound
 from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, RELATIVE
 from fscm.interpolation.coordinates import BOX
+from fscm.interpolation.curve.limits import JKR_QUANTITIES
 from fscm.interpolation.storage import stored
+from tests.marks import heavy
 from tests.refusals import refused
 
 TABLES = Path(__file__).resolve().parents[2] / "results" / "baseline" / "atlas"
@@ -200,3 +203,27 @@ def test_the_two_jumps_merge_at_the_critical_tabor_number():
     assert abs(displacements[0]) < 1e-9
     value, bound = atlas(2, 0, [1.0, 0.3], "jump_in_gap", missing="nan")
     assert np.isnan(value).tolist() == np.isnan(bound).tolist() == [False, True]
+
+
+@pytest.mark.parametrize(
+    ("n", "k", "mu"), [(2.0, 0.0, 14.0), *heavy((2.0, 0.4, 30.0), (5.0, 0.2, 20.0), (1.0, 0.0, 20.0))]
+)
+def test_beyond_the_range_the_bound_covers_the_distance_of_jkr(n, k, mu):
+    solved = fscm.solve_together(fscm.Problem(n=n, k=k, mu=mu), JKR_QUANTITIES, "quick")
+    for quantity, solution in solved.items():
+        value, bound = atlas(n, k, mu, quantity, outside="jkr")
+        assert abs(value - solution.value) <= bound + solution.u_num
+        assert bound < 0.05 * (1.0 + abs(value))
+
+
+def test_arrays_may_go_beyond_the_range():
+    values, bounds = atlas(2, 0, [1.0, 10.0, 20.0, 1e6], "pull_off_force", outside="jkr")
+    assert values[:2].tolist() == atlas(2, 0, [1.0, 10.0], "pull_off_force").value.tolist()
+    assert values[2:] == pytest.approx(1.5, rel=1e-12)
+    assert bounds[2] > 1e4 * bounds[3] > 0.0
+    with pytest.raises(OutsideAtlas):
+        atlas(2, 0, [1.0, 20.0], "pull_off_force")
+    with pytest.raises(OutsideAtlas):
+        atlas(2, 0, [1e-3, 20.0], "pull_off_force", outside="jkr")
+    refused("jump_in_gap", atlas, 2, 0, 20.0, "jump_in_gap", outside="jkr")
+    refused("sideways", atlas, 2, 0, 20.0, "pull_off_force", outside="sideways")

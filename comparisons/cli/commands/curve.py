@@ -6,22 +6,26 @@ import argparse
 from pathlib import Path
 from typing import cast
 
+import numpy as np
 import pandas as pd
 
 from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, command, file, option, problem_of, several
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note, waiting
-from comparisons.model import ComputationFailed, Model, NotApplicable
+from comparisons.model import Array, ComputationFailed, Model, NotApplicable
 from comparisons.output import plots
 from comparisons.output.figures.of_run import draw_plots
 from comparisons.output.style import picture_path, save
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import evaluated
+from comparisons.problem.units import NotAValue, in_si, si_text
 from comparisons.quantities import CURVES, Points
 from comparisons.registry import create, identify
 from comparisons.runs.atomic_files import writable_file, write_file
 from comparisons.runs.csv_format import csv_text
 
+#: Share of the pull-off force at the beginning of a curve from which on it begins in contact.
+_FAR = 0.1
 _QUANTITY = f"what to draw: {', '.join(CURVES)} (default: force_curve)"
 
 
@@ -29,6 +33,9 @@ _QUANTITY = f"what to draw: {', '.join(CURVES)} (default: force_curve)"
     several("--model", metavar="SPEC", required=True, help=MODEL_SPEC),
     option("--quantity", metavar="NAME", choices=tuple(CURVES), default="force_curve", help=_QUANTITY),
     *CASE_OR_FILE,
+    option(
+        "--stiffness", metavar="VALUE", help='write the cycle that a cantilever records, of a stiffness as "0.2 N/m"'
+    ),
     file("--csv", help="write the points to this file (default, and with -: stdout)"),
     file("--plot", help="draw the curves into this file (.png, .pdf or .svg)"),
 )
@@ -39,8 +46,10 @@ def curve_command(args: argparse.Namespace) -> int:
 
         fscm-bench curve --model fscm jkr --n 2 --k 0.4 --mu 3 --plot curve.png --csv curve.csv
         fscm-bench curve --model fscm fem --problem pad.toml --plot pad.png
+        fscm-bench curve --model fscm jkr --problem probe.toml --stiffness '0.2 N/m' --csv cycle.csv
     """
     problem = problem_of(args)
+    stiffness = _stiffness(args, problem)
     # All that can be wrong with the request is found out before anything is computed.
     names, external = identify(args.model)
     models = {name: create(external[name].spec if name in external else name, problem.nu) for name in names}
@@ -51,6 +60,14 @@ def curve_command(args: argparse.Namespace) -> int:
     if file_of_points and args.plot and file_of_points.resolve() == args.plot.resolve():
         raise ValueError(f"--csv and --plot are both {args.plot}: one would replace the other; give two files")
     points_of_models, status = _evaluated(models, args.quantity, problem)
+    if stiffness is not None:
+        cycles, failed = _cycles(points_of_models, stiffness)
+        if file_of_points:
+            write_file(file_of_points, csv_text(cycles))
+            note(f"the cycle is in {file_of_points}")
+        else:
+            print(csv_text(cycles), end="")
+        return FAILED if failed else status
     points, quantity = _table(points_of_models, args.quantity), CURVES[args.quantity]
     axes = {quantity.x.name: "x", quantity.y.name: "y"}
     table = points if problem.is_dimensionless else points.rename(columns=quantity.columns_in_si)
@@ -66,6 +83,61 @@ def curve_command(args: argparse.Namespace) -> int:
     if not problem.is_dimensionless and args.quantity == "force_curve":
         _note_assumptions(problem, points_of_models)
     return status
+
+
+def _stiffness(args: argparse.Namespace, problem: Problem) -> float | None:
+    """Return the stiffness in N/m; the cycle of a cantilever is a curve over its position in m."""
+    if args.stiffness is None:
+        return None
+    if problem.is_dimensionless:
+        raise ValueError("--stiffness is that of a cantilever in N/m: give the contact as a file with --problem")
+    if args.quantity != "force_curve" or args.plot:
+        raise ValueError("--stiffness is of a force curve that is written: omit --quantity and --plot")
+    try:
+        value = in_si(args.stiffness, "N/m")
+    except NotAValue as error:
+        raise ValueError(f"--stiffness {args.stiffness} {error}") from None
+    if not value > 0.0:
+        raise ValueError(f"--stiffness {args.stiffness} is not above 0: a cantilever resists its deflection")
+    return value
+
+
+def _cycles(points_of_models: dict[str, Points], stiffness: float) -> tuple[pd.DataFrame, bool]:
+    """Return the points of the cycles, and whether one failed; the jumps are named on stderr."""
+    # Imported here: other curves do not need it.
+    from comparisons.fitting.equilibria import Equilibria
+    from comparisons.fitting.machine import Machine
+
+    columns = ("model", "branch", "position [m]", "displacement [m]", "load [N]")
+    frames, failed = [], False
+    for name, points in points_of_models.items():
+        try:
+            machine = Machine.of(Equilibria(*_from_afar(points)), stiffness)
+            cycle = machine.cycle()
+        except ComputationFailed as failure:
+            log(f"{name}: failed: {failure}")
+            failed = True
+            continue
+        ends = {"snaps in": machine.far[:, -1], "snaps out": machine.contact[:, 0]}
+        jumps = (f"{word} at {_short(x, 'm')} and {_short(y, 'N')}" for word, (x, y) in ends.items())
+        note(f"{name}: {', '.join(jumps) if machine.jumps else 'no jumps'}")
+        for branch, (position, load) in cycle.items():
+            values = (name, branch, position, position - load / stiffness, load)
+            frames.append(pd.DataFrame(dict(zip(columns, values, strict=True))))
+    return (pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=columns)), failed
+
+
+def _from_afar(points: Points) -> tuple[Array, Array]:
+    """Return displacement and load; a model of the contact alone has no load before it."""
+    displacement, load = np.array(points.x), np.array(points.y)
+    if displacement[1] > displacement[0] and load[0] > _FAR * load.min():
+        return displacement, load
+    far = displacement[0] - np.ptp(displacement)
+    return np.concatenate([[far, displacement[0]], displacement]), np.concatenate([[0.0, 0.0], load])
+
+
+def _short(value: float, unit: str) -> str:
+    return si_text(float(f"{value:.4g}"), 0.0, unit)
 
 
 def _evaluated(models: dict[str, Model], quantity: str, problem: Problem) -> tuple[dict[str, Points], int]:
@@ -96,10 +168,13 @@ def _note_assumptions(problem: Problem, points_of_models: dict[str, Points]) -> 
 
 
 def _table(points_of_models: dict[str, Points], quantity: str) -> pd.DataFrame:
-    """One row a point, in the order of each path; a column that a model does not know is empty."""
+    """One row a point, in the order of each path; a column that a model does not know is empty.
+
+    The contact radius of a model with a cohesive edge is that of the largest tension.
+    """
     x, y = CURVES[quantity].x.name, CURVES[quantity].y.name
-    frames = [
-        pd.DataFrame({"model": name, x: points.x, y: points.y, **points.columns})
-        for name, points in points_of_models.items()
-    ]
+    frames = []
+    for name, points in points_of_models.items():
+        radius = {"contact_radius": points.columns["edge_radius"]} if "edge_radius" in points.columns else {}
+        frames.append(pd.DataFrame({"model": name, x: points.x, y: points.y, **points.columns, **radius}))
     return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=["model", x, y])

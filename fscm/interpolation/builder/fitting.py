@@ -20,7 +20,7 @@ from fscm.interpolation.coordinates import Coordinates, patch_ends, seam
 from fscm.interpolation.forms import FORMS, Points, critical_of_smooth, smooth_of_critical
 from fscm.interpolation.series import Series, degrees_within, design_matrix
 
-__all__ = ["Fit", "Layout", "fit_component", "fit_critical", "least_squares", "usable_nodes"]
+__all__ = ["Fit", "Layout", "fit_component", "fit_critical", "largest_degrees", "least_squares", "usable_nodes"]
 
 #: Terms for each node; rates at which coefficients may fall; squared noise of the nodes, relative to the series.
 _TERMS, _RATES, _RIDGE = 1.6, (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2), 1e-11
@@ -91,7 +91,8 @@ def least_squares(cube: Array, smooth: Array, weight: Array, layout: Layout) -> 
     count = len(cube)
     if count < 2 * len(layout.shape):
         raise ValueError(f"{count} nodes are too few for a series of {len(layout.shape)} coordinates")
-    largest = next(size for size in _sizes(layout.shape) if len(degrees_within(size, layout.power)) > _TERMS * count)
+    sizes = largest_degrees(layout.shape)
+    largest = next(size for size in sizes if len(degrees_within(size, layout.power)) > _TERMS * count)
     degrees = degrees_within(largest, layout.power)
     degree = np.sum((degrees / np.array(layout.shape)) ** layout.power, axis=1) ** (1.0 / layout.power)
     matrix = design_matrix(cube, degrees) * weight[:, None]
@@ -117,7 +118,7 @@ def least_squares(cube: Array, smooth: Array, weight: Array, layout: Layout) -> 
     return Fit(Series.of(degrees, coefficients), best[1], len(degrees), best[3])
 
 
-def _sizes(shape: tuple[float, ...]) -> Iterator[tuple[int, ...]]:
+def largest_degrees(shape: tuple[float, ...]) -> Iterator[tuple[int, ...]]:
     """Largest degrees in ascending order, each once."""
     rounded = (np.maximum(1, np.round(size * np.array(shape))) for size in np.arange(2.0, 400.0, 0.5) / max(shape))
     return iter(dict.fromkeys(tuple(row.astype(int).tolist()) for row in rounded))

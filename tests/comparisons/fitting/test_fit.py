@@ -151,14 +151,17 @@ def test_a_thin_stiff_film_on_a_soft_solid_is_fitted():
     assert result.residual < 1.1 * result.noise
 
 
-@pytest.mark.parametrize("mu", [2.7, *heavy(0.3, 7.0)])
-def test_the_grid_of_tabor_numbers_is_as_good_as_a_path(mu):
-    """Loads between the nodes differ by less than a thousandth of the pull-off force from those of their own path."""
+@pytest.mark.parametrize(("mu", "share"), [(2.7, 3e-4), (12.0, 1e-3), *heavy((0.3, 3e-4), (7.0, 3e-4))])
+def test_series_and_grid_of_tabor_numbers_are_as_good_as_a_path(mu, share):
+    """Loads differ by less than a share of the pull-off force from those of the path of the problem itself.
+
+    Series end at a Tabor number of 10.
+    """
     problem = of_tabor_number(mu)
     own, between = (Machine.of(by_fscm(problem, 1e-9, exact), math.inf) for exact in (True, False))
     x = np.linspace(max(own.contact[0, 0], between.contact[0, 0]), own.contact[0, -1], 400)[4:-1]
     loads = [np.interp(x, *machine.contact) for machine in (own, between)]
-    assert np.abs(loads[0] - loads[1]).max() < 1e-3 * -own.contact[1].min()
+    assert np.abs(loads[0] - loads[1]).max() < share * -own.contact[1].min()
 
 
 def test_points_between_states_have_the_folds_of_the_states_alone():
