@@ -172,8 +172,8 @@ def solve_large_strain(
     _check(problem, friction, form, interaction)
     if quantity == "hysteresis_energy" and condition_of(problem.solid).tension:
         raise ValueError(
-            "hysteresis_energy of finite strain has no bound with a surface_tension, whose energy differs by up to 1e-3 "
-            "between the meshes of two events; take a force or a displacement, or leave the tension out"
+            "hysteresis_energy of finite strain has no bound with a surface_tension, whose energy differs by up to "
+            "1e-3 between the meshes of two events; take a force or a displacement, or leave the tension out"
         )
     row, start = TABLE[quantity], time.perf_counter()
     with one_thread:
