@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from fem_reference._typing import Array
 from fem_reference.laws import LennardJones, Mie, SurfaceLaw
 
-__all__ = ["outermost_turn", "stable_gaps", "work_of_tension"]
+__all__ = ["has_one_well", "outermost_turn", "stable_gaps", "work_of_tension"]
 
 #: Gaps at which the sign of a traction is looked at: distances from the singular gap in units of that of the largest
 #: tension, 0.5 % apart.
@@ -67,3 +67,14 @@ def outermost_turn(law: SurfaceLaw) -> float:
     beyond = np.maximum.accumulate(tension[::-1])[::-1]
     growing = np.flatnonzero(beyond - tension > SMALLEST_TURN * beyond[0])
     return float(gaps[growing[-1] + 1]) if growing.size else law.peak_gap
+
+
+def has_one_well(law: SurfaceLaw) -> bool:
+    """Return whether the tension only falls beyond its largest.
+
+    Examples
+    --------
+    >>> has_one_well(LennardJones(work_of_adhesion=2.0, z0=0.5))
+    True
+    """
+    return outermost_turn(law) == law.peak_gap

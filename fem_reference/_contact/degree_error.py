@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["degree_error"]
+__all__ = ["LARGEST_GAIN", "SMALLEST_GAIN", "degree_error"]
 
 #: Ratio of the errors of two neighbouring degrees: the smallest is assumed everywhere, and the largest is believed.
 #: Half of the gain from degree 4 to 7 is at most that from 7 to 8 for errors that fall like any power of the degree
@@ -31,7 +31,9 @@ IRREGULAR = 0.4
 PLAUSIBLE_GAIN, PLAUSIBLE_DEGREES = 30.0, 2
 
 
-def degree_error(degrees: tuple[int, int, int], values: tuple[float, float, float]) -> float:
+def degree_error(
+    degrees: tuple[int, int, int], values: tuple[float, float, float], largest_gain: float = LARGEST_GAIN
+) -> float:
     """Return the error of the value of the highest degree p, from those of p - 1 and of a lower one.
 
     With a gain g, the values of p - 1 and p differ by at least g - 1 times the error of the latter.
@@ -42,6 +44,8 @@ def degree_error(degrees: tuple[int, int, int], values: tuple[float, float, floa
         Rising, the last two neighbours.
     values : tuple of float
         The lowest one may be nan: the smallest gain is assumed then.
+    largest_gain : float
+        That is believed.
 
     Examples
     --------
@@ -63,5 +67,5 @@ def degree_error(degrees: tuple[int, int, int], values: tuple[float, float, floa
         if steps == 1 and (lower - lowest) * (value - lower) < 0.0:
             step = max(step, IRREGULAR * before)
         if step > 0.0:
-            gain = min(max((before / step) ** (1.0 / steps) / CAUTION, SMALLEST_GAIN), LARGEST_GAIN)
+            gain = min(max((before / step) ** (1.0 / steps) / CAUTION, SMALLEST_GAIN), largest_gain)
     return step / (gain - 1.0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fem_reference import NotConverged
-from fem_reference._contact.degree_error import degree_error
+from fem_reference._contact.degree_error import SMALLEST_GAIN, degree_error
 from fem_reference._contact.mesh_lengths import OTHER_LENGTHS
 from fem_reference._contact.parts import PARTS, EventsOnMeshes
 
@@ -22,6 +22,11 @@ def test_the_estimate_covers_errors_that_fall_by_a_gain(gain, factor):
     """The last error is 1e-6; half of the gain is believed, from 2 to 3, and the difference is gain - 1 times it."""
     values = tuple(1.0 + 1e-6 * gain**steps for steps in (3, 1, 0))
     assert degree_error(DEGREES, values) == pytest.approx(factor * 1e-6, rel=1e-3)
+
+
+def test_less_is_believed_where_a_law_has_several_wells():
+    values = tuple(1.0 + 1e-6 * 20.0**steps for steps in (3, 1, 0))
+    assert degree_error(DEGREES, values, SMALLEST_GAIN) == pytest.approx(2.0 * degree_error(DEGREES, values))
 
 
 def test_errors_of_a_singular_solution_are_covered():
