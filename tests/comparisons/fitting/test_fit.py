@@ -18,6 +18,7 @@ import fscm
 from comparisons import fit
 from comparisons.cli.main import main
 from comparisons.fitting import search
+from comparisons.fitting.curves import Curves
 from comparisons.fitting.equilibria import Equilibria, _with_points_between, by_fscm
 from comparisons.fitting.fit import Fit, FittedValue, fit_record
 from comparisons.fitting.folder import _pictures
@@ -178,6 +179,18 @@ def test_points_between_states_have_the_folds_of_the_states_alone():
     assert rises[56:].all()
     # A straight line stays one.
     assert points[1] == pytest.approx(np.arange(65.0) / 8.0)
+
+
+def test_numbers_that_move_the_record_alone_need_no_new_equilibria(monkeypatch):
+    """Three of five numbers are zeros and a drift."""
+    computed, compared = [], []
+    equilibria, residuals = Curves.equilibria, search.Search._residuals
+    monkeypatch.setattr(Curves, "equilibria", lambda *given: computed.append(1) or equilibria(*given))
+    monkeypatch.setattr(search.Search, "_residuals", lambda *given: compared.append(1) or residuals(*given))
+    problem, record = recorded(2e3, seed=3)
+    fitted(problem, record)
+    assert len(compared) > 100
+    assert len(computed) < 0.6 * len(compared)
 
 
 def test_what_the_file_knows_counts_like_a_measurement():
