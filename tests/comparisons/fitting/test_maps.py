@@ -2,6 +2,7 @@
 
 import json
 import math
+from contextlib import contextmanager
 
 import numpy as np
 import pandas as pd
@@ -12,6 +13,8 @@ from comparisons.fitting import folder
 from comparisons.fitting.fit import Fit, FittedValue
 from comparisons.fitting.maps import draw_map
 from comparisons.model import ComputationFailed
+from comparisons.problem import Problem
+from comparisons.runs import store
 
 from .test_fit import PROBE
 
@@ -155,6 +158,24 @@ def test_many_curves_have_pictures_only_if_asked(fit_map, tmp_path, monkeypatch,
     assert fit_map(path)[3] == {"map-map.png"}
     assert "--pictures" in capsys.readouterr().err
     assert fit_map(path, "--pictures")[3] == {"map-map.png", *(f"map-{number}.png" for number in range(1, 5))}
+
+
+@pytest.mark.parametrize("out", [True, False])
+def test_progress_counts_curves_and_not_files(fit_map, tmp_path, monkeypatch, out):
+    counted = {}
+
+    @contextmanager
+    def counting(_, count):
+        counted[count] = []
+        yield lambda: counted[count].append(1)
+
+    monkeypatch.setattr(store if out else folder, "counting", counting)
+    path = write_map(tmp_path / "map.h5", [1.0, 2.0, 3.0], columns=3)
+    if out:
+        fit_map(path)
+    else:
+        folder.fit_files([path], Problem.load(tmp_path / "probe.toml"), ["law.work_of_adhesion"], None)
+    assert {count: len(advances) for count, advances in counted.items()} == {3: 3}
 
 
 def test_a_file_without_positions_is_no_map(fit_map, tmp_path):
