@@ -263,14 +263,12 @@ class Search:
 
     def _aligned(self, machine: Machine, values: dict[str, float]) -> float:
         """The zero of the position at which the record has the load of the model: the best of those along it."""
-        shifts = self._position[:, None] - machine.contact[0][None, :: max(machine.contact.shape[1] // 40, 1)]
-        tried = np.linspace(shifts.min(), shifts.max(), 400)
-        loads = self.observed.record.load - self.baseline.loads(values)
-        thinned = slice(None, None, max(len(loads) // 400, 1))
-        errors = [
-            float(np.sum((machine.load(self._position - shift, self.observed) - loads)[thinned] ** 2))
-            for shift in tried
-        ]
+        states = machine.contact[0, :: max(machine.contact.shape[1] // 40, 1)]
+        tried = np.linspace(self._position.min() - states.max(), self._position.max() - states.min(), 400)
+        every = slice(None, None, max(len(self._position) // 400, 1))
+        observed, position = self.observed.thinned(every), self._position[every]
+        loads = observed.record.load - self.baseline.loads(values)[every]
+        errors = [float(np.sum((machine.load(position - shift, observed) - loads) ** 2)) for shift in tried]
         return float(tried[int(np.argmin(errors))])
 
     def _residuals(self, values: dict[str, float], curves: Curves) -> Array:
