@@ -19,7 +19,7 @@ _STEP = 1e-2
 _SAME = 0.1
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Curves:
     """The equilibria of a model for power-law solids and punches.
 
@@ -42,7 +42,7 @@ class Curves:
         return Equilibria(displacement, load * self.factor)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class NearbyCurves(Curves):
     """The equilibria by the FSCM near given numbers: a dimensionless path of their own, and its derivatives.
 

@@ -3,67 +3,66 @@
 from __future__ import annotations
 
 import json
-import math
 import os
 import re
 from collections import Counter
-from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
-from functools import cached_property
-from hashlib import sha256
+from dataclasses import asdict, dataclass
+from functools import lru_cache
+from hashlib import file_digest, sha256
 from pathlib import Path, PurePath
 from typing import Any, NamedTuple
 
-import numpy as np
-import pandas as pd
-from matplotlib.figure import Figure
-
-from comparisons.data.input_files import LARGEST_TABLE, read_bytes
+from comparisons.console.progress import counting
+from comparisons.data.input_files import LARGEST_ROWS, regular_file
 from comparisons.fitting.fit import Fit, checked_keys, fit_record
-from comparisons.fitting.reading import records_or_refusals
+from comparisons.fitting.maps import draw_map
+from comparisons.fitting.pictures import draw
+from comparisons.fitting.reading import Curve, curves_in
+from comparisons.fitting.record import Spot
+from comparisons.fitting.table import fit_table
 from comparisons.model import ComputationFailed, NotApplicable
-from comparisons.numerics.number_text import short
 from comparisons.output.latex import latex
-from comparisons.output.style import COLOURS, new_figure, save, styled
-from comparisons.output.table import Column, Record, Table
+from comparisons.output.style import save
 from comparisons.problem import Problem
-from comparisons.problem.units import prefixed_unit, si_text
 from comparisons.runs.atomic_files import prepare_folder, write_file
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.folder_lock import locked
 from comparisons.runs.store import Form, Store
 from comparisons.runs.workers import LOST, each
 
-#: A smaller change in percent is that of rounding.
-_NOTHING = 1e-3
+#: Most curves of which each has a picture unless more are asked for: a picture takes a third of a second.
+MOST_PICTURES = 50
 
-#: What is stored of a file: its name and the digest of all that determines its fits, and these or why there are none.
-_FORM: Form[dict[str, Any]] = Form("fits", key=lambda item: [item["file"], item["digest"]], read=dict, write=dict)
+#: What is stored of a curve: its name and the digest of all that determines its fit, and this or why there is none.
+_FORM: Form[dict[str, Any]] = Form("fits", key=lambda item: [item["curve"], item["digest"]], read=dict, write=dict)
 
 
 @dataclass(frozen=True)
 class _Task:
+    """One curve to fit: number `number` of a file."""
+
     path: Path
-    name: str
+    file: str
+    number: int
+    curve: str
+    spot: Spot
+    content: str
     picture: Path | None
     problem: Problem
     free: Sequence[str]
     options: Mapping[str, Any]
 
-    @cached_property
+    @property
     def key(self) -> tuple[str, str]:
-        """Name, and digest of the curve, the problem and the options; without the curve if it cannot be read."""
-        try:
-            content = read_bytes(self.path, LARGEST_TABLE)
-        except (OSError, ValueError):
-            content = b""
-        text = json.dumps([self.problem.digest, list(self.free), dict(self.options)], default=repr)
-        return self.name, sha256(content + text.encode()).hexdigest()
+        """Name, and digest of the file, the problem and the options."""
+        text = json.dumps([self.content, self.problem.digest, list(self.free), dict(self.options)], default=repr)
+        return self.curve, sha256(text.encode()).hexdigest()
 
 
 class _Outcome(NamedTuple):
-    """What is stored of a file, and the sentence that refuses it, which is not stored: empty where it can be used."""
+    """What is stored of a curve, and the sentence that refuses it, which is not stored: empty where it can be used."""
 
     item: dict[str, Any]
     refusal: str = ""
@@ -75,6 +74,8 @@ def fit_files(
     free: Sequence[str],
     folder: Path | None,
     jobs: int = 1,
+    *,
+    pictures: bool = False,
     **options: Any,
 ) -> list[dict[str, Any]]:
     """Fit every curve of some files, in parallel.
@@ -85,16 +86,20 @@ def fit_files(
     problem, free
         As of `comparisons.fitting.fit.fit`.
     folder : Path, optional
-        Which keeps each fit with its picture as soon as it exists, and gets fits.json, fits.csv and fits.tex.
+        Which keeps each fit with its picture as soon as it exists, and gets fits.json, fits.csv, fits.tex, and a
+        picture of each map.
     jobs : int
         Number of processes.
+    pictures : bool
+        Whether each curve has a picture even if there are more than `MOST_PICTURES`.
     **options
         Of `fit`.
 
     Returns
     -------
     list of dict
-        For each file ``file``, ``fits`` as of `Fit.as_json`, and ``failure``, empty where each curve has a fit.
+        For each curve, and each file that cannot be read, ``file``, ``curve``, ``position`` (``x``, ``y`` in m,
+        ``column``, ``row``), ``fits`` with its fit as of `Fit.as_json`, and ``failure``, empty where it has one.
 
     Raises
     ------
@@ -105,26 +110,24 @@ def fit_files(
     """
     checked_keys(problem, free, options.get("model"))
     names = names_by_path(paths)
-    pictures = dict.fromkeys(names) if folder is None else _pictures(names, folder)
-    tasks = {
-        task.key: task
-        for name, path in names.items()
-        for task in [_Task(path, name, pictures[name], problem, free, options)]
-    }
-    # One file is fitted sooner than a process has started.
-    jobs = min(jobs, len(tasks))
     refusals: list[_Outcome] = []
+    tasks = {task.key: task for task in _tasks(names, folder, refusals, problem, free, options, pictures)}
+    # One curve is fitted sooner than a process has started.
+    jobs = min(jobs, max(len(tasks), 1))
     if folder is None:
-        items = list(_sound(each(_fitted, [*tasks.values()], jobs, lost=_lost), refusals))
+        with counting("fits", len(tasks)) as advance:
+            items = []
+            for item in _sound(each(_fitted, [*tasks.values()], jobs, lost=_lost), refusals):
+                items.append(item)
+                advance()
         return _sorted(items, refusals)
     with locked(prepare_folder(folder)):
         with Store(folder, _FORM) as store:
-            stored = {(item["file"], item["digest"]) for item in store.items}
-            missing = [task for key, task in tasks.items() if key not in stored]
+            missing = _missing(tasks, store.items)
             store.complete("fits", len(missing), _sound(each(_fitted, missing, jobs, lost=_lost), refusals))
-            items = [item for item in store.items if (item["file"], item["digest"]) in tasks]
+            items = [item for item in store.items if (item["curve"], item["digest"]) in tasks]
         items = _sorted(items, refusals)
-        _write(folder, items)
+        _write(folder, items, free, _pictures(names, folder))
     return items
 
 
@@ -148,14 +151,69 @@ def names_by_path(paths: Sequence[Path]) -> dict[str, Path]:
     return {names[own]: path for own, path in parts.items()}
 
 
+def _tasks(
+    names: Mapping[str, Path],
+    folder: Path | None,
+    refusals: list[_Outcome],
+    problem: Problem,
+    free: Sequence[str],
+    options: Mapping[str, Any],
+    pictures: bool,
+) -> list[_Task]:
+    """Return the curves of all files; a file that cannot be read is refused."""
+    files: dict[str, tuple[str, list[Curve]]] = {}
+    for name, path in names.items():
+        try:
+            content = _content(path)
+            files[name] = content, curves_in(path, name, **_instrument(options))
+        except ValueError as refusal:
+            item = _item(name, name, Spot(), "", _without_path(refusal, path))
+            refusals.append(_Outcome(item, str(refusal)))
+    has_pictures = folder is not None and (
+        pictures or sum(len(curves) for _, curves in files.values()) <= MOST_PICTURES
+    )
+    stems = _pictures(names, folder) if folder is not None and has_pictures else {}
+    tasks = []
+    for name, (content, curves) in files.items():
+        for number, curve in enumerate(curves, start=1):
+            stem = stems.get(name)
+            picture = None if stem is None else Path(f"{stem}-{number}.png" if len(curves) > 1 else f"{stem}.png")
+            shared = content, picture, problem, free, options
+            tasks.append(_Task(names[name], name, number, curve.name, curve.spot, *shared))
+    return tasks
+
+
+def _content(path: Path) -> str:
+    """The digest of a file, which may be as large as a map."""
+    try:
+        with regular_file(path, LARGEST_ROWS) as (file, _):
+            return file_digest(file, "sha256").hexdigest()  # type: ignore[arg-type]  # a file in binary mode
+    except OSError as error:
+        raise ValueError(f"{path} cannot be read ({error.strerror}); check the name") from None
+
+
+def _instrument(options: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: options.get(name) for name in ("stiffness", "sensitivity")}
+
+
+def _missing(tasks: Mapping[tuple[str, str], _Task], items: Iterable[Mapping[str, Any]]) -> list[_Task]:
+    """Return the curves without a fit or a reason, and those that lack their picture."""
+    stored = {(item["curve"], item["digest"]): item for item in items}
+
+    def is_complete(key: tuple[str, str], task: _Task) -> bool:
+        return key in stored and (task.picture is None or task.picture.exists() or not stored[key]["fits"])
+
+    return [task for key, task in tasks.items() if not is_complete(key, task)]
+
+
 def _pictures(names: Iterable[str], folder: Path) -> dict[str, Path]:
     """Return the picture of each file without its ending: that of its name if no other file has the same."""
     stems = {name: PurePath(name).with_suffix("").as_posix() for name in names}
     users = Counter(stem.casefold() for stem in stems.values())
-    # The pictures of several curves of a file end in a number, as a name may.
-    without_number = {stem: re.sub(r"-\d+$", "", stem) for stem in users}
-    shared = {name for stem, name in without_number.items() if stem != name and name in users}
-    alone = {stem for stem in users if users[stem] == 1 and without_number[stem] not in shared}
+    # The pictures of a file of several curves end in a number or in "map", as a name may.
+    without_end = {stem: re.sub(r"-(\d+|map)$", "", stem) for stem in users}
+    shared = {name for stem, name in without_end.items() if stem != name and name in users}
+    alone = {stem for stem in users if users[stem] == 1 and without_end[stem] not in shared}
     return {name: folder / (stem if stem.casefold() in alone else name) for name, stem in stems.items()}
 
 
@@ -170,107 +228,70 @@ def _sound(outcomes: Generator[_Outcome], refusals: list[_Outcome]) -> Generator
 
 
 def _sorted(items: Sequence[dict[str, Any]], refusals: Sequence[_Outcome]) -> list[dict[str, Any]]:
-    """Return all items; `ValueError` if no file can be used."""
+    """Return all items; `ValueError` if no curve can be used."""
     if refusals and not items:
-        others = f"; none of the {len(refusals)} files can be used" if len(refusals) > 1 else ""
+        others = f"; none of the {len(refusals)} curves can be used" if len(refusals) > 1 else ""
         raise ValueError(refusals[0].refusal + others)
-    return sorted([*items, *(refused.item for refused in refusals)], key=lambda item: str(item["file"]))
+    return sorted([*items, *(refused.item for refused in refusals)], key=_place)
 
 
-def _item(task: _Task, failure: str, fits: Sequence[Fit] = ()) -> dict[str, Any]:
-    """Return what is stored of a file."""
-    name, digest = task.key
-    return {"file": name, "digest": digest, "fits": [fitted.as_json() for fitted in fits], "failure": failure}
+def _place(item: Mapping[str, Any]) -> tuple[str, int, str]:
+    """The order of a curve: by file, and by its number in it."""
+    name, _, number = str(item["curve"]).rpartition("#")
+    return str(item["file"]), int(number) if name and number.isdecimal() else 0, str(item["curve"])
+
+
+def _item(file: str, curve: str, spot: Spot, digest: str, failure: str, fits: Sequence[Fit] = ()) -> dict[str, Any]:
+    """Return what is stored of a curve."""
+    return {
+        "file": file,
+        "curve": curve,
+        "position": asdict(spot),
+        "digest": digest,
+        "fits": [fitted.as_json() for fitted in fits],
+        "failure": failure,
+    }
+
+
+def _of_task(task: _Task, failure: str, fits: Sequence[Fit] = ()) -> dict[str, Any]:
+    return _item(task.file, *(task.curve, task.spot), task.key[1], failure, fits)
 
 
 def _lost(task: _Task) -> _Outcome:
-    return _Outcome(_item(task, LOST))
+    return _Outcome(_of_task(task, LOST))
 
 
 def _fitted(task: _Task) -> _Outcome:
-    """Fit the curves of a file; one that cannot be used costs its own fit alone."""
-    options = dict(task.options)
-    instrument = {name: options.pop(name, None) for name in ("stiffness", "sensitivity")}
+    """Fit a curve; one that cannot be used costs its own fit alone."""
+    of_fit = {name: value for name, value in task.options.items() if name not in _instrument(task.options)}
     try:
-        records = records_or_refusals(task.path, task.name, **instrument)
+        curves = _curves(task.path, task.file, task.content, *_instrument(task.options).values())
+        record = curves[task.number - 1].read()
+        keys = checked_keys(task.problem, task.free, of_fit.get("model"))
+        fitted = fit_record(record, task.problem, keys, **of_fit)
+    except (ComputationFailed, NotApplicable) as failure:
+        return _Outcome(_of_task(task, _without_path(failure, task.path)))
     except ValueError as refusal:
-        return _Outcome(_item(task, _without_path(refusal, task)), str(refusal))
-    keys = checked_keys(task.problem, task.free, options.get("model"))
-    fits, failures, refusals = [], [], []
-    for number, (name, record) in enumerate(records.items(), start=1):
-        of_several = name if len(records) > 1 else ""
-        try:
-            if isinstance(record, ValueError):
-                raise record
-            fitted = fit_record(record, task.problem, keys, **options)
-        except (ComputationFailed, NotApplicable, ValueError) as failure:
-            failures.append(": ".join(filter(None, [of_several, _without_path(failure, task)])))
-            if isinstance(failure, ValueError):
-                refusals.append(str(failure))
-            continue
-        fits.append(fitted)
-        if task.picture is not None:
-            picture = f"{task.picture}-{number}.png" if of_several else f"{task.picture}.png"
-            Path(picture).parent.mkdir(parents=True, exist_ok=True)
-            save(draw(fitted), Path(picture))
-    is_refused = len(refusals) == len(records)
-    return _Outcome(_item(task, "; ".join(failures), fits), refusals[0] if is_refused else "")
+        return _Outcome(_of_task(task, _without_path(refusal, task.path)), str(refusal))
+    if task.picture is not None:
+        task.picture.parent.mkdir(parents=True, exist_ok=True)
+        save(draw(fitted), task.picture)
+    return _Outcome(_of_task(task, "", [fitted]))
 
 
-def _without_path(error: Exception, task: _Task) -> str:
+@lru_cache(maxsize=1)
+def _curves(path: Path, name: str, content: str, stiffness: Any, sensitivity: Any) -> list[Curve]:
+    """Return the curves of a file of some content: a process opens a map once."""
+    return curves_in(path, name, stiffness, sensitivity)
+
+
+def _without_path(error: Exception, path: Path) -> str:
     """Return a sentence without the path of the file, which stands before it already."""
-    return str(error).removeprefix(str(task.path)).lstrip(":, ")
+    return str(error).removeprefix(str(path)).lstrip(":, ")
 
 
-def fit_table(items: Sequence[Mapping[str, Any]]) -> Table:
-    """Return one row for each value of each curve, and one with the reason for each file that has curves without."""
-    rows = [
-        {"curve": of_curve["curve"], "model": of_curve["model"], "mu": of_curve["mu"], "key": key}
-        | {**row, "u": np.nan if row["u"] is None else row["u"], "reason": ""}
-        for item in items
-        for of_curve in item["fits"]
-        for key, row in of_curve["parameters"].items()
-    ]
-    rows += [{**_NO_FIT, "curve": item["file"], "reason": item["failure"]} for item in items if item["failure"]]
-
-    def shift(name: str, row: Record) -> str:
-        if row["reason"]:
-            return ""
-        size = row[f"shift_by_{name}"]
-        share = math.nan if size is None else 100.0 * size / row["value"]
-        return "unknown" if math.isnan(share) else f"{share:+.2g}" if abs(share) > _NOTHING else "+0"
-
-    columns = [
-        *([Column("curve", lambda row: str(row["curve"]))] if len({row["curve"] for row in rows}) > 1 else []),
-        Column("model", lambda row: str(row["model"])),
-        Column("mu", lambda row: "" if row["mu"] is None or np.isnan(row["mu"]) else f"{row['mu']:.3g}", "mu"),
-        Column("key", lambda row: str(row["key"])),
-        Column("value", _value_text, "value"),
-        Column("by model", lambda row: shift("model", row), "shift_by_model"),
-        Column("assumed", lambda row: shift("assumptions", row), "shift_by_assumptions"),
-    ]
-    return Table(
-        "fits", "Fitted values, and changes by the errors of model and assumptions (%)", columns, pd.DataFrame(rows)
-    )
-
-
-#: The row of a file without a fit, but its name and the reason.
-_NO_FIT = {
-    **dict.fromkeys(("model", "key", "unit"), ""),
-    **dict.fromkeys(("mu", "value", "u", "shift_by_model", "shift_by_assumptions"), np.nan),
-    "determined": False,
-}
-
-
-def _value_text(row: Record) -> str:
-    if row["reason"]:
-        return "no fit"
-    text = si_text(row["value"], row["u"], row["unit"]) if row["determined"] else "not determined"
-    return text.replace("^2", "²")
-
-
-def _write(folder: Path, items: Sequence[Mapping[str, Any]]) -> None:
-    """Write fits.json, fits.csv and fits.tex."""
+def _write(folder: Path, items: Sequence[Mapping[str, Any]], free: Sequence[str], pictures: Mapping[str, Path]) -> None:
+    """Write fits.json, fits.csv and fits.tex, and the picture of each map."""
     table = fit_table(items)
     texts = {
         "fits.json": json.dumps(list(items), indent=1) + "\n",
@@ -279,38 +300,9 @@ def _write(folder: Path, items: Sequence[Mapping[str, Any]]) -> None:
     }
     for name, text in texts.items():
         write_file(folder / name, text)
-
-
-def draw(fitted: Fit) -> Figure:
-    """Draw a record, the fitted loads and the residuals."""
-    record = fitted.record
-    load = record.load - fitted.baseline
-    (x_power, x_unit), (y_power, y_unit) = (
-        prefixed_unit(float(np.abs(values).max()), unit) for values, unit in ((fitted.position, "m"), (load, "N"))
-    )
-    with styled():
-        figure = new_figure(6.0, 5.0)
-        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
-        for branch, mask in _of_branches(record.approach):
-            x, colour = fitted.position[mask] * 10.0**-x_power, COLOURS[0 if branch == "approach" else 1]
-            upper.plot(x, load[mask] * 10.0**-y_power, ".", color=colour, ms=2, alpha=0.4, label=branch)
-            upper.plot(x, fitted.load[mask] * 10.0**-y_power, color=colour, label=f"{branch}, {fitted.model}")
-            lower.plot(x, (load - fitted.load)[mask] * 10.0**-y_power, ".", color=colour, ms=2)
-        upper.set(ylabel=f"load ({y_unit})", title=_title(fitted))
-        position = "displacement" if np.isinf(record.stiffness) else "position of the cantilever"
-        lower.set(xlabel=f"{position} ({x_unit})", ylabel="residual")
-        upper.legend()
-    return figure
-
-
-def _of_branches(approach: Any) -> Iterator[tuple[str, Any]]:
-    for branch, mask in (("approach", approach), ("retreat", ~approach)):
-        if mask.any():
-            yield branch, mask
-
-
-def _title(fitted: Fit) -> str:
-    values = (
-        f"{key} = {si_text(row.value, row.u, row.unit)}" for key, row in fitted.parameters.items() if row.determined
-    )
-    return ", ".join(values) or f"{fitted.record.name}: {short(fitted.residual, 0.0)} N"
+    for file, picture in pictures.items():
+        of_file = [item for item in items if item["file"] == file]
+        if (figure := draw_map(of_file, free)) is not None:
+            path = Path(f"{picture}-map.png")
+            path.parent.mkdir(parents=True, exist_ok=True)
+            save(figure, path)

@@ -6,26 +6,30 @@ import logging
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from comparisons.data.input_files import LARGEST_TABLE, check_regular
+from comparisons.data.input_files import LARGEST_ROWS, check_regular
 from comparisons.fitting.reading import Measured, Sensitivity
+from comparisons.fitting.record import Spot
 
 __all__ = ["curves_of"]
 
 #: Metadata that a user may state, by the name of afmformats.
 _OPTIONS = {"spring constant": "--stiffness", "sensitivity": "--sensitivity"}
+#: Names of afmformats for where a curve was measured, in the order of `Spot`.
+_SPOT = ("position x", "position y", "grid index x", "grid index y")
 #: What is exported by this maker's program is in nA, and its sensitivity is shown as one in nm/V.
 _NANOAMPERE = "NT-MDT"
 
 
 def curves_of(
     path: Path, stiffness: float | None, sensitivity: Sensitivity | None
-) -> Iterator[tuple[int, Callable[[], Measured]]]:
-    """Return the numbers of the curves of a file from one on, and functions that return them.
+) -> Iterator[tuple[Spot, Callable[[], Measured]]]:
+    """Return where each curve of a file was measured, and functions that read them.
 
     Raises
     ------
@@ -68,14 +72,30 @@ def curves_of(
         return _of_segments(path, curve, given, sensitivity)
 
     try:
-        check_regular(path, path.stat(), LARGEST_TABLE)
+        check_regular(path, path.stat(), LARGEST_ROWS)
     except OSError as error:
         raise _not_read(path, error) from None
     curves = guarded(lambda: list(load({})))
     if not curves:
         raise ValueError(f"{path} has no curve of force and distance")
-    for number, curve in enumerate(curves, start=1):
-        yield number, lambda curve=curve: guarded(lambda: measured(curve))  # type: ignore[misc]  # a default, not a parameter
+    if all("enum" in curve.metadata for curve in curves):
+        # The groups of an HDF5 file come in the order of their names as words: 1, 10, 2.
+        curves.sort(key=lambda curve: int(curve.metadata["enum"]))
+    for curve in curves:
+        try:
+            spot = guarded(partial(_spot, curve.metadata))
+        except ValueError:
+            # The curve is good without.
+            spot = Spot()
+        yield spot, partial(guarded, partial(measured, curve))
+
+
+def _spot(metadata: Any) -> Spot:
+    # A value is computed when it is read by its key.
+    known = {name: metadata[name] for name in _SPOT if name in metadata}
+    x, y, column, row = map(known.get, _SPOT)
+    x, y = (None if number is None or not np.isfinite(number) else float(number) for number in (x, y))
+    return Spot(x, y, None if column is None else int(column), None if row is None else int(row))
 
 
 @contextmanager

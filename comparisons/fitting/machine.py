@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,6 +60,12 @@ class Observations:
             used[[before, after]] = False
             jumps[approach] = before, after
         return cls(record, far, contact, used, jumps)
+
+    def thinned(self, every: slice) -> Observations:
+        """Return some of the points, without the jumps."""
+        points = {name: getattr(self.record, name)[every] for name in ("displacement", "load", "approach")}
+        record = replace(self.record, **points)
+        return Observations(record, self.far[every], self.contact[every], self.used[every], {})
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,7 @@ from comparisons.data.input_files import LARGEST_TABLE, read_text
 from comparisons.data.validation import shown
 from comparisons.fitting.exported_text import APPROACH, REST, RETREAT, Cells, Export, export_of
 from comparisons.fitting.motion import Phases, phases, senses
-from comparisons.fitting.record import Record, checked
+from comparisons.fitting.record import Record, Spot, checked
 from comparisons.model import Array
 from comparisons.problem.columns import number_of
 from comparisons.problem.units import LARGEST_SIZE, NotAValue, unit_factor
@@ -146,24 +147,37 @@ def read_records(
     ValueError
         One sentence with the file, the value and the remedy.
     """
-    records = []
-    for record in records_or_refusals(path, path.name, stiffness, sensitivity).values():
-        if isinstance(record, ValueError):
-            raise record
-        records.append(record)
-    return records
+    return [curve.read() for curve in curves_in(path, path.name, stiffness, sensitivity)]
 
 
-def records_or_refusals(
+@dataclass(frozen=True)
+class Curve:
+    """A curve of a file, which is not read yet.
+
+    Attributes
+    ----------
+    name : str
+    read : callable
+        Returns its record; raises `ValueError` with one sentence if it cannot be used.
+    spot : Spot
+        Where it was measured, if its file is a map.
+    """
+
+    name: str
+    read: Callable[[], Record]
+    spot: Spot = field(default_factory=Spot)
+
+
+def curves_in(
     path: Path, name: str, stiffness: float | None = None, sensitivity: float | Sensitivity | None = None
-) -> dict[str, Record | ValueError]:
-    """Return each curve of a file as `read_records`, or why it cannot be used, by its name.
+) -> list[Curve]:
+    """Return the curves of a file, which each may have a reason of its own why it cannot be used.
 
     Parameters
     ----------
     path : Path
     name : str
-        Of the curve; those of a file of several curves have ``#`` and a number after it.
+        Of the curve; those of a file of an instrument have ``#`` and a number after it.
     stiffness, sensitivity
         As of `read_records`.
 
@@ -174,21 +188,21 @@ def records_or_refusals(
     """
     if isinstance(sensitivity, float | int):
         sensitivity = Sensitivity(float(sensitivity))
+    source = str(path)
     if path.suffix.lower() in _TEXTS:
         text = read_text(path, "the curve", LARGEST_TABLE, or_western=True)
         if not _is_of_afmformats(text):
-            return {name: _of_text(text, str(path), stiffness, sensitivity).record(name, str(path))}
+            return [Curve(name, lambda: _of_text(text, source, stiffness, sensitivity).record(name, source))]
     from comparisons.fitting.instrument_files import curves_of
 
-    curves = curves_of(path, stiffness, sensitivity)
-    return {f"{name}#{number}": _or_refusal(curve, f"{name}#{number}", str(path)) for number, curve in curves}
+    return [
+        Curve(f"{name}#{number}", partial(_record, measured, f"{name}#{number}", source), spot)
+        for number, (spot, measured) in enumerate(curves_of(path, stiffness, sensitivity), start=1)
+    ]
 
 
-def _or_refusal(curve: Callable[[], Measured], name: str, source: str) -> Record | ValueError:
-    try:
-        return curve().record(name, source)
-    except ValueError as refusal:
-        return refusal
+def _record(measured: Callable[[], Measured], name: str, source: str) -> Record:
+    return measured().record(name, source)
 
 
 def _is_of_afmformats(text: str) -> bool:

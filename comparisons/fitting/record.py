@@ -19,6 +19,24 @@ _FEWEST = 20
 _NOISE, _USUAL, _NEIGHBOURHOOD = 8.0, 6.0, 8
 
 
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """Where a curve of a map was measured; None is unknown.
+
+    Attributes
+    ----------
+    x, y : float or None
+        In m.
+    column, row : int or None
+        Of the grid of the map.
+    """
+
+    x: float | None = None
+    y: float | None = None
+    column: int | None = None
+    row: int | None = None
+
+
 @dataclass(frozen=True, eq=False)
 class Record:
     """One measured curve in SI, in the order in which it was recorded.

@@ -51,6 +51,9 @@ _STEPS = (1e-2, 1e-3)
 #: deviations, and the growth of the sum of squares that makes a step too long.
 _REACH, _EXPANSIONS, _SMALL, _WORSE = 1.0, 40, 0.25, 1.01
 
+#: Ratio of the loads to which equilibria reach, and how many of a search are kept: those of one table of derivatives.
+_REACHES, _KEPT = 1.1, 16
+
 #: Residual of values for which the model has no path: larger than any of a path.
 _REFUSED = 1e9
 
@@ -74,6 +77,7 @@ class Search:
         self._position = record.position
         self.range = float(np.ptp(self._position))
         self.load_range = self.baseline.range
+        self._machines: dict[tuple[Any, ...], Machine] = {}
 
     def starts(self) -> list[dict[str, float]]:
         """Return where the search may begin: at the fit of the JKR limit, which takes no time.
@@ -192,9 +196,16 @@ class Search:
 
     def machine(self, values: dict[str, float], curves: Curves) -> Machine:
         """Return the stable sections of the problem of fitted numbers."""
-        problem = self._problem_of(values)
-        equilibria = curves.equilibria(problem, values, 1.2 * self.largest(values))
-        return Machine.of(equilibria, self.observed.record.stiffness)
+        # The load to which they reach changes in steps: two thirds of the numbers of a search move only the record.
+        largest = 1.2 * self.largest(values)
+        end = _REACHES ** math.ceil(math.log(largest, _REACHES)) if largest > 0.0 else largest
+        asked = curves, end, *(values[key.name] for key in self.keys)
+        if asked not in self._machines:
+            if len(self._machines) >= _KEPT:
+                self._machines.pop(next(iter(self._machines)))
+            equilibria = curves.equilibria(self._problem_of(values), values, end)
+            self._machines[asked] = Machine.of(equilibria, self.observed.record.stiffness)
+        return self._machines[asked]
 
     def largest(self, values: dict[str, float]) -> float:
         """The largest load of the record from its zero."""
@@ -252,14 +263,12 @@ class Search:
 
     def _aligned(self, machine: Machine, values: dict[str, float]) -> float:
         """The zero of the position at which the record has the load of the model: the best of those along it."""
-        shifts = self._position[:, None] - machine.contact[0][None, :: max(machine.contact.shape[1] // 40, 1)]
-        tried = np.linspace(shifts.min(), shifts.max(), 400)
-        loads = self.observed.record.load - self.baseline.loads(values)
-        thinned = slice(None, None, max(len(loads) // 400, 1))
-        errors = [
-            float(np.sum((machine.load(self._position - shift, self.observed) - loads)[thinned] ** 2))
-            for shift in tried
-        ]
+        states = machine.contact[0, :: max(machine.contact.shape[1] // 40, 1)]
+        tried = np.linspace(self._position.min() - states.max(), self._position.max() - states.min(), 400)
+        every = slice(None, None, max(len(self._position) // 400, 1))
+        observed, position = self.observed.thinned(every), self._position[every]
+        loads = observed.record.load - self.baseline.loads(values)[every]
+        errors = [float(np.sum((machine.load(position - shift, observed) - loads) ** 2)) for shift in tried]
         return float(tried[int(np.argmin(errors))])
 
     def _residuals(self, values: dict[str, float], curves: Curves) -> Array:

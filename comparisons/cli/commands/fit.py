@@ -9,11 +9,12 @@ from typing import Any
 from comparisons.cli.options import JOBS, command, file, option, output_format, several
 from comparisons.cli.screen import output, print_lines
 from comparisons.console.exit_status import FAILED, OK
-from comparisons.console.progress import log, note, waiting
+from comparisons.console.progress import log, note
 from comparisons.description.budget import budget_line
 from comparisons.fitting.baseline import BASELINES
-from comparisons.fitting.folder import fit_files, fit_table
+from comparisons.fitting.folder import MOST_PICTURES, fit_files
 from comparisons.fitting.reading import SIGNALS, Sensitivity
+from comparisons.fitting.table import fit_table
 from comparisons.output.terminal import rich_table
 from comparisons.problem import Problem
 from comparisons.problem.units import NotAValue, in_si, si_text
@@ -29,6 +30,7 @@ from comparisons.problem.units import NotAValue, in_si, si_text
     option("--stiffness", metavar="VALUE", help='cantilever stiffness, as "0.2 N/m" (default: displacement control)'),
     option("--sensitivity", metavar="VALUE", help='deflection sensitivity, as "50 nm/V", per A or per count'),
     file("--out", metavar="DIR", help="folder for table, JSON and pictures; fits in it are kept"),
+    option("--pictures", action="store_true", help=f"a picture of each curve, also of more than {MOST_PICTURES}"),
     JOBS,
     output_format("json"),
 )
@@ -47,21 +49,23 @@ def fit_command(args: argparse.Namespace) -> int:
         "stiffness": None if args.stiffness is None else _si("stiffness", args.stiffness, "N/m"),
         "sensitivity": _sensitivity(args.sensitivity),
     }
-    with waiting(f"{len(args.curves)} curves" if len(args.curves) > 1 else str(args.curves[0])):
-        items = fit_files(
-            args.curves,
-            problem,
-            args.free,
-            args.out,
-            args.jobs,
-            model=args.model,
-            branch=args.branch,
-            baseline=args.baseline,
-            **instrument,
-        )
-    fits = [fitted for item in items for fitted in item["fits"]]
+    items = fit_files(
+        args.curves,
+        problem,
+        args.free,
+        args.out,
+        args.jobs,
+        pictures=args.pictures,
+        model=args.model,
+        branch=args.branch,
+        baseline=args.baseline,
+        **instrument,
+    )
+    fits = [fitted | {"position": item["position"]} for item in items for fitted in item["fits"]]
     if args.format == "json":
-        failures = [{"curve": item["file"], "failure": item["failure"]} for item in items if item["failure"]]
+        failures = [
+            {name: item[name] for name in ("curve", "failure", "position")} for item in items if item["failure"]
+        ]
         print(json.dumps(fits[0] if len(fits) == 1 and not failures else {"fits": fits, "failures": failures}))
     elif fits:
         table = fit_table(items)
@@ -69,10 +73,17 @@ def fit_command(args: argparse.Namespace) -> int:
         print_lines(line for fitted in fits for line in _lines(fitted, len(fits) > 1))
     for item in items:
         if item["failure"]:
-            log(f"{item['file']}: {item['failure']}")
+            log(f"{item['curve']}: {item['failure']}")
     if args.out is not None:
-        note(f"fits.csv, fits.json, fits.tex and a picture of each curve are in {args.out}")
+        note(f"fits.csv, fits.json, fits.tex and {_pictures(len(items), args.pictures)} are in {args.out}")
     return FAILED if any(item["failure"] for item in items) else OK
+
+
+def _pictures(count: int, of_each: bool) -> str:
+    """Say which pictures a folder has."""
+    if of_each or count <= MOST_PICTURES:
+        return "a picture of each curve and map"
+    return f"a picture of each map (and of each curve with --pictures: there are more than {MOST_PICTURES})"
 
 
 def _si(name: str, text: str, unit: str) -> float:

@@ -17,7 +17,8 @@ import fem_reference
 import fscm
 from comparisons import fit
 from comparisons.cli.main import main
-from comparisons.fitting import reading, search
+from comparisons.fitting import search
+from comparisons.fitting.curves import Curves
 from comparisons.fitting.equilibria import Equilibria, _with_points_between, by_fscm
 from comparisons.fitting.fit import Fit, FittedValue, fit_record
 from comparisons.fitting.folder import _pictures
@@ -178,6 +179,18 @@ def test_points_between_states_have_the_folds_of_the_states_alone():
     assert rises[56:].all()
     # A straight line stays one.
     assert points[1] == pytest.approx(np.arange(65.0) / 8.0)
+
+
+def test_numbers_that_move_the_record_alone_need_no_new_equilibria(monkeypatch):
+    """Three of five numbers are zeros and a drift."""
+    computed, compared = [], []
+    equilibria, residuals = Curves.equilibria, search.Search._residuals
+    monkeypatch.setattr(Curves, "equilibria", lambda *given: computed.append(1) or equilibria(*given))
+    monkeypatch.setattr(search.Search, "_residuals", lambda *given: compared.append(1) or residuals(*given))
+    problem, record = recorded(2e3, seed=3)
+    fitted(problem, record)
+    assert len(compared) > 100
+    assert len(computed) < 0.6 * len(compared)
 
 
 def test_what_the_file_knows_counts_like_a_measurement():
@@ -346,28 +359,13 @@ def test_curves_that_are_all_unusable_are_wrong_input(batch, capsys):
     assert "a.csv" in capsys.readouterr().err
 
 
-def test_one_bad_curve_of_a_map_costs_its_own_fit_alone(batch, monkeypatch):
-    read = reading.records_or_refusals
-
-    def of_map(path, name, **instrument):
-        (whole,) = read(path, name, **instrument).values()
-        return {f"{name}#1": whole, f"{name}#2": ValueError(f"{path}: 3 points are fewer than 20"), f"{name}#3": whole}
-
-    monkeypatch.setattr("comparisons.fitting.folder.records_or_refusals", of_map)
-    status, table, pictures = batch({"map.csv": 1.0})
-    assert status == 4
-    assert len(table) == 3
-    assert table["reason"].tolist()[:2] == ["", ""]
-    assert "map.csv#2" in table["reason"][2]
-    assert pictures == {"map-1.png", "map-3.png"}
-
-
 @pytest.mark.parametrize(
     ("names", "pictures"),
     [
         (["c.csv", "c.txt"], ["c.csv", "c.txt"]),
         (["c.csv", "C.txt"], ["c.csv", "C.txt"]),
         (["c.h5", "c-1.csv", "d.csv"], ["c.h5", "c-1.csv", "d"]),
+        (["c.h5", "c-map.csv"], ["c.h5", "c-map.csv"]),
         (["c-1.csv", "c-2.csv", "a/c.csv"], ["c-1", "c-2", "a/c"]),
     ],
 )
@@ -377,7 +375,7 @@ def test_no_two_files_share_a_picture(tmp_path, names, pictures):
 
 def test_the_table_of_fits_is_written_under_the_lock(batch, tmp_path, monkeypatch):
     written = []
-    monkeypatch.setattr("comparisons.fitting.folder._write", lambda folder, items: written.append(is_locked(folder)))
+    monkeypatch.setattr("comparisons.fitting.folder._write", lambda folder, *_: written.append(is_locked(folder)))
     batch({"c.csv": 1.0})
     assert written == [True]
 
