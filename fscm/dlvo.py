@@ -23,7 +23,6 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
 
 from fscm._typing import Array
 from fscm._validation import real_number
@@ -160,6 +159,8 @@ class Dlvo:
 
         if excess(most) <= 0.0:
             return []
+        from scipy.optimize import brentq
+
         sections = (math.exp((level - math.log(end)) / power), most), (most, end * (1.0 - _ROUNDING))
         return [length * float(brentq(excess, *section, xtol=_ROUNDING, rtol=_ROUNDING)) for section in sections]
 
@@ -173,6 +174,9 @@ def _power(x: Any, exponent: float, order: int) -> Any:
 
 def _roots(function: Callable[[float], float], turns: list[float]) -> list[float]:
     """Roots of a function of x that is monotone between its turns, times a power of x."""
+    # Imported here: every command imports the laws, and this takes a tenth of a second.
+    from scipy.optimize import brentq
+
     farthest = 2.0 * max([1.0, *turns])
     while function(farthest) * function(_NEAREST) > 0.0:
         farthest *= 2.0

@@ -16,6 +16,7 @@ import numpy as np
 
 import fscm
 from comparisons.problem.punch_shapes import RoundedFlat, SmoothedProfile
+from fscm.wells import has_one_well
 
 #: A punch and its size; a surface law.
 MakePunch = Callable[[ModuleType, np.random.Generator], tuple[Any, float]]
@@ -138,6 +139,14 @@ def _mie(package: ModuleType, rng: np.random.Generator) -> Any:
     return package.Mie(1.0, 1.0, *_exponents(rng))
 
 
+def _dlvo(package: ModuleType, rng: np.random.Generator) -> Any:
+    """A double layer that lowers the well and makes no second one: those have `tests/solvers/test_barriers.py`."""
+    while True:
+        law = fscm.Dlvo(16.0 * math.pi, 1.0, between(rng, 1e-2, 1.0), between(rng, 0.1, 1.0))
+        if has_one_well(law):
+            return package.Dlvo(law.hamaker_constant, law.z0, law.double_layer, law.debye_length)
+
+
 def _rows(rng: np.random.Generator, fewest: int, most: int) -> tuple[np.ndarray, np.ndarray, float]:
     """Gaps and tractions of a law, some with a second well or a shoulder; and the exponent of the attraction."""
     m, n = _exponents(rng)
@@ -190,6 +199,7 @@ def _accepted(package: ModuleType, rng: np.random.Generator, rows: Callable[[], 
 LAWS: dict[str, MakeLaw] = {
     "lennard-jones-9-3": _nine_three,
     "mie": _mie,
+    "dlvo": _dlvo,
     "table": _table,
     "smoothed table": _smoothed_table,
 }

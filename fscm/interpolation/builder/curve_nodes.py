@@ -19,7 +19,7 @@ from fscm._surface.state import Rates, State
 from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm.accuracy import Meshes
-from fscm.errors import NotConverged
+from fscm.errors import Failure, NotConverged
 from fscm.interpolation.builder.design import Node, rounded, sobol
 from fscm.interpolation.coordinates import BOX
 from fscm.interpolation.curve.pieces import CONTACT_GAP, LARGEST_LOAD, States, forms_of, gap_at, load_unit, rigid_load
@@ -171,7 +171,7 @@ class _Before:
                     continue
                 if self._is_of_the_path(gap, state):
                     return state
-        raise NotConverged(f"no state of the path at the central gap {gap:g}")
+        raise NotConverged(f"no state of the path at the central gap {gap:g}", Failure.STEP)
 
     def _is_of_the_path(self, gap: float, state: State) -> bool:
         number = min(max(int(np.searchsorted(-self._gaps, -gap)), 1), len(self._gaps) - 1)

@@ -114,7 +114,6 @@ def test_the_integral_equation_refuses_friction():
     [
         (replace(PLAIN, punch_solid=BODY), "punch_solid"),
         (BONDED, "solid.friction"),
-        (on_solid("homogeneous", ELASTIC | {"surface_tension": 0.02}), "solid.surface_tension"),
         (replace(PLAIN, punch=Section("sphere", {"R": 1e-7, "R_solid": 1e-7})), "punch.R_solid"),
     ],
 )
