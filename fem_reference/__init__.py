@@ -18,7 +18,7 @@ What a solver of an equilibrium path must have, and where it is:
 6. events as roots of rates, the jumps between stable branches, and the mesh of each: `_contact.events`,
    `_contact.followed`, `_contact.event_mesh`;
 7. the value at an event from the whole system: `_contact.uncondensed` and `_linear`;
-8. a bound of the error of every value by its causes: `_contact.carried` and `_contact.parts`;
+8. a bound of the error of every value by its causes: `_contact.carried` and `_contact.parts`, its rounding in 7;
 9. quantities, each a row that names its event and its functional: `quantities`; `solution` computes them by 1 to 8.
 
 The names in `__all__` of the modules of solids, punches and laws are names of the package, too.  `_lazy.pyi` lists the

@@ -43,7 +43,7 @@ class Analysis:
     Parameters
     ----------
     problem : Problem
-        With 0 <= k < 1.
+        With 0 <= k < 1, dimensionless: `solve` hands over `Problem.dimensionless`.
     accuracy : float or str
         Requested relative error, or its name in `ACCURACIES` (see `solve`).
 

@@ -15,7 +15,7 @@ from comparisons.external.inherited import at_most, hidden_from_models
 from comparisons.external.model_source import close_models
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed
-from comparisons.output.report.board import BoardEntry, Entry, Submission, board_page
+from comparisons.output.report.board_page import BoardEntry, Entry, Submission, board_page
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder

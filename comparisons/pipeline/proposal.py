@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from comparisons.console.exit_status import OK, guarded
 from comparisons.external.text_rules import appearance, is_portable
-from comparisons.output.report.board import Submission
+from comparisons.output.report.board_page import Submission
 from comparisons.pipeline.submission import SubmissionFolder, read_submission, submission_folders
 
 #: The folder of all submissions in the repository.

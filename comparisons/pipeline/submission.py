@@ -22,7 +22,7 @@ from comparisons.data.toml_text import parse
 from comparisons.data.validation import validated
 from comparisons.external.fingerprint import MOST_BYTES, MOST_FILES
 from comparisons.external.text_rules import appearance, is_portable, one_line
-from comparisons.output.report.board import Submission
+from comparisons.output.report.board_page import Submission
 from comparisons.registry import MODELS
 
 #: Most bytes of a description: fifty authors of 500 characters of two bytes.

@@ -12,7 +12,7 @@ from comparisons.console.printable import printable
 from comparisons.console.progress import log
 from comparisons.data.file_names import KAPPA, RECORD, REPORT, RUN_FILES, STORE
 from comparisons.output.citation import as_bibtex, as_text, methods, works
-from comparisons.output.report.board import standings
+from comparisons.output.report.board_page import standings
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder

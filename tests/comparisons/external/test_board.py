@@ -6,7 +6,7 @@ import re
 import pandas as pd
 
 from comparisons.cli.main import main
-from comparisons.output.report.board import _regions
+from comparisons.output.report.board_page import _regions
 from comparisons.pipeline import board as board_module
 
 from ..conftest import is_locked

@@ -8,7 +8,7 @@ import pytest
 import comparisons
 from comparisons.cli.main import main
 from comparisons.data.file_names import VERDICT_FILES
-from comparisons.output.report.board import standing
+from comparisons.output.report.board_page import standing
 from comparisons.output.report.stored_run import read_folder
 from comparisons.pipeline.board import entry_of
 from comparisons.pipeline.figures import make_figures

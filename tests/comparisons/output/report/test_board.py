@@ -6,7 +6,7 @@ from dataclasses import replace
 import pandas as pd
 import pytest
 
-from comparisons.output.report.board import Entry, standing
+from comparisons.output.report.board_page import Entry, standing
 from comparisons.output.report.stored_run import Stored
 
 
