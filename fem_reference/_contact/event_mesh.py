@@ -92,14 +92,14 @@ class EventMesh:
 
     @property
     def whole_path(self) -> PathEvents:
-        """The whole path.
+        """The whole path at the accuracy of the meshes: on this one if it scales, or over meshes for each radius.
 
         Raises
         ------
         NotConverged
             If the path cannot be traced.
         """
-        return self.path.events()
+        return path_on(self.meshes, self.spec, self.size) if self.meshes.scale else self.path.events()
 
 
 def event_mesh(meshes: Meshes, events: Sequence[str], start: tuple[MeshSpec, float] | None = None) -> EventMesh:
@@ -174,7 +174,12 @@ def whole_path(problem: Problem, accuracy: float | str) -> PathEvents:
     ValueError, NotConverged
         As `chosen`.
     """
-    return _on_first(problem, accuracy, lambda meshes: followed_path(meshes).events())
+    return _on_first(problem, accuracy, _whole_path)
+
+
+def _whole_path(meshes: Meshes) -> PathEvents:
+    """The path of these meshes; one that scales is followed with a lower degree first, for its edges."""
+    return event_mesh(meshes, ("zero_load",)).whole_path if meshes.scale else followed_path(meshes).events()
 
 
 def _on_first(problem: Problem, accuracy: float | str, computed: Callable[[Meshes], Computed]) -> Computed:

@@ -7,8 +7,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
-from fem_reference import Coating, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve
+from fem_reference import Coating, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve, trace
 from fem_reference._contact import followed
 from fem_reference._contact.edge_states import EdgeStates
 from fem_reference._contact.events import Anchor, PathEvents
@@ -38,6 +39,20 @@ def soft_coating(E_coating):
 #: Two minima of the load under 1 GPa and 100 nm: by the integral equation for the 9-3 law with a range of 2 nm, and in
 #: the limit of a short range, at 76.64 nm and 765.1 nm (Hankel).
 WIDE_LAW, LAYERED_JKR = (366.88778e3, 684.62827e3), (320.94451e3, 660.03700e3)
+
+
+def test_a_traced_power_law_has_the_accuracy_of_its_meshes():
+    """Not that of the coarser states that tell the edges: those are wrong by 1e-4 of the load."""
+    problem = Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    coarse, fine = (trace(problem, accuracy) for accuracy in ("quick", "fine"))
+    touching = [np.isfinite(path.edge_radius) for path in (coarse, fine)]
+    r, load = fine.edge_radius[touching[1]], fine.load[touching[1]]
+    there = touching[0] & (coarse.edge_radius > r[2]) & (coarse.edge_radius < r[-3])
+    expected = CubicSpline(np.log(r), load)(np.log(coarse.edge_radius[there]))
+    assert there.sum() > 5
+    # Measured 1.4e-7, with the error of the spline.
+    assert coarse.load[there] == pytest.approx(expected, abs=2e-6 * np.ptp(load))
+
 
 STEP = 0.2
 # Load and displacement in x = log r: the load has two minima that are closer to each other than two meshes at first.
