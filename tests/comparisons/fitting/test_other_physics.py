@@ -1,4 +1,4 @@
-"""Records that violate the model: whoever gets a wrong value is told."""
+"""Records that violate the model: a wrong value comes with a remark."""
 
 import numpy as np
 import pytest
