@@ -8,8 +8,12 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from fem_reference import Dlvo, LennardJones, TabulatedLaw
+from fem_reference import Dlvo, Homogeneous, LennardJones, PowerPunch, Problem, TabulatedLaw
+from fem_reference._contact.degree_error import LARGEST_GAIN, SMALLEST_GAIN
+from fem_reference._contact.event_mesh import chosen
+from fem_reference._contact.parts import events_on_meshes
 from fem_reference._wells import outermost_turn, work_of_tension
+from fem_reference.laws import SurfaceLaw
 
 BARRIER = Dlvo(hamaker_constant=16.0 * math.pi, z0=1.0, double_layer=8.0 / 3.0, debye_length=1.0)
 
@@ -59,3 +63,9 @@ def test_a_parameter_outside_its_range_is_named(changed: dict[str, float], name:
     values = {"hamaker_constant": 1.0, "z0": 1.0, "double_layer": 1.0, "debye_length": 1.0}
     with pytest.raises(ValueError, match=name):
         Dlvo(**values | changed)
+
+
+@pytest.mark.parametrize(("law", "gain"), [(BARRIER, SMALLEST_GAIN), (LennardJones(1.0, 1.0), LARGEST_GAIN)])
+def test_a_bound_believes_less_where_a_law_has_a_barrier(law: SurfaceLaw, gain: float) -> None:
+    problem = Problem(Homogeneous(law.work_of_adhesion, 0.0), PowerPunch(2.0, 1.0), law)
+    assert events_on_meshes(chosen(problem, ("pull_off",), "quick")).largest_gain == gain
