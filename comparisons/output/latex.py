@@ -44,16 +44,15 @@ _MINUS = re.compile(r"(?<![A-Za-z0-9_.)}-])-(?=[0-9])")
 
 
 class _Page(NamedTuple):
-    """Font of a table, characters of a line, width of one in points, and the environment around the table."""
+    """Font of a table, characters of a line, and the environment around the table."""
 
     font: str
     characters: int
-    width: float
     around: str
 
 
-_UPRIGHT = _Page("footnotesize", 74, 4.6, "center")
-_TURNED = _Page("scriptsize", 138, 4.3, "landscape")
+_UPRIGHT = _Page("footnotesize", 74, "center")
+_TURNED = _Page("scriptsize", 138, "landscape")
 
 #: Characters of a line of a table that is not turned.
 UPRIGHT_WIDTH = _UPRIGHT.characters
@@ -125,7 +124,7 @@ def _layout(texts: Mapping[str, list[str]]) -> tuple[_Page, str]:
         share = min(widths[name], max(free / (len(wraps) - index), 6.0, *numbers))
         free -= share
         if share < widths[name]:
-            forms[name] = rf">{{\raggedright\arraybackslash}}p{{{(share - _GAP) * page.width:.0f}pt}}"
+            forms[name] = rf">{{\raggedright\arraybackslash}}p{{{(share - _GAP) / page.characters:.3f}\linewidth}}"
     return page, f"@{{}}{''.join(forms.values())}@{{}}"
 
 

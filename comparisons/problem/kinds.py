@@ -212,6 +212,9 @@ def _kinds(section: str, table: str) -> dict[str, Kind]:
 #: The kinds of each section, by name.
 KINDS = {name: _kinds(name, name) for name in SECTIONS} | {PUNCH_SOLID: _kinds(PUNCH_SOLID, "solid")}
 
+#: What every solid may state, besides its elasticity, of its surface.
+SURFACE_KEYS = tuple(_TABLES["every"]["solid"]["keys"])
+
 
 def kind_rows() -> Iterator[dict[str, str]]:
     """Yield the rows of the table for people: section, kind, formula, keys and columns with their units.

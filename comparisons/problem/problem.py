@@ -16,7 +16,7 @@ from typing import Any
 import fscm
 from comparisons.model import NotApplicable
 from comparisons.numerics.number_text import case_text
-from comparisons.problem.kinds import KINDS, PUNCH_SOLID, SECTIONS, Form
+from comparisons.problem.kinds import KINDS, PUNCH_SOLID, SECTIONS, SURFACE_KEYS, Form
 from comparisons.problem.uncertain import Uncertainty
 
 #: Parameters of a dimensionless problem; nu is optional.
@@ -62,6 +62,11 @@ class Section:
     def content(self) -> dict[str, Any]:
         """The kind and the values, for output."""
         return {"kind": self.kind, **self.values}
+
+    @property
+    def surface_keys(self) -> list[str]:
+        """Keys of what the surface of a solid has, besides elasticity."""
+        return [key for key in SURFACE_KEYS if self.get(key) not in (None, 0.0, "none")]
 
 
 @dataclass(frozen=True, eq=False)
@@ -252,12 +257,8 @@ class Problem:
     @property
     def surface(self) -> dict[str, float | str]:
         """What the surfaces of the bodies have besides elasticity: surface tensions and friction, by names of keys."""
-        return {
-            f"{name}.{key}": section[key]
-            for name, section in self._sections.items()
-            for key in ("surface_tension", "friction")
-            if section.get(key) not in (None, 0.0, "none")
-        }
+        sections = self._sections.items()
+        return {f"{name}.{key}": section[key] for name, section in sections for key in section.surface_keys}
 
     def without(self, *names: str) -> Problem:
         """Return the problem without some keys, as "solid.surface_tension"."""
@@ -414,8 +415,7 @@ def beyond_numbers(problem: Problem | fscm.Problem, model: str) -> str | None:
 def _described(body: Section) -> str:
     """The kind of a solid, with its exponent and what its surface has, in words."""
     exponent = f" (k = {body['k']:g})" if body.kind == "power-law" and "k" in body.values else ""
-    stated = [key for key in ("surface_tension", "friction") if body.get(key) not in (None, 0.0, "none")]
-    return f"{body.kind} solid{exponent}" + "".join(f" with {key.replace('_', ' ')}" for key in stated)
+    return f"{body.kind} solid{exponent}" + "".join(f" with {key.replace('_', ' ')}" for key in body.surface_keys)
 
 
 def split_name(name: str) -> list[str]:
