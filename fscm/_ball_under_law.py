@@ -29,9 +29,9 @@ def ball_under_law(law: SurfaceLaw, d: Array, R: Array) -> tuple[Array, Array]:
     Examples
     --------
     >>> from fscm import Ball, LennardJones
-    >>> from fscm.interaction import Body
+    >>> from fscm._ball import BallUnderMie
     >>> T, _ = ball_under_law(LennardJones(), np.array([1.5]), np.array([20.0]))
-    >>> bool(abs(T[0] - Body(Ball(R=20.0), LennardJones()).traction(np.array(0.0), np.array(0.5))) < 1e-14)
+    >>> bool(abs(T[0] - BallUnderMie(Ball(R=20.0), LennardJones()).traction(np.array(0.0), np.array(0.5))) < 1e-14)
     True
     """
     d, R = np.broadcast_arrays(d, R)

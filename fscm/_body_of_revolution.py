@@ -6,37 +6,33 @@ The powers of the law are those of `fscm._potential_table`, in which each is an 
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fscm._potential_table import aspect_of, energy_table, power_table
+from fscm._potential_table import energy_table, power_table
 from fscm._typing import Array
+from fscm._whole_punch import WholePunch
 from fscm.laws import LennardJones, Mie
-from fscm.punch import PunchShape, kinks_of
+from fscm.punch import PunchShape
 
 if TYPE_CHECKING:
     from fscm._potential_table import PotentialTable
 
-__all__ = ["BodyOfRevolution", "opening_of", "size_of"]
+__all__ = ["BodyOfRevolution"]
 
 #: Steps of the secant method for the largest tension, whose equation is almost linear in log v: 1e-15 after four.
 _SECANTS = 5
 #: Step of log r for the drift of that; it moves the mesh alone.
 _STEP = 1e-4
-#: The traction is nearly a power of the radius beyond so many sizes of the punch.
-_FAR = 1e4
 #: Rounding of a size in the bounds (`fscm._bound.defect`), and safety for points that were not compared.
 _ROUNDING, _SAFETY = 2.0**-49, 4.0
-#: Halvings in the search of the size of the punch, between these radii.
-_HALVINGS, _LEAST, _LARGEST = 60, 1e-30, 1e30
 
 
 @dataclass(frozen=True, slots=True)
-class BodyOfRevolution:
+class BodyOfRevolution(WholePunch):
     """The potential of a punch without end (see the module): an `fscm.interaction.Interaction`.
 
     Parameters
@@ -71,21 +67,6 @@ class BodyOfRevolution:
     def falls_as(self, r: float) -> float:
         """Exponent q of p ~ r^-q far away, where the punch is a slender body of the cross-section ~ z^(2/growth)."""
         return self.exponents[1] + 2.0 - 2.0 / self.punch.growth
-
-    @property
-    def slope_falls_by(self) -> float:
-        """Exponent by which dp/dH falls faster."""
-        return 1.0
-
-    @property
-    def far_radius(self) -> float:
-        """Radius beyond which the traction is nearly a power."""
-        return _FAR * self.size_of_punch / aspect_of(self.punch)
-
-    @property
-    def size_of_punch(self) -> float:
-        """Radius at which the punch is as high as wide, or of its last kink, in the unit of heights."""
-        return size_of(self.punch)
 
     @property
     def _unit(self) -> Array:
@@ -124,14 +105,6 @@ class BodyOfRevolution:
         terms = powers * (1.0 + error) - self.punch.height(r) * powers * by_depth
         return np.asarray(self._strength * np.sum(terms, axis=0))
 
-    def remainder(self, r: Array, H: Array) -> None:
-        """None: the potential is exact."""
-        return
-
-    def opening(self, r: Array, H: Array) -> Array:
-        """That of the gap, or of the place if it is less."""
-        return opening_of(self.punch, r, H)
-
     def peak_gap(self, r: Array) -> Array:
         """Gap of the largest tension at a radius."""
         r = np.asarray(r, float)
@@ -144,7 +117,7 @@ class BodyOfRevolution:
             value, by_depth, _ = self._powers(r, self.law.z0 * np.expm1(u))
             return np.asarray(value[0] - value[1] + np.log(by_depth[0] / by_depth[1]))
 
-        stretch = np.hypot(1.0, self.punch.slope(r) / aspect_of(self.punch))
+        stretch = np.hypot(1.0, self.punch.slope(r) / self.aspect)
         u = np.log(stretch * (1.0 + self.law.peak_gap / self.law.z0))
         left = log_ratio(u)
         step = left / (m - n)
@@ -166,16 +139,6 @@ class BodyOfRevolution:
         return self._difference(np.exp(values + self._unit.reshape(2, *(1,) * r.ndim)))
 
 
-def opening_of(punch: PunchShape, r: Array, H: Array) -> Array:
-    """Change of the distance to a punch along the surface between points, of shape (2, N).
-
-    It is that of the gap below a flat face, and anywhere at most the distance of the points, whose levels are f - H.
-    """
-    level = punch.height(r) - H
-    moved = aspect_of(punch) * np.abs(r[1] - r[0]) + np.abs(level[1] - level[0])
-    return np.asarray(np.minimum(np.abs(H[1] - H[0]), moved))
-
-
 def _logarithms(table: PotentialTable, r: Array, v: Array) -> tuple[Array, Array, Array]:
     values = table(r.ravel(), v.ravel())
     first, by_depth, by_radius = (part.reshape(-1, *r.shape) for part in values)
@@ -193,23 +156,3 @@ def _evaluated(body: BodyOfRevolution, shape: tuple[int, ...], r: bytes, H: byte
 @lru_cache(maxsize=4096)
 def _peak(body: BodyOfRevolution, r: float) -> float:
     return float(body._peaks(np.array([r]))[0])
-
-
-def size_of(punch: PunchShape) -> float:
-    """Radius at which a punch is as high as wide, or of its last kink, in the unit of heights."""
-    assert isinstance(punch, Hashable)  # a problem is hashable, and so are its parts
-    return _size(punch)
-
-
-@lru_cache(maxsize=64)
-def _size(punch: Hashable) -> float:
-    assert isinstance(punch, PunchShape)
-    aspect, low, high = aspect_of(punch), _LEAST, _LARGEST
-    last = aspect * max(kinks_of(punch), default=0.0)
-    if punch.growth <= 1.0:
-        return max(last, aspect)
-    for _ in range(_HALVINGS):
-        middle = float(np.sqrt(low * high))
-        higher = float(punch.height(np.array(middle / aspect))) > middle
-        low, high = (low, middle) if higher else (middle, high)
-    return max(last, high)

@@ -21,10 +21,9 @@ from functools import lru_cache
 import numpy as np
 
 from fscm._ball_under_law import ball_under_law
-from fscm._body_of_revolution import opening_of, size_of
 from fscm._potential import Profile
-from fscm._potential_table import aspect_of
 from fscm._typing import Array
+from fscm._whole_punch import WholePunch, aspect_of
 from fscm.laws import SurfaceLaw
 from fscm.punch import PunchShape, kinks_of
 
@@ -43,8 +42,8 @@ _RINGS, _COSINES = 12, np.cos(np.pi * (np.arange(8) + 0.5) / 8.0)
 _SECANTS, _DRIFT = 8, 1e-4
 #: Radii in z0 at which a face is examined; share of the largest curvature that is rounding.
 _EXAMINED, _ROUND = np.geomspace(_INNERMOST, 1e6, 300), 1e-9
-#: Sizes of the punch beyond which the traction is nearly a power of the radius, and ratio over which that is measured.
-_FAR, _OVER = 1e4, 4.0
+#: Ratio of radii over which the power of the traction far away is measured.
+_OVER = 4.0
 #: Height of a point, relative to that of the face, which is rounding.
 _LEVEL = 8.0 * np.finfo(float).eps
 #: Quadrature of the energy: pieces on which the distance grows by _FARTHER up to _FARTHEST, fine for the knots of a
@@ -74,7 +73,7 @@ def check_face(punch: PunchShape, law: SurfaceLaw) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class CurvedFace:
+class CurvedFace(WholePunch):
     """The potential of a punch under a law from a table: an `fscm.interaction.Interaction`.
 
     Parameters
@@ -103,21 +102,6 @@ class CurvedFace:
         """Exponent q of p ~ r^-q far away, as it is there."""
         return _fall(self)
 
-    @property
-    def slope_falls_by(self) -> float:
-        """Exponent by which dp/dH falls faster."""
-        return 1.0
-
-    @property
-    def far_radius(self) -> float:
-        """Radius beyond which the traction is nearly a power."""
-        return _FAR * self.size_of_punch / aspect_of(self.punch)
-
-    @property
-    def size_of_punch(self) -> float:
-        """Radius at which the punch is as high as wide, in the unit of heights."""
-        return size_of(self.punch)
-
     def _values(self, r: Array, H: Array) -> tuple[Array, Array, Array]:
         r, H = np.broadcast_arrays(np.asarray(r, float), np.asarray(H, float))
         return _evaluated(self, r.shape, r.tobytes(), H.tobytes())
@@ -145,14 +129,10 @@ class CurvedFace:
         at = _nearest(self, r.ravel(), H.ravel())
         return at.remainder().reshape(r.shape)
 
-    def opening(self, r: Array, H: Array) -> Array:
-        """That of the gap, or of the place if it is less."""
-        return opening_of(self.punch, r, H)
-
     def peak_gap(self, r: Array) -> Array:
         """Gap of the largest tension at a radius."""
         r, face = np.asarray(r, float), self.law.singular_gap
-        before = np.log((self.law.peak_gap - face) * np.hypot(1.0, self.punch.slope(r) / aspect_of(self.punch)))
+        before = np.log((self.law.peak_gap - face) * np.hypot(1.0, self.punch.slope(r) / self.aspect))
         u, last = before + 0.01, self.slope(r, face + np.exp(before))
         for _ in range(_SECANTS):
             left = self.slope(r, face + np.exp(u))

@@ -18,9 +18,10 @@ from numpy.typing import NDArray
 from fscm._chebyshev_tree import ChebyshevTree
 from fscm._potential import Profile, log_powers
 from fscm._typing import Array
+from fscm._whole_punch import aspect_of
 from fscm.punch import PunchShape, ScaledPunch
 
-__all__ = ["PotentialTable", "aspect_of", "energy_table", "power_table"]
+__all__ = ["PotentialTable", "energy_table", "power_table"]
 
 #: Radius, in the unit of the punch, below which nothing changes.
 _INNERMOST = 1e-30
@@ -38,11 +39,6 @@ _SIDES = 5e-15
 #: length one and a finer one, share of the whole that is left to the power law beyond, and largest length.
 _GAUSS = np.polynomial.legendre.leggauss(12), np.polynomial.legendre.leggauss(20)
 _LEFT, _LONGEST = 1e-15, 40
-
-
-def aspect_of(punch: PunchShape) -> float:
-    """Unit of radii over that of heights."""
-    return punch.radius / punch.height_unit if isinstance(punch, ScaledPunch) else 1.0
 
 
 class PotentialTable:

@@ -54,8 +54,8 @@ LAYERS = {
     "fscm": (
         ("errors", "_typing", "_threads", "_validation", "_presentation", "_response_factor", "_law_curve"),
         ("laws", "tabulated_law", "dlvo", "wells", "punch", "custom_punch", "measured_punch"),
-        ("_chebyshev_tree", "_potential", "_potential_table"),
-        ("_ball_under_law", "_body_of_revolution", "_curved_face", "interaction"),
+        ("_whole_punch", "_chebyshev_tree", "_potential", "_potential_table"),
+        ("_ball_under_law", "_ball", "_body_of_revolution", "_curved_face", "interaction"),
         ("solids", "layers", "tabulated_modulus", "custom_solid"),
         ("bodies", "_units", "_problem_checks"),
         ("accuracy",),

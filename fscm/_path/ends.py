@@ -34,8 +34,9 @@ import scipy
 from fscm._surface.response import response_of
 from fscm._surface.state import State
 from fscm._typing import Array
+from fscm._whole_punch import WholePunch
 from fscm.errors import Failure, NotConverged
-from fscm.interaction import Derjaguin, WholePunch
+from fscm.interaction import Derjaguin
 from fscm.problem import Problem
 from fscm.wells import has_one_well, tension_beyond
 

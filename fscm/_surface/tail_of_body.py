@@ -1,4 +1,4 @@
-"""Contributions of the radii beyond the mesh under the potential of the whole punch (`fscm.interaction.Body`).
+"""Contributions of the radii beyond the mesh under the potential of the whole punch (`fscm._whole_punch`).
 
 The punch is seen as a whole there, so that the traction is no power of its height.  Integrals of it on the undeformed
 surface are by quadrature to a radius from which on the traction is a power of the radius.
@@ -15,7 +15,7 @@ import numpy as np
 from fscm._surface.response import response_of
 from fscm._surface.response.distant_ring import DistantRing
 from fscm._typing import Array
-from fscm.interaction import WholePunch
+from fscm._whole_punch import WholePunch
 from fscm.problem import Problem
 
 __all__ = ["TailOfBody"]
@@ -40,7 +40,7 @@ class TailOfBody:
     Parameters
     ----------
     problem : Problem
-        Dimensionless, with a `Body`.
+        Dimensionless, with a `WholePunch`.
     T, displacement : float
     cuts : int
         Each piece of the quadrature is divided by it.

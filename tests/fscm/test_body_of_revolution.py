@@ -8,6 +8,7 @@ import scipy
 
 import fscm
 from fscm import Ball, Coating, Homogeneous, LennardJones, Mie, PowerPunch, PowerSum, Problem, RoundedCone
+from fscm._ball import BallUnderMie
 from fscm._potential import Profile, log_powers
 from fscm._potential_table import power_table
 from fscm._surface.breaks import initial_mesh
@@ -16,7 +17,6 @@ from fscm._surface.linearisation import rates_by
 from fscm._surface.newton import newton
 from fscm._surface.state import Control, rigid_state
 from fscm._surface.tail_of_body import TailOfBody
-from fscm.interaction import Body
 from fscm.measured_punch import MeasuredPunch
 from fscm.punch import ScaledPunch
 from tests.marks import heavy
@@ -93,7 +93,7 @@ def test_a_sphere_acts_as_its_ball():
     """Under steep powers, for which the atoms beyond the sphere of the profile do not count: the closed form."""
     law, ball = Mie(m=14.0, n=10.5), Ball(200.0)
     of_profile = fscm.interaction.BodyOfRevolution(ScaledPunch(ball, 15.0, 1.0), law)
-    closed = Body(ScaledPunch(ball, 15.0, 1.0), law)
+    closed = BallUnderMie(ScaledPunch(ball, 15.0, 1.0), law)
     r, gap = np.array([0.0, 0.5, 2.0, 4.0]), np.array([0.1, -0.1, 3.0, 1.0])
     for name in ("traction", "slope", "drift"):
         expected, size = getattr(closed, name)(r, gap), closed.size(r, gap)

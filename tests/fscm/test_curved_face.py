@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from fscm import Ball, Homogeneous, LennardJones, PowerPunch, Problem, RoundedCone, TabulatedLaw, solve
+from fscm._ball import BallUnderLaw, BallUnderMie
 from fscm._curved_face import CurvedFace
 from fscm.custom_punch import CustomPunch
-from fscm.interaction import Body, BodyUnderLaw, interaction_of
+from fscm.interaction import interaction_of
 from fscm.measured_punch import MeasuredPunch
 from fscm.punch import ScaledPunch
 from tests.refusals import refused
@@ -22,14 +23,14 @@ def table(law=LAW):
 @pytest.mark.parametrize("unit", [None, (4.0, 0.5)])
 def test_a_ball_under_any_law_is_that_of_its_atoms(unit):
     punch = Ball(20.0) if unit is None else ScaledPunch(Ball(20.0), *unit)
-    exact, force = Body(punch, LAW), BodyUnderLaw(punch, LAW)
+    exact, force = BallUnderMie(punch, LAW), BallUnderLaw(punch, LAW)
     r, gap = np.array([0.5, 2.0, 3.0, 30.0, 100.0, 250.0]), np.array([0.2, 0.5, 2.0, 400.0, 9000.0, 90000.0])
     assert force.traction(r, gap) == pytest.approx(exact.traction(r, gap), rel=1e-12)
     assert force.slope(r, gap) == pytest.approx(exact.slope(r, gap), rel=1e-10)
     assert force.drift(r, gap) == pytest.approx(exact.drift(r, gap), rel=1e-10)
     assert force.peak_gap(r[:3]) == pytest.approx(exact.peak_gap(r[:3]), abs=1e-12)
     assert force.energy(r, gap) == pytest.approx(exact.energy(r, gap), rel=1e-10)
-    assert isinstance(interaction_of(punch, table(), "body"), BodyUnderLaw)
+    assert isinstance(interaction_of(punch, table(), "body"), BallUnderLaw)
 
 
 @pytest.mark.parametrize("punch", [PowerPunch(2.0, 100.0), PowerPunch(3.0, 1e4), RoundedCone(20.0, 2.0)], ids=repr)

@@ -9,13 +9,14 @@ import pytest
 
 import fscm
 from fscm import Ball, Homogeneous, LennardJones, Mie, PowerPunch, Problem, solve
+from fscm._ball import BallUnderMie
 from fscm._bound.defect import Defect, finer
 from fscm._surface.linearisation import linearised, rates_by
 from fscm._surface.newton import newton
 from fscm._surface.state import Control
 from fscm._surface.tail import tail_errors, tail_of
 from fscm._surface.tail_of_body import TailOfBody
-from fscm.interaction import Body, Derjaguin, interaction_of
+from fscm.interaction import Derjaguin, interaction_of
 from fscm.punch import ScaledPunch
 from fscm.stieltjes import StieltjesScheme
 from tests.refusals import refused
@@ -35,18 +36,18 @@ def of_all_atoms(law, R, s):
     """Traction at the distance s of the center of a ball, by shells around the point; and the size of its terms."""
     d, weight = composite(np.geomspace(s - R, s + R, 60))
     area = 2.0 * math.pi * d**2 * (1.0 - (s * s + d * d - R * R) / (2.0 * s * d))
-    m, n = Body(Ball(R), law).exponents
+    m, n = BallUnderMie(Ball(R), law).exponents
     terms = [float((weight * area) @ d ** -(a + 3.0)) * a * (a + 1.0) / (2.0 * math.pi) for a in (m, n)]
     strength = (m - 1.0) * (n - 1.0) / (m - n)
     return strength * (terms[0] - terms[1]), strength * sum(terms)
 
 
-@pytest.mark.parametrize("law", LAWS, ids=lambda law: f"{Body(Ball(1.0), law).exponents}")
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: f"{BallUnderMie(Ball(1.0), law).exponents}")
 @pytest.mark.parametrize("R", [3.0, 200.0])
 @pytest.mark.parametrize("unit", [1.0, 7.0])
 def test_the_traction_is_that_of_all_atoms_of_the_ball(law, R, unit):
     """Near the surface, beyond the sphere of the shape, and where the ball is nearly a point."""
-    body = Body(ScaledPunch(Ball(R), unit, 1.0), law)
+    body = BallUnderMie(ScaledPunch(Ball(R), unit, 1.0), law)
     for share in (0.0, 0.3, 0.8, 0.97, 2.0, 14.0):
         r = np.array(share * R / unit)
         for level in (0.9, 3.0, 2.0 * R):  # above the height of the apex
@@ -56,9 +57,9 @@ def test_the_traction_is_that_of_all_atoms_of_the_ball(law, R, unit):
             assert size == pytest.approx(float(body.size(r, np.array(gap))), rel=1e-11)
 
 
-@pytest.mark.parametrize("law", LAWS[:3], ids=lambda law: f"{Body(Ball(1.0), law).exponents}")
+@pytest.mark.parametrize("law", LAWS[:3], ids=lambda law: f"{BallUnderMie(Ball(1.0), law).exponents}")
 def test_slope_drift_and_energy_belong_to_the_traction(law):
-    body, step = Body(ScaledPunch(Ball(50.0), 7.0, 1.0), law), 1e-5
+    body, step = BallUnderMie(ScaledPunch(Ball(50.0), 7.0, 1.0), law), 1e-5
     r, gap = np.array([0.2, 3.0, 6.0, 9.0, 30.0]), np.array([0.1, -0.1, 5.0, 700.0, 3.0])
     gap[-1] += body.punch.height(r[-1])
 
@@ -193,7 +194,7 @@ def test_the_interaction_is_a_part_of_the_problem():
     assert pickle.loads(pickle.dumps(of_problem)) == of_problem != of_problem.under("derjaguin")
     assert of_problem.under("derjaguin") == bead(interaction="derjaguin")
     assert "interaction='body'" in repr(of_problem)
-    assert isinstance(of_problem.dimensionless.force, Body)
+    assert isinstance(of_problem.dimensionless.force, BallUnderMie)
     assert isinstance(Problem(2.0, 0.0, 1.0).force, Derjaguin)
 
 
