@@ -8,14 +8,14 @@ from collections.abc import Iterator
 
 
 def csv_rows(text: str, source: str, *, by_hand: bool = False, delimiter: str = ",") -> Iterator[tuple[str, list[str]]]:
-    r"""Yield the place and the cells of each row, the heading first; blank lines are left out.
+    r"""Yield the location and the cells of each row, the heading first; blank lines are left out.
 
     Parameters
     ----------
     text : str
         With ``\n`` at the end of each line, as `comparisons.data.input_files.utf8_text` returns it.
     source : str
-        What the text is of, for the place: source and line.
+        What the text is of, for the location: source and line.
     by_hand : bool
         Whether people write such a file: lines that begin with ``#`` are comments, blanks before a cell are left out,
         and so is an empty cell after the last column.
@@ -25,7 +25,7 @@ def csv_rows(text: str, source: str, *, by_hand: bool = False, delimiter: str = 
     Raises
     ------
     ValueError
-        One sentence with the place, if a row has another number of cells than the heading or is no CSV.
+        One sentence with the location, if a row has another number of cells than the heading or is no CSV.
 
     Examples
     --------

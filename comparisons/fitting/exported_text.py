@@ -66,9 +66,9 @@ class Export:
 
     Attributes
     ----------
-    place : str
+    location : str
         Of the heading.
-    places : list of str
+    locations : list of str
         Of the rows.
     columns : dict of str to Cells
         "displacement", "load", "height", "deflection".
@@ -80,8 +80,8 @@ class Export:
         What was left out.
     """
 
-    place: str
-    places: list[str]
+    location: str
+    locations: list[str]
     columns: dict[str, Cells]
     motions: list[str] | None
     stated: Mapping[str, str] = field(default_factory=dict)
@@ -143,7 +143,7 @@ def export_of(text: str, source: str) -> Export:
     Raises
     ------
     ValueError
-        One sentence with the place, if it is no table, or what a column or a number is cannot be told.
+        One sentence with the location, if it is no table, or what a column or a number is cannot be told.
 
     Examples
     --------
@@ -161,21 +161,21 @@ def export_of(text: str, source: str) -> Export:
     start = text.index(first) if first else 0
     before = text.count("\n", 0, start)
     rows = csv_rows("\n" * before + text[start:], source, by_hand=True, delimiter=delimiter)
-    place, cells = next(rows, ("", []))
+    location, cells = next(rows, ("", []))
     if not cells:
         raise ValueError(f"{source}: the table is empty; its first row has the names of the columns")
-    places, table = [], []
+    locations, table = [], []
     for place_of_row, row in rows:
-        places.append(place_of_row)
+        locations.append(place_of_row)
         table.append([cell.strip() for cell in row])
-    return _assembled(source, place, cells, places, table, {})
+    return _assembled(source, location, cells, locations, table, {})
 
 
 def _of_segments(text: str, source: str, stated: Mapping[str, str]) -> Export:
     """A text that names its columns and the kind of each segment in comments."""
     names, units = stated["columns"].split(), stated["units"].split()
     cells = [f"{name} [{unit}]" for name, unit in zip(names, units, strict=False)] + ["segment"]
-    places, table, motion = [], [], ""
+    locations, table, motion = [], [], ""
     for number, line in enumerate(text.splitlines(), start=1):
         match = _STATED.fullmatch(line)
         if match and match[1] == "segment":
@@ -185,35 +185,40 @@ def _of_segments(text: str, source: str, stated: Mapping[str, str]) -> Export:
         row = line.split()
         if len(row) != len(names):
             raise ValueError(f"{source}, line {number}: {len(row)} values for {len(names)} columns")
-        places.append(f"{source}, line {number}")
+        locations.append(f"{source}, line {number}")
         table.append([*row[: len(units)], motion])
-    return _assembled(source, f"{source}, its comment 'columns'", cells, places, table, stated)
+    return _assembled(source, f"{source}, its comment 'columns'", cells, locations, table, stated)
 
 
 def _assembled(
-    source: str, place: str, cells: list[str], places: list[str], table: list[list[str]], stated: Mapping[str, str]
+    source: str,
+    location: str,
+    cells: list[str],
+    locations: list[str],
+    table: list[list[str]],
+    stated: Mapping[str, str],
 ) -> Export:
     headings = [_heading(cell) for cell in cells]
     if not any(heading.column for heading in headings):
         names = ", ".join(f"{name} [{unit}]" for name, unit in _EXAMPLES.items())
         raise ValueError(
-            f"{place}: none of the columns {shown(', '.join(cell.strip() for cell in cells))} is known; "
+            f"{location}: none of the columns {shown(', '.join(cell.strip() for cell in cells))} is known; "
             f"the first row names them, as {names}"
         )
-    points = _decimal_points(table, headings, places)
+    points = _decimal_points(table, headings, locations)
     if any(heading.motion for heading in headings):
-        places, headings, points = _one_below_the_other(places, headings, points)
-    chosen = _chosen(headings, place)
+        locations, headings, points = _one_below_the_other(locations, headings, points)
+    chosen = _chosen(headings, location)
     columns = {
         column: Cells(headings[i].name, headings[i].unit, [row[i] for row in points]) for column, i in chosen.items()
     }
-    motions = _motions(columns.pop("branch", None), places)
+    motions = _motions(columns.pop("branch", None), locations)
     left_out = [_written(h) for i, h in enumerate(headings) if i not in chosen.values()]
     remarks = [f"the column{'s' if len(left_out) > 1 else ''} {', '.join(left_out)} {_WAS[len(left_out) > 1]} not read"]
-    return Export(place, places, columns, motions, stated, remarks if left_out else [])
+    return Export(location, locations, columns, motions, stated, remarks if left_out else [])
 
 
-def _chosen(headings: list[_Heading], place: str) -> dict[str, int]:
+def _chosen(headings: list[_Heading], location: str) -> dict[str, int]:
     """Return the number of the heading that is read of each kind."""
     chosen: dict[str, int] = {}
     for i, heading in enumerate(headings):
@@ -221,7 +226,7 @@ def _chosen(headings: list[_Heading], place: str) -> dict[str, int]:
             continue
         before = headings[chosen[heading.column]] if heading.column in chosen else None
         if before is not None and before.name == heading.name and _is_signal(before.unit) == _is_signal(heading.unit):
-            raise ValueError(f"{place}: the column {heading.name} stands twice; name each column once")
+            raise ValueError(f"{location}: the column {heading.name} stands twice; name each column once")
         if before is None or _rank(heading) < _rank(before):
             chosen[heading.column] = i
     return chosen
@@ -247,7 +252,7 @@ def _written(heading: _Heading) -> str:
 
 
 def _one_below_the_other(
-    places: list[str], headings: list[_Heading], table: list[list[str]]
+    locations: list[str], headings: list[_Heading], table: list[list[str]]
 ) -> tuple[list[str], list[_Heading], list[list[str]]]:
     """Put columns of the retreat below those of the approach; cells that are empty end the shorter one."""
     approach = {heading.name + str(heading.unit): i for i, heading in enumerate(headings) if heading.motion == APPROACH}
@@ -259,25 +264,25 @@ def _one_below_the_other(
     named = [headings[i]._replace(motion=None) for i, _ in pairs]
     rows, where = [], []
     for side, motion in enumerate((APPROACH, RETREAT)):
-        for place, row in zip(places, table, strict=True):
+        for location, row in zip(locations, table, strict=True):
             cells = [row[pair[side]] for pair in pairs]
             if all(cells):
                 rows.append([*cells, motion])
-                where.append(place)
+                where.append(location)
     return where, [*named, _Heading("branch", None, "branch", None)], rows
 
 
-def _decimal_points(table: list[list[str]], headings: Iterable[_Heading], places: list[str]) -> list[list[str]]:
+def _decimal_points(table: list[list[str]], headings: Iterable[_Heading], locations: list[str]) -> list[list[str]]:
     """Replace decimal commas; refuse a text that has both signs in its numbers."""
     commas = [(i, j) for i, row in enumerate(table) for j, cell in enumerate(row) if _COMMA.fullmatch(cell)]
     if not commas:
         return table
-    for place, row in zip(places, table, strict=True):
+    for location, row in zip(locations, table, strict=True):
         for cell in row:
             if "." in cell and _NUMBER.fullmatch(cell):
                 first = table[commas[0][0]][commas[0][1]]
                 raise ValueError(
-                    f"{place}: {shown(cell)} has a decimal point and {shown(first)} in {places[commas[0][0]]} a "
+                    f"{location}: {shown(cell)} has a decimal point and {shown(first)} in {locations[commas[0][0]]} a "
                     "comma; write one of the two in all numbers"
                 )
     written = [list(row) for row in table]
@@ -286,15 +291,15 @@ def _decimal_points(table: list[list[str]], headings: Iterable[_Heading], places
     return written
 
 
-def _motions(branch: Cells | None, places: Iterable[str]) -> list[str] | None:
+def _motions(branch: Cells | None, locations: Iterable[str]) -> list[str] | None:
     if branch is None:
         return None
     motions = []
-    for place, word in zip(places, branch.values, strict=True):
+    for location, word in zip(locations, branch.values, strict=True):
         motion = _MOTIONS.get(word.lower())
         if motion is None:
             raise ValueError(
-                f"{place}: branch = {shown(word)} is none of {APPROACH} and {RETREAT}, nor a rest (dwell, pause)"
+                f"{location}: branch = {shown(word)} is none of {APPROACH} and {RETREAT}, nor a rest (dwell, pause)"
             )
         motions.append(motion)
     return motions

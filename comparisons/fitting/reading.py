@@ -268,17 +268,19 @@ def _numbers(export: Export, column: str, cells: Cells, sensitivity: Sensitivity
     """A column in SI."""
     target = "N" if column == "load" else "m"
     if cells.unit is None:
-        raise ValueError(f"{export.place}: the column {cells.name} has no unit; write it as {cells.name} [n{target}]")
+        raise ValueError(
+            f"{export.location}: the column {cells.name} has no unit; write it as {cells.name} [n{target}]"
+        )
     factor = _factor(export, cells, target, sensitivity if column == "deflection" else None)
     values = []
-    for place, cell in zip(export.places, cells.values, strict=True):
+    for location, cell in zip(export.locations, cells.values, strict=True):
         try:
             value = number_of(cell) * factor
         except NotAValue as error:
-            raise ValueError(f"{place}: {cells.name} = {shown(cell)} {error}") from None
+            raise ValueError(f"{location}: {cells.name} = {shown(cell)} {error}") from None
         if not abs(value) <= LARGEST_SIZE:
             raise ValueError(
-                f"{place}: {cells.name} = {shown(cell)} is above {LARGEST_SIZE:g} {target}; check the number"
+                f"{location}: {cells.name} = {shown(cell)} is above {LARGEST_SIZE:g} {target}; check the number"
             )
         values.append(value)
     return np.array(values)
@@ -297,13 +299,13 @@ def _factor(export: Export, cells: Cells, target: str, sensitivity: Sensitivity 
             continue
         if sensitivity is None:
             raise ValueError(
-                f"{export.place}: the column {cells.name} is in {unit}: state the deflection for it, as "
+                f"{export.location}: the column {cells.name} is in {unit}: state the deflection for it, as "
                 f"--sensitivity '50 nm/{signal}'"
             )
         if sensitivity.signal != signal:
             raise ValueError(
-                f"{export.place}: the column {cells.name} is in {unit}, and the sensitivity for a signal in "
+                f"{export.location}: the column {cells.name} is in {unit}, and the sensitivity for a signal in "
                 f"{sensitivity.signal}; state it as --sensitivity '50 nm/{signal}'"
             )
         return factor * sensitivity.value
-    raise ValueError(f"{export.place}: the column {cells.name} {refusal}; write one of {target}")
+    raise ValueError(f"{export.location}: the column {cells.name} {refusal}; write one of {target}")

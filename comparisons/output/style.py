@@ -86,16 +86,16 @@ def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
     ('#000000', '#0072b2')
     """
     present = sorted(set(names))
-    places = {name: place for place, name in enumerate(MODELS) if name in present}
-    free = (place for place in count() if place not in places.values())
-    return {name: _style(places[name] if name in places else next(free), broad=name == BROAD) for name in present}
+    positions = {name: position for position, name in enumerate(MODELS) if name in present}
+    free = (position for position in count() if position not in positions.values())
+    return {name: _style(positions[name] if name in positions else next(free), broad=name == BROAD) for name in present}
 
 
-def _style(place: int, *, broad: bool = False) -> ModelStyle:
-    """Return the style of a place in a list of models; no two have the same colour and marker, or colour and dashes."""
-    turn, hue = divmod(place, len(COLOURS))
+def _style(position: int, *, broad: bool = False) -> ModelStyle:
+    """Return the style of a position in a list of models; no two share colour and marker, or colour and dashes."""
+    turn, hue = divmod(position, len(COLOURS))
     # With every turn of the colours the markers move on by one, the dashes by five of eight: each pair with a colour
-    # comes back after 64 places, where the colours are paler.
+    # comes back after 64 positions, where the colours are paler.
     paler, turn = divmod(turn, len(MARKERS))
     line = LINES[(hue // 2 + 5 * turn) % len(LINES)]
     shape = (hue + turn) % len(MARKERS)

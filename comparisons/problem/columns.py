@@ -23,20 +23,20 @@ class Columns:
 
     Attributes
     ----------
-    place : str
+    location : str
         Of the heading: file and line.
     units : dict of str to str or None
         The unit of each column by its name, None if the heading states none.
     cells : dict of str to list of str
         The cells of each column, without blanks around them.
-    places : list of str
+    locations : list of str
         Of the rows.
     """
 
-    place: str
+    location: str
     units: dict[str, str | None]
     cells: dict[str, list[str]]
-    places: list[str]
+    locations: list[str]
 
 
 def columns_of(text: str, source: str, names: Iterable[str]) -> Columns:
@@ -53,7 +53,7 @@ def columns_of(text: str, source: str, names: Iterable[str]) -> Columns:
     Raises
     ------
     ValueError
-        One sentence with the place, if it is no such text, a name is unknown or stands twice, or a row has another
+        One sentence with the location, if it is no such text, a name is unknown or stands twice, or a row has another
         number of cells.
 
     Examples
@@ -63,20 +63,20 @@ def columns_of(text: str, source: str, names: Iterable[str]) -> Columns:
     ({'z': 'nm', 'E': 'GPa'}, {'z': ['0'], 'E': ['1']})
     """
     rows = csv_rows(text, source, by_hand=True)
-    place, heading = next(rows, ("", []))
+    location, heading = next(rows, ("", []))
     if not heading:
         raise ValueError(f"{source}: the table is empty; its first row has the names of the columns {', '.join(names)}")
     units: dict[str, str | None] = {}
     for cell in heading:
-        name, unit = _name_and_unit(cell, names, place)
+        name, unit = _name_and_unit(cell, names, location)
         if name in units:
-            raise ValueError(f"{place}: the column {name} stands twice; name each column once")
+            raise ValueError(f"{location}: the column {name} stands twice; name each column once")
         units[name] = unit
-    places, cells = [], []
+    locations, cells = [], []
     for place_of_row, row in rows:
-        places.append(place_of_row)
+        locations.append(place_of_row)
         cells.append([cell.strip() for cell in row])
-    return Columns(place, units, {name: [row[i] for row in cells] for i, name in enumerate(units)}, places)
+    return Columns(location, units, {name: [row[i] for row in cells] for i, name in enumerate(units)}, locations)
 
 
 def read_columns(path: Path, columns: Mapping[str, Form]) -> dict[str, tuple[float, ...]]:
@@ -98,16 +98,16 @@ def read_columns(path: Path, columns: Mapping[str, Form]) -> dict[str, tuple[flo
     written = columns_of(read_text(path, "the table", LARGEST_TABLE), str(path), columns)
     for name, form in columns.items():
         if name not in written.units and not form.is_optional:
-            raise ValueError(f"{written.place}: the column {name} is missing; the names are {', '.join(columns)}")
+            raise ValueError(f"{written.location}: the column {name} is missing; the names are {', '.join(columns)}")
     values: dict[str, list[float]] = {}
     for name, unit in written.units.items():
         form, column = columns[name], values.setdefault(name, [])
         factor = factor_of(written, name, unit, form.unit) if unit and form.unit else 1.0
-        for place, cell in zip(written.places, written.cells[name], strict=True):
+        for location, cell in zip(written.locations, written.cells[name], strict=True):
             try:
                 column.append(_value(cell, factor, form, column))
             except NotAValue as error:
-                raise ValueError(f"{place}: {name} = {shown(cell)} {error}") from None
+                raise ValueError(f"{location}: {name} = {shown(cell)} {error}") from None
     return {name: tuple(column) for name, column in values.items()}
 
 
@@ -117,12 +117,12 @@ def factor_of(columns: Columns, name: str, unit: str, target: str, remedy: str =
     Raises
     ------
     ValueError
-        One sentence with the place, if the unit is unknown or of another dimension.
+        One sentence with the location, if the unit is unknown or of another dimension.
     """
     try:
         return unit_factor(unit, target)
     except NotAValue as error:
-        raise ValueError(f"{columns.place}: the column {name} {error}; write one of {target}{remedy}") from None
+        raise ValueError(f"{columns.location}: the column {name} {error}; write one of {target}{remedy}") from None
 
 
 def number_of(cell: str) -> float:
@@ -136,15 +136,17 @@ def number_of(cell: str) -> float:
     if _NUMBER.fullmatch(cell):
         return float(cell)
     is_comma = _NUMBER.fullmatch(cell.replace(",", ".", 1))
-    raise NotAValue("is not a number" + ("; write a point in place of the decimal comma" if is_comma else ""))
+    raise NotAValue("is not a number" + ("; write a point in location of the decimal comma" if is_comma else ""))
 
 
-def _name_and_unit(cell: str, names: Iterable[str], place: str) -> tuple[str, str | None]:
+def _name_and_unit(cell: str, names: Iterable[str], location: str) -> tuple[str, str | None]:
     match = _HEADING.fullmatch(cell)
     if not match:
         remedy = "; separate columns by commas" if ";" in cell or "\t" in cell else ""
-        raise ValueError(f"{place}: {shown(cell)} is not a name of a column; the names are {', '.join(names)}{remedy}")
-    known_name("column", match[1], names, place)
+        raise ValueError(
+            f"{location}: {shown(cell)} is not a name of a column; the names are {', '.join(names)}{remedy}"
+        )
+    known_name("column", match[1], names, location)
     return match[1], match[2]
 
 
