@@ -6,6 +6,7 @@ from functools import cache
 import mpmath
 import numpy as np
 import pytest
+from numpy.polynomial import chebyshev
 
 from fscm import (
     Coating,
@@ -20,7 +21,10 @@ from fscm import (
 from fscm._bound.parts import _KERNEL_RATE
 from fscm._surface.response import GradedKernel
 from fscm._surface.response.compliance import compliance
+from fscm._surface.response.images import RAY, STEP
+from fscm._surface.response.kernel import image_sum
 from fscm._surface.response.patches import ImageTable
+from fscm._surface.response.ring_series import Lattice, below_joined, ring_series
 from fscm.bodies import surface_of
 from tests.fscm import graded_digits
 from tests.marks import heavy
@@ -101,7 +105,7 @@ def test_the_table_follows_the_images(name):
     B = A * 10.0 ** rng.uniform(-7.0, 0.0, 400)
     # Measured worst 9e-11 and 5e-8, "wide bend".
     for degree, largest in ((15, 3e-10), (11, 1e-7)):
-        table = ImageTable(images, SOLIDS[name].length, degree)
+        table = ImageTable(images, degree)
         value, rate = table.of(A, B)
         assert np.allclose(value, A * kernel(name).images_at(A, B), rtol=0.0, atol=table.error)
         assert table.error < largest * images.largest
@@ -184,3 +188,19 @@ def test_a_jump_that_is_no_interface_is_refused():
     solid = CustomSolid(lambda z: np.where(z < 1.0, 1.0, 2.0), 0.3, 1.0)
     with pytest.raises(NotConverged, match="jumps near the depth 1"):
         compliance(solid, np.array([1.0]))
+
+
+@pytest.mark.parametrize("joined", [False, True])
+@pytest.mark.parametrize("turn", [1.0, RAY])
+def test_every_ring_of_the_lattice_is_a_polynomial_on_every_patch(turn, joined):
+    """Near B, far above and below it, and far from A; of joined patches where no image is near the distances."""
+    x, y = np.random.default_rng(3).uniform(-1.0, 1.0, (2, 20))
+    apart = 60 + (below_joined(15) if joined else 0)
+    series = ring_series(15, 6, apart, joined)
+    A = np.exp(STEP * (apart + 3.0 * (1.0 + x)))
+    B = np.exp(STEP * below_joined(15)) * 0.5 * (1.0 + y) if joined else np.exp(STEP * 3.0 * (1.0 + y))
+    for m in range(below_joined(15) + 6 if joined else -200, 300, 7):
+        ring = np.array([np.exp(STEP * m) * turn], complex), np.ones(1, complex)
+        value = chebyshev.chebval2d(x, y, series.of(Lattice(*ring), 0))
+        # Measured worst 1e-12, of a ring on the ray.
+        assert np.max(np.abs(value - A * image_sum(A[:, None], B[:, None], *ring))) < 5e-12

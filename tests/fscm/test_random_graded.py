@@ -89,20 +89,22 @@ def finer(monkeypatch):
 
     def forget():
         images.images_of.cache_clear()
+        patches.patches_of.cache_clear()
         response.response_of.cache_clear()
 
     def make():
         for module, name, factor in (
             (images, "_WAVES", 1.5),
             (images, "_MANY", 1.5),
-            (images, "_SPARSE", 1.5),
-            (images, "_DENSE", 1.25),
+            # Every second and every step of the lattice, for every third and second one.
+            (images, "_SPARSE", 0.6),
+            (images, "_DENSE", 0.5),
             (panels, "_AWAY", 1.4),
             (panels, "_AT_KINK", 1.5),
         ):
             monkeypatch.setattr(module, name, round(factor * getattr(module, name)))
-        # Smaller patches; those of short distances begin at the same one.
-        for name, value in (("_SIZE", math.log(3.0)), ("_SHORT", -9), ("_APART", 3)):
+        # Smaller patches; those of short distances begin at the same distance.
+        for name, value in (("_STEPS", 4), ("_SHORT", -21), ("_APART", 6), ("_LOWEST", -75)):
             monkeypatch.setattr(patches, name, value)
         forget()
 

@@ -82,10 +82,6 @@ class Body:
         """The same, and the length of the surface tension."""
         return self.elastic_depths() + ([self.tension_length] if self.tension else [])
 
-    def lengths(self) -> list[float]:
-        """Length over which the constants change, and that of the surface tension."""
-        return self.elastic_depths()[:1] + ([self.tension_length] if self.tension else [])
-
 
 def compliance_of(solids: Bodies | Solid, xi: Array) -> Array:
     """xi C(xi) of a solid or of several, surface tension included.

@@ -21,17 +21,17 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
 
 from fscm._surface.response.body import Body, bodies_of
 from fscm._typing import Array, ComplexArray
-from fscm.bodies import Bodies
+from fscm.bodies import Bodies, ScaledSolid
 from fscm.solids import Solid
 
-__all__ = ["Images", "images_of"]
+__all__ = ["RAY", "STEP", "Images", "images_of"]
 
 #: Wave numbers of the fit: least and largest, in units of the inverse of the deepest and of the shallowest change of
 #: the constants, and their number for each decade: _MANY from _AFTER to _BEFORE times these inverses, else _WAVES.
@@ -39,18 +39,23 @@ _LOW, _HIGH, _WAVES, _MANY, _AFTER, _BEFORE = 1e-10, 1e13, 10, 40, 0.01, 500.0
 #: Least wave number, in units of the inverse of the deepest change, and number for each decade of those at which the
 #: largest compliance is sought; at longer waves it is that of the substrate.
 _SOFTEST, _FEW = 1e-6, 4
+#: Logarithm of the ratio of neighbouring depths of the lattice, and the direction of the complex ones.
+STEP, RAY = math.log(2.0) / 6.0, cmath.exp(0.25j * math.pi)
 #: Depths of the images, from _SHALLOW times the inverse of the largest wave number to _DEEP times that of the least:
-#: _SPARSE real ones for each decade, and _DENSE from _FROM times the shallowest to _TO times the deepest change, where
-#: the complex ones are, from _FROM_COMPLEX times the shallowest on.  Measured: error 1e-11 of D or less on sharp and
-#: smooth coatings with contrasts of 1e-4 to 1e4, 1e-10 on three layers stiff, soft, stiff, 3e-8 on five.  A ray of 55
-#: degrees has 4e-10 there, but the error for a modulus that rises 1000 times is then larger between the waves.
-_SHALLOW, _DEEP, _SPARSE, _DENSE, _FROM, _TO = 10.0, 10.0, 7, 10, 0.05, 30.0
-_FROM_COMPLEX, _COMPLEX, _RAY = 0.3, 20, cmath.exp(0.25j * math.pi)
+#: real ones at every _SPARSE-th step, and every _DENSE-th from _FROM times the shallowest to _TO times the deepest
+#: change, where the complex ones are, at every _COMPLEX-th, from _FROM_COMPLEX times the shallowest on.  Measured:
+#: error 1e-11 of D or less on sharp and smooth coatings with contrasts of 1e-4 to 1e4, 1e-10 on three layers stiff,
+#: soft, stiff, 3e-8 on five.  A ray of 55 degrees has 4e-10 there, but the error for a modulus that rises 1000 times is
+#: then larger between the waves.
+_SHALLOW, _DEEP, _SPARSE, _DENSE, _FROM, _TO = 10.0, 10.0, 3, 2, 0.05, 30.0
+_FROM_COMPLEX, _COMPLEX = 0.3, 1
 #: Errors are relative to D, or to _RELATIVE where D is smaller; smaller singular values than this share are omitted.
 _RELATIVE, _SINGULAR = 1e-4, 3e-15
 #: Longest distance for which the images hold, in units of the deepest change, and its product with the least wave
 #: number: with 1e-4 the kernel of E ~ (z + z_s)^0.2 at a tenth of that distance was wrong by 1e-8, with 1e-6 by 1e-10.
 _LONGEST, _REACH = 1e6, 1e-6
+#: Ratio of the longest distances of images that are kept for other units.
+_ROUNDED = 1e3
 #: The sum is not controlled at the least wave numbers: those within this factor are omitted from the result.
 _MARGIN = 10.0
 #: Bound of the error between the waves, in units of that measured there; at every _EVERY-th wave the compliance is also
@@ -58,16 +63,21 @@ _MARGIN = 10.0
 _BETWEEN, _EVERY = 2.0, 12
 #: Rounding of each term of the sum.
 _ROUNDOFF = 2.0**-53
-#: Depths of the rings of surface tension, over its length: the trapezoidal rule of this step in log s is exact to
-#: rounding, because the integrand is analytic in a strip of half-width pi/2; exp(-s) is below rounding beyond the last,
-#: and the rings above the first are those of waves of 1e-20 of the length.
-_RING_STEP = 0.26
-_RINGS = np.exp(np.arange(math.log(1e-22), math.log(40.0), _RING_STEP))
+#: Steps of the lattice between rings of surface tension, and the first and the last over its length: the trapezoidal
+#: rule in log s is exact to rounding, because the integrand is analytic in a strip of half-width pi/2; exp(-s) is below
+#: rounding beyond the last, and the rings above the first are those of waves of 1e-20 of the length.
+_RING_STEPS, _FIRST_RING, _LAST_RING = 2, 1e-22, 40.0
 
 
 def _spaced(low: float, high: float, density: float) -> Array:
     count = max(1, round(math.log10(high / low) * density))
     return np.geomspace(low, high, count, endpoint=False)
+
+
+def _on_lattice(low: float, high: float, every: int) -> Array:
+    """Depths of a stretch, in the unit of the lattice."""
+    steps = np.arange(*(math.ceil(math.log(end) / (every * STEP)) for end in (low, high)))
+    return np.exp(STEP * every * steps)
 
 
 def _changes(bodies: tuple[Body, ...]) -> tuple[float, float]:
@@ -105,6 +115,10 @@ class Images:
         Bounds of the error of D there.
     shortest : float
         D_oo.
+    unit : float
+        Depths are unit exp(STEP m) with whole numbers m, some of them times RAY.
+    source : Images, optional
+        The same in another unit of length.
     """
 
     depths: ComplexArray
@@ -113,6 +127,18 @@ class Images:
     values: Array
     errors: Array
     shortest: float
+    unit: float
+    source: Images | None = None
+
+    @property
+    def of_solid(self) -> Images:
+        """The same for all units in which a solid is measured."""
+        return self if self.source is None else self.source
+
+    def scaled(self, unit: float) -> Images:
+        """The same with lengths in another unit."""
+        depths, waves = self.depths / unit, self.waves * unit
+        return replace(self, depths=depths, waves=waves, unit=self.unit / unit, source=self.of_solid)
 
     def at(self, xi: Array) -> Array:
         """D(xi) by the images, shape of `xi`."""
@@ -150,14 +176,15 @@ def common_stiffness(bodies: tuple[Body, ...]) -> float:
     return bodies[0].stiffness if len(bodies) == 1 else 1.0 / sum(1.0 / body.stiffness for body in bodies)
 
 
-def _rings_of_tension(bodies: tuple[Body, ...], scale: float) -> tuple[ComplexArray, ComplexArray]:
+def _rings_of_tension(bodies: tuple[Body, ...], scale: float, unit: float) -> tuple[ComplexArray, ComplexArray]:
     """Depths and strengths of the images of the surface tensions."""
-    rings = [
-        (body.tension_length * _RINGS, -scale / body.stiffness * _RING_STEP * _RINGS * np.exp(-_RINGS))
-        for body in bodies
-        if body.tension
-    ]
-    depths, strengths = zip(*rings, strict=True) if rings else ([np.zeros(0)], [np.zeros(0)])
+    depths, strengths = [np.zeros(0)], [np.zeros(0)]
+    for body in bodies:
+        if body.tension:
+            length = body.tension_length / unit
+            rings = _on_lattice(_FIRST_RING * length, _LAST_RING * length, _RING_STEPS) / length
+            depths.append(rings * body.tension_length)
+            strengths.append(-scale / body.stiffness * _RING_STEPS * STEP * rings * np.exp(-rings))
     return np.concatenate(depths).astype(complex), np.concatenate(strengths).astype(complex)
 
 
@@ -192,9 +219,11 @@ def _fit(
     rounding : ndarray, shape (n,)
     """
     (shallow, deep), (low, high) = changes, ends
-    edges = _SHALLOW / high, _FROM * shallow, _TO * deep, _DEEP / low
-    real = np.concatenate([_spaced(*edges[:2], _SPARSE), _spaced(*edges[1:3], _DENSE), _spaced(*edges[2:], _SPARSE)])
-    depths = np.concatenate([real, _RAY * _spaced(_FROM_COMPLEX * shallow, edges[2], _COMPLEX)])
+    first, dense, sparse, last = (end / shallow for end in (_SHALLOW / high, _FROM * shallow, _TO * deep, _DEEP / low))
+    stretches = (first, dense, _SPARSE), (dense, sparse, _DENSE), (sparse, last, _SPARSE)
+    real = np.concatenate([_on_lattice(*stretch) for stretch in stretches])
+    on_ray = RAY * _on_lattice(_FROM_COMPLEX, sparse, _COMPLEX)
+    depths = np.asarray(shallow * np.concatenate([real, on_ray]), complex)
     exponentials = np.exp(-waves[:, None] * depths)
     columns = np.concatenate([exponentials.real, -exponentials.imag[:, len(real) :]], axis=1)
     weights = 1.0 / np.maximum(values, _RELATIVE)
@@ -224,6 +253,15 @@ def images_of(solids: Bodies | Solid, longest: float | None = None) -> Images:
     (True, array([0.25, 1.  ]))
     """
     bodies = bodies_of(solids)
+    if len(bodies) == 1 and isinstance(bodies[0].solid, ScaledSolid):
+        solid, unit = bodies[0].solid.solid, bodies[0].solid.unit
+        # Rounded up, so that they serve many units.
+        reach = (
+            None
+            if longest is None
+            else solid.length * _ROUNDED ** math.ceil(math.log(longest * unit / solid.length, _ROUNDED))
+        )
+        return images_of(solid, reach).scaled(unit)
     shallow, deep = changes = _changes(bodies)
     low = min(_LOW / deep, _REACH / (_LONGEST * deep if longest is None else longest))
     high = _HIGH / shallow
@@ -235,7 +273,7 @@ def images_of(solids: Bodies | Solid, longest: float | None = None) -> Images:
 
     values = values_at(waves)
     shortest = sum((scale / body.stiffness for body in bodies if not body.tension), 0.0)
-    depths, strengths = _rings_of_tension(bodies, scale)
+    depths, strengths = _rings_of_tension(bodies, scale, shallow)
     rings = np.exp(-waves[:, None] * depths.real)
     by_rings, errors = rings @ strengths.real, _ROUNDOFF * (rings @ np.abs(strengths))
     if all(body.surface.k == 0.0 and not body.is_graded for body in bodies):
@@ -252,4 +290,4 @@ def images_of(solids: Bodies | Solid, longest: float | None = None) -> Images:
         errors += rounding
     served = waves >= _MARGIN * low
     order = np.argsort(np.abs(depths))
-    return Images(depths[order], strengths[order], waves[served], values[served], errors[served], shortest)
+    return Images(depths[order], strengths[order], waves[served], values[served], errors[served], shortest, shallow)

@@ -17,7 +17,7 @@ from fscm._typing import Array, ComplexArray
 from fscm.bodies import Bodies
 from fscm.solids import Solid
 
-__all__ = ["GradedKernel", "image_ring", "image_sum"]
+__all__ = ["GradedKernel", "image_ring", "image_sum", "ring_mean"]
 
 #: Points of the bound of the error for each decade of the wave number, and decades beyond the waves of the fit.
 _POINTS, _DECADES = 40, 6
@@ -42,14 +42,15 @@ def image_ring(total: Array, distance: Array, depth: Array) -> Array:
     return _BESSEL * scipy.special.ellipkm1(ratio) / np.sqrt(outer)
 
 
-def _complex_ring(total: Array, distance: Array, depth: ComplexArray) -> ComplexArray:
-    """The same for complex depths."""
-    squared = depth * depth
-    return 1.0 / _mean(np.sqrt(total * total + squared), np.sqrt(distance * distance + squared))
+def ring_mean(a: ComplexArray, b: ComplexArray) -> ComplexArray:
+    """Arithmetic-geometric mean of the roots of complex numbers whose arguments are less than a right angle apart.
 
-
-def _mean(a: ComplexArray, b: ComplexArray) -> ComplexArray:
-    """Arithmetic-geometric mean of numbers with arguments from 0 to pi/4, which all means keep."""
+    Examples
+    --------
+    >>> bool(abs(1.0 / ring_mean(np.array(5.0 + 0j), np.array(5.0 + 0j)) - image_ring(2.0, 2.0, 1.0)) < 1e-16)
+    True
+    """
+    a, b = np.sqrt(a), np.sqrt(b)
     while np.any(np.abs(a - b) > _EQUAL * np.abs(a)):
         a, b = 0.5 * (a + b), np.sqrt(a * b)
     return 0.5 * (a + b)
@@ -58,10 +59,9 @@ def _mean(a: ComplexArray, b: ComplexArray) -> ComplexArray:
 def image_sum(total: Array, distance: Array, depths: ComplexArray, strengths: ComplexArray) -> Array:
     """Re sum_j a_j f(d_j), shape of both arguments, which end with an axis of length 1."""
     real = depths.imag == 0.0
-    return (
-        image_ring(total, distance, depths[real].real) @ strengths[real].real
-        + (_complex_ring(total, distance, depths[~real]) @ strengths[~real]).real
-    )
+    squared = depths[~real] ** 2
+    rings = 1.0 / ring_mean(total * total + squared, distance * distance + squared)
+    return image_ring(total, distance, depths[real].real) @ strengths[real].real + (rings @ strengths[~real]).real
 
 
 class GradedKernel:

@@ -86,7 +86,6 @@ class SurfaceResponse:
         self.has_tension = any(body.tension for body in bodies)
         if others:
             self.kernel = GradedKernel(Bodies(tuple(body.solid for body in others)), _LONGEST)
-            self._depth = min(length for body in others for length in body.lengths())
             self._shallowest = min(length for body in others for length in body.depths())
             if any(body.is_graded for body in others):
                 self._elastic[0.0] = self._elastic.get(0.0, 0.0) + self.weight * self.kernel.images.largest
@@ -134,7 +133,7 @@ class SurfaceResponse:
         assert self.kernel is not None
         degree = _LOW_DEGREE if order <= _COARSE else _HIGH_DEGREE
         if degree not in self._tables:
-            self._tables[degree] = ImageTable(self.kernel.images, self._depth, degree)
+            self._tables[degree] = ImageTable(self.kernel.images, degree)
         return self._tables[degree]
 
     def remainder(
