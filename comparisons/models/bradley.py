@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.special import beta
 
 from comparisons.model import FARTHEST_GAP, Curve, Result
-from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, POINTS, ClosedForm, monomial
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, POINTS, STIFF, ClosedForm, monomial
 from comparisons.problem import Problem
 
 #: The curve ends this factor of H0 + 1 inside the zero-load gap, where the load has turned compressive.
@@ -69,6 +69,7 @@ class Bradley(ClosedForm):
     name = "bradley"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 42 and 56; Zheng & Yu, J. Colloid Interface Sci. 310 (2007) 27-34"
     domain = "n > 2/3, any k; exact as mu -> 0"
+    validity = STIFF
     undefined: ClassVar[str] = "a rigid pair under displacement control has no folds, at which energy is lost"
 
     def pull_off_force(self, problem: Problem) -> Result:

@@ -6,6 +6,7 @@ A closed form computes the quantities for which it has a method of that name, an
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from comparisons.model import Curve, Result, refuse
@@ -22,6 +23,10 @@ FACTOR_ROUNDING = 16.0 * EPS
 
 #: Points of a curve.
 POINTS = 401
+
+#: Tabor numbers for which the limits of stiff and of soft solids are used (Johnson & Greenwood, J. Colloid Interface
+#: Sci. 192 (1997) 326-333).
+STIFF, SOFT = {"mu": (0.0, 0.1)}, {"mu": (5.0, math.inf)}
 
 
 def monomial(*factors: tuple[float, float]) -> Result:
@@ -55,6 +60,8 @@ class ClosedForm:
         As in `comparisons.model.Model`.
     undefined : str
         Why the model does not define the other quantities.
+    validity : dict of str to (float, float)
+        Limits of parameters for which the model is meant.  It is evaluated beyond them, but pages judge it within.
 
     Examples
     --------
@@ -68,6 +75,7 @@ class ClosedForm:
     citation: ClassVar[str]
     domain: ClassVar[str]
     undefined: ClassVar[str] = "its equations hold in contact only, where the gap is zero"
+    validity: ClassVar[Mapping[str, tuple[float, float]]] = {}
 
     def skip(self, problem: Problem, quantity: str) -> str | None:
         """Return why the model does not take a quantity of a problem; None if it does.

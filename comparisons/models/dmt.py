@@ -18,7 +18,7 @@ from typing import ClassVar
 import numpy as np
 
 from comparisons.model import Curve, Result
-from comparisons.models.closed_form import FACTOR_ROUNDING, POINTS, ClosedForm, monomial
+from comparisons.models.closed_form import FACTOR_ROUNDING, POINTS, STIFF, ClosedForm, monomial
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
@@ -49,6 +49,7 @@ class DMT(ClosedForm):
         "Zhu, Zheng, Huang & Yu, Eqs. 75-77; Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53 (1975) 314-326"
     )
     domain = "n > 2/3, 0 <= k <= 1; cohesive stress eta(n); exact pull-off as mu -> 0"
+    validity = STIFF
     undefined: ClassVar[str] = "its displacement grows with the contact radius throughout, so it has no folds"
 
     def cohesive_stress(self, problem: Problem) -> float:
@@ -103,6 +104,7 @@ class DMTStrength(DMT):
     name = "dmt-strength"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 73 and 75; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
     domain = "n > 2/3, 0 <= k <= 1; cohesive stress 16 sqrt(3)/27"
+    validity = STIFF
 
     def cohesive_stress(self, problem: Problem) -> float:
         """sigma_0 = 16 sqrt(3) / 27, in dgamma / z0."""

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from comparisons.model import Curve, Result
-from comparisons.models.closed_form import EPS, POINTS, ContactBranch, monomial
+from comparisons.models.closed_form import EPS, POINTS, SOFT, ContactBranch, monomial
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.problem import Problem
 
@@ -30,6 +30,7 @@ class JKR(ContactBranch):
     name = "jkr"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 50-57; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
     domain = "n > (1-k)/2, 0 <= k <= 1; exact as mu -> infinity"
+    validity = SOFT
 
     def pull_off_force(self, problem: Problem) -> Result:
         """-min P (Eq. 57)."""

@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 
 from comparisons.data.paper_values import paper_values
+from comparisons.judging.standing import shared_ranks
 from comparisons.judging.summary import COVERAGE, coverage
 from comparisons.numerics.bounds import combined, relative_difference, relative_uncertainty
 from comparisons.problem import PARAMETERS
@@ -39,7 +40,7 @@ COLUMNS = {
 
 #: Columns of `error_summary`.
 _GROUP = ["quantity", "model", "reference"]
-_SUMMARY = (*_GROUP, *COVERAGE[:-1], "cases", "largest", "u_largest", "size", *CASE, "rms", "u")
+_SUMMARY = (*_GROUP, *COVERAGE, "cases", "largest", "u_largest", "size", *CASE, "rms", "mean", "u")
 
 
 def _with_kappa(table: pd.DataFrame) -> pd.DataFrame:
@@ -213,8 +214,8 @@ def error_summary(table: pd.DataFrame) -> pd.DataFrame:
     DataFrame
         In how many cases the model was evaluated (asked), has a value (answered), is not applicable and has failed;
         the number of cases with a kappa; the kappa of largest size with its bound, size and case; the root mean square
-        of kappa; and the largest bound u of a kappa, which bounds the error of both: the largest, and the root mean
-        square, change by no more than their terms do.
+        and the mean of kappa; and the largest bound u of a kappa, which bounds the error of all three: they change by
+        no more than their terms do.
 
     Examples
     --------
@@ -230,10 +231,53 @@ def error_summary(table: pd.DataFrame) -> pd.DataFrame:
     table = with_problem(table)
     groups = table.groupby(_GROUP, sort=False)
     rms = groups["kappa"].agg(lambda kappa: math.sqrt((kappa**2).mean()))
-    summary = pd.DataFrame({"cases": groups["kappa"].count(), "rms": rms, "u": groups["u_kappa"].max()})
+    mean, u = groups["kappa"].mean(), groups["u_kappa"].max()
+    summary = pd.DataFrame({"cases": groups["kappa"].count(), "rms": rms, "mean": mean, "u": u})
     counts = [coverage(statuses) for _, statuses in groups["status"]]
     summary = summary.join(pd.DataFrame(counts, index=summary.index, columns=list(COVERAGE)))
     worst = worst_rows(table[table["kappa"].notna()], _GROUP).set_index(_GROUP)[["kappa", "u_kappa", *CASE]]
     summary = summary.join(worst.rename(columns={"kappa": "largest", "u_kappa": "u_largest"})).reset_index()
     summary = summary.assign(size=summary["largest"].abs(), problem=summary["problem"].fillna(""))
     return without_empty_problem(summary[list(_SUMMARY)])
+
+
+def within_ranges(evaluations: pd.DataFrame) -> pd.DataFrame:
+    """Return the evaluations in which those beyond the range that their model declares count as outside.
+
+    Parameters
+    ----------
+    evaluations : DataFrame
+        With the columns inside, status, kappa and u_kappa.
+
+    Examples
+    --------
+    >>> rows = pd.DataFrame({"inside": [True, False], "status": "ok", "kappa": 0.5, "u_kappa": 0.0})
+    >>> within_ranges(rows)[["status", "kappa"]].values.tolist()
+    [['ok', 0.5], ['outside', nan]]
+    """
+    outside = ~evaluations["inside"]
+    judged = evaluations.assign(status=evaluations["status"].mask(outside, "outside"))
+    return judged.assign(**{name: judged[name].mask(outside) for name in ("kappa", "u_kappa")})
+
+
+def ranked(summary: pd.DataFrame) -> pd.DataFrame:
+    """Return a summary of errors with the rank of each largest error among those of its quantity and reference.
+
+    Errors whose order their bounds do not decide share a rank.
+
+    Parameters
+    ----------
+    summary : DataFrame
+        As of `error_summary`.
+
+    Examples
+    --------
+    >>> row = {"quantity": "pull_off_force", "reference": "fscm", "u_largest": 0.01}
+    >>> ranked(pd.DataFrame([row | {"size": 0.3}, row | {"size": 0.1}, row | {"size": 0.11}]))["rank"].tolist()
+    [3.0, 1.0, 1.0]
+    """
+    ranks = pd.Series(math.nan, summary.index)
+    for _, group in summary.groupby(["quantity", "reference"], sort=False):
+        stated = shared_ranks(group["size"].tolist(), group["u_largest"].tolist())
+        ranks[group.index] = [math.nan if rank is None else float(rank) for rank in stated]
+    return summary.assign(rank=ranks)

@@ -23,6 +23,10 @@ _OWN = {
 }
 _OWN_TEXT = re.compile("|".join(map(re.escape, _OWN)), re.IGNORECASE)
 
+#: Verdicts on declared deviations, in words.
+_WORDS = {"XFAIL": "EXPECTED DEVIATION", "XPASS": "UNEXPECTED PASS"}
+_DECLARED = re.compile(rf"\b({'|'.join(_WORDS)})\b")
+
 _BADGE = Markup('<span class="verdict v-{}"><span aria-hidden="true">{}</span> {}</span>')
 _DATA, _RANK = Markup('<data value="{}">{}</data>'), Markup('<data class="rank" value="{}">{}</data>')
 _COMMAND = Markup('<span class="command"><code>{}</code> <button type="button" class="copy">copy</button></span>')
@@ -50,19 +54,36 @@ def _escaped(text: str) -> str:
     return _OWN_TEXT.sub(lambda match: _OWN.get(match[0]) or f"{match[0][:-1]}&#46;", text)
 
 
+def in_words(text: str) -> str:
+    """Return a text in which the names of verdicts on declared deviations are words for people.
+
+    Examples
+    --------
+    >>> in_words("2 XFAIL, 1 XPASS")
+    '2 EXPECTED DEVIATION, 1 UNEXPECTED PASS'
+    """
+    return _DECLARED.sub(lambda match: _WORDS[match[0]], text)
+
+
 def badge(verdict: str) -> Markup:
-    """Return a verdict with its symbol.
+    """Return a verdict with its symbol, in words for people.
 
     Examples
     --------
     >>> print(badge("NOT-APPLICABLE"))
     <span class="verdict v-not-applicable"><span aria-hidden="true">–</span> NOT-APPLICABLE</span>
     """
-    return _BADGE.format(verdict.lower(), VERDICT_SYMBOLS[Verdict(verdict)], verdict)
+    return _BADGE.format(verdict.lower(), VERDICT_SYMBOLS[Verdict(verdict)], in_words(verdict))
 
 
-def html_table(table: Table) -> Markup:
+def html_table(table: Table, most: int | None = None) -> Markup:
     """Return a table as HTML.
+
+    Parameters
+    ----------
+    table : Table
+    most : int, optional
+        Rows that are written; a script adds the others.
 
     Examples
     --------
@@ -71,17 +92,23 @@ def html_table(table: Table) -> Markup:
     >>> "<caption>Cases</caption>" in html, '<td><data value="0.3333333333333333">0.33</data></td>' in html
     (True, True)
     """
-    cells = {
-        escape(column.heading): [
-            _cell(column, row, text) for row, text in zip(table.records, table.texts[column.heading], strict=True)
-        ]
+    heads = Markup("").join(Markup('<th scope="col">{}</th>').format(column.heading) for column in table.filled)
+    rows = html_rows(table)
+    body = Markup("\n").join(
+        Markup("<tr>{}</tr>").format(Markup("").join(Markup("<td>{}</td>").format(cell) for cell in row))
+        for row in (rows if most is None else rows[:most])
+    )
+    frame = Markup("<table>\n<caption>{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}\n</tbody>\n</table>")
+    return frame.format(table.caption, heads, body)
+
+
+def html_rows(table: Table) -> list[list[Markup]]:
+    """Return the cells of each row of a table."""
+    columns = [
+        [_cell(column, row, text) for row, text in zip(table.records, table.texts[column.heading], strict=True)]
         for column in table.filled
-    }
-    # A cell longer than this option would be cut.
-    with pd.option_context("display.max_colwidth", None):
-        html = pd.DataFrame(cells, dtype=object).to_html(index=False, escape=False, border=0, classes=[])
-    head, body = html.replace("<th>", '<th scope="col">').split("<thead>", 1)
-    return Markup(head) + Markup("<caption>{}</caption><thead>").format(table.caption) + Markup(body)
+    ]
+    return [list(cells) for cells in zip(*columns, strict=True)]
 
 
 def _cell(column: Column, row: Record, text: str) -> Markup:

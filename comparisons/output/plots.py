@@ -50,7 +50,7 @@ class Plot:
     x_scale : str
         "linear" or "log".
     mark : str
-        "both" for a line with markers, or "line".
+        "both" for a line with markers, "line", or "points" beside the line on which y is x.
     views : dict
         The first view [x0, x1, y0, y1] of a group, if not all of it.
     y_labels : dict
@@ -156,6 +156,33 @@ def kappa(table: pd.DataFrame, over: str = "") -> Plot:
         table="kappa",
         caption=LAYOUT["caption"]["kappa"],
         unit=" %",
+    )
+
+
+def predicted(table: pd.DataFrame) -> Plot:
+    """Values of the models over those of the reference, for each quantity and reference.
+
+    Parameters
+    ----------
+    table : DataFrame
+        With the columns of `comparisons.output.errors.relative_error`.
+    """
+    rows = _by_quantity(with_problem(table[table["kappa"].notna()]), "n", "k", "mu", "model")
+    choices = columns("quantity", *(("reference",) if rows["reference"].nunique() > 1 else ()))
+
+    def hover(row: Record) -> str:
+        where = case_text({name: row.get(name) for name in CASE})
+        return f"{where}, κ = {percent_text(row['kappa'], row['u_kappa'])} %"
+
+    return Plot(
+        id="plot-predicted",
+        title="Predicted against reference values",
+        x_label="value of the reference",
+        y_label="value of the model",
+        mark="points",
+        choices=choices,
+        points=_points(rows, choices, hover, rows["reference_value"], rows["value"], rows["u_num"]),
+        caption=LAYOUT["caption"]["predicted"],
     )
 
 

@@ -30,6 +30,19 @@ from comparisons.runs.csv_format import write_table
 #: Names of gates that are listed in one sentence.
 _NAMES = 12
 
+#: What became of gates, for a reader of a page: as expected, and not.
+_EXPECTED = (
+    (Verdict.PASS, "within the limits"),
+    (Verdict.XFAIL, "with a deviation that was stated in advance"),
+    (Verdict.NOT_APPLICABLE, "without a case"),
+)
+_SURPRISING = (
+    (Verdict.ERROR, "could not be judged"),
+    (Verdict.FAIL, "outside the limits"),
+    (Verdict.XPASS, "without the deviation that was stated in advance"),
+    (Verdict.INCONCLUSIVE, "undecided, because the bounds are too large"),
+)
+
 #: What is stored of each gate beside its verdicts: what was required, in which unit, and on what grounds.
 GATE_COLUMNS = ("id", "requirement", "metric", "basis", "grounds")
 
@@ -94,6 +107,38 @@ def gates_sentence(gates: pd.DataFrame, verdicts: pd.DataFrame, checks: Iterable
         parts.append(f"{count[Verdict.NOT_APPLICABLE]} apply to no case")
     parts.append(": ".join(filter(None, [f"{len(surprising)} unexpected", verdict_counts(surprising["verdict"])])))
     return f"{', '.join(parts)} (cases: {verdict_counts(verdicts['verdict'])}){ending}"
+
+
+def checks_sentence(gates: pd.DataFrame, checks: Iterable[ModelCheck] = ()) -> str:
+    """Return for a reader of a page whether the gates came out as expected, and how many of them how.
+
+    Parameters
+    ----------
+    gates : DataFrame
+        As of `gates_sentence`.
+    checks : iterable of ModelCheck
+        Of the report cards.
+
+    Examples
+    --------
+    >>> gates = pd.DataFrame({"gate": ["A", "B", "C"], "verdict": ["PASS", "XFAIL", "FAIL"]})
+    >>> checks_sentence(gates[:2])
+    'All 2 gates came out as expected: 1 within the limits, 1 with a deviation that was stated in advance.'
+    >>> checks_sentence(gates[2:])
+    '1 of 1 gates did not come out as expected: 1 outside the limits.'
+    """
+    ending = [
+        f"{len(rest)} of the report cards" for rest in [[c for c in checks if c.verdict is not Verdict.PASS]] if rest
+    ]
+    remarks = f" To be looked at: {ending[0]}." if ending else ""
+    if gates.empty:
+        return f"No gate was evaluated.{remarks}"
+    count, surprising = Counter(gates["verdict"]), unexpected(gates)
+    expected, others = ([f"{count[v]} {text}" for v, text in words if count[v]] for words in (_EXPECTED, _SURPRISING))
+    if surprising.empty:
+        return f"All {len(gates)} gates came out as expected: {', '.join(expected)}.{remarks}"
+    head = f"{len(surprising)} of {len(gates)} gates did not come out as expected: {', '.join(others)}"
+    return f"{'; '.join([head, *filter(None, [', '.join(expected)])])}.{remarks}"
 
 
 def verdict_counts(verdicts: Iterable[str]) -> str:

@@ -17,7 +17,7 @@ from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed
 from comparisons.output.report.board_page import BoardEntry, Entry, Submission, board_page
 from comparisons.output.report.page import make_page
-from comparisons.output.report.render import render
+from comparisons.output.report.render import write_page
 from comparisons.output.report.stored_run import read_folder
 from comparisons.pipeline.inputs import stored_inputs
 from comparisons.pipeline.run import run
@@ -84,7 +84,7 @@ def _made(folders: list[SubmissionFolder], site: Path, jobs: int) -> list[BoardE
         # Each model is a process, which is not needed any more.
         close_models()
     _remove_others(site, entries)
-    write_file(site / INDEX, render(board_page(entries)))
+    write_page(board_page(entries), site / INDEX)
     return entries
 
 
@@ -137,7 +137,7 @@ def _judge(submission: Submission, site: Path, earlier: list[BoardEntry], jobs: 
         with rows_in(target) as store, rows_in(site / judged[-1]) as source:
             store.copy(source, lambda row: row.model == REFERENCE)
     run(models=[submission.spec], folder=target, jobs=jobs)
-    write_file(target / REPORT, render(make_page(read_folder(target))))
+    write_page(make_page(read_folder(target)), target / REPORT)
 
 
 def entry_of(folder: Path) -> Entry:

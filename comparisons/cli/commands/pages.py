@@ -14,12 +14,12 @@ from comparisons.data.file_names import KAPPA, RECORD, REPORT, RUN_FILES, STORE
 from comparisons.output.citation import as_bibtex, as_text, methods, works
 from comparisons.output.report.board_page import standings
 from comparisons.output.report.page import make_page
-from comparisons.output.report.render import render
+from comparisons.output.report.render import rows_path, write_page
 from comparisons.output.report.stored_run import read_folder
 from comparisons.output.table import laid_out
 from comparisons.output.terminal import rich_table
 from comparisons.pipeline.board import INDEX, make_board
-from comparisons.runs.atomic_files import writable_file, write_file
+from comparisons.runs.atomic_files import writable_file
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.environment import version_text
 from comparisons.runs.record import check_files, read_record
@@ -43,9 +43,9 @@ def report_command(args: argparse.Namespace) -> int:
     stored = read_folder(args.folder)
     page, path = make_page(stored), writable_file(args.out or args.folder / REPORT)
     for name in (RECORD, STORE, *RUN_FILES, *stored.record["files"]):
-        if path.resolve() == (args.folder / name).resolve():
+        if (args.folder / name).resolve() in (path.resolve(), rows_path(path).resolve()):
             raise ValueError(f"--out {path} is a file of the run, which the page would replace; choose another file")
-    write_file(path, render(page))
+    write_page(page, path)
     log(f"the report is {path}")
     return OK
 

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import partial
 from typing import Any
 
 import pandas as pd
 
 from comparisons.judging.decision import roll_up
 from comparisons.judging.report_card import overall
-from comparisons.output.errors import worst_rows
-from comparisons.output.report.page import Block, Page, errors_and_plot
+from comparisons.judging.standing import inside, range_text, stated_range
+from comparisons.output.errors import error_summary, ranked, within_ranges, worst_rows
+from comparisons.output.report.page import Block, Page, errors_and_plot, predicted_plot, regime_maps
+from comparisons.output.report.regime_map import RegimeMap, short_percent
 from comparisons.output.report.stored_run import Stored
-from comparisons.output.table import LAYOUT, Table, column, columns, laid_out
+from comparisons.output.table import LAYOUT, Record, Table, column, columns, laid_out
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.runs.rows import Key
 
@@ -82,15 +85,23 @@ class BoardEntry:
 
 
 def standing(entry: Entry) -> pd.DataFrame:
-    """Return the summary of errors of a run (`comparisons.output.errors`) with the verdicts."""
-    summary = entry.stored.error_summary(entry.planned)
+    """Return the summary of errors of a run within the ranges that its models declare, with ranges and verdicts."""
+    stored = entry.stored
+    summary = error_summary(within_ranges(stored.evaluations(entry.planned)))
     pairs = zip(summary["model"], summary["quantity"], strict=True)
-    return summary.assign(verdict=[_verdict(entry.stored, *pair) for pair in pairs])
+    ranges = [range_text(stated_range(name, stored.domains)) for name in summary["model"]]
+    return summary.assign(range=ranges, verdict=[_verdict(stored, *pair) for pair in pairs])
+
+
+def _judged_verdicts(stored: Stored) -> pd.DataFrame:
+    """Return the verdicts within the ranges that the models declare, as those of a domain are."""
+    verdicts = stored.verdicts
+    return verdicts[inside(verdicts, verdicts["candidate"], stored.domains)]
 
 
 def _verdict(stored: Stored, model: str, quantity: str) -> str:
     """Return the worst verdict on a model about a quantity; that of its report card is on the model as a whole."""
-    verdicts = stored.verdicts
+    verdicts = _judged_verdicts(stored)
     on_model = verdicts[(verdicts["candidate"] == model) & (verdicts["quantity"] == quantity)]
     of_card = [check.verdict for check in stored.checks if check.model == model]
     return "" if on_model.empty else str(roll_up([*on_model["verdict"], *of_card]))
@@ -139,12 +150,18 @@ def board_page(entries: Sequence[BoardEntry]) -> Page:
 
 def _results(entries: Sequence[BoardEntry], rows: pd.DataFrame) -> dict[str, Sequence[Block]]:
     """Return the sections of what was judged."""
-    newest = rows[rows["newest"]].sort_values(["order", "size"], kind="stable", ignore_index=True)
+    newest = ranked(rows[rows["newest"]]).sort_values(["order", "size"], kind="stable", ignore_index=True)
     history = rows[rows.groupby("model")["version"].transform("nunique") > 1]
-    kappa = _kappa(entries, set(newest["folder"]))
+    folders = set(newest["folder"])
+    kappa = _of_newest(entries, folders, lambda judged: judged.stored.kappa)
+    within = _of_newest(entries, folders, lambda judged: judged.stored.kappa_inside)
+    evaluations = _of_newest(entries, folders, lambda judged: judged.stored.evaluations(judged.planned))
+    domains = {name: table for _, judged in _judged(entries) for name, table in judged.stored.domains.items()}
     return {
+        "map": regime_maps(RegimeMap(evaluations, domains)),
         "models": [laid_out("newest", newest, id="models")],
-        "regions": [_regions(kappa, newest)] if len(kappa) else [],
+        "regions": [_regions(within, newest)] if len(within) else [],
+        "predicted": predicted_plot(within),
         "errors": errors_and_plot(kappa),
         "history": [laid_out("history", history)],
     }
@@ -155,27 +172,38 @@ def _judged(entries: Sequence[BoardEntry]) -> list[tuple[Submission, Entry]]:
     return [(entry.submission, entry.judged) for entry in entries if entry.submission and entry.judged]
 
 
-def _kappa(entries: Sequence[BoardEntry], folders: set[str]) -> pd.DataFrame:
-    """Return the relative errors of the versions in these folders in every case."""
-    newest = [
-        (submission.name, judged.stored.kappa)
-        for submission, judged in _judged(entries)
-        if submission.folder in folders
+def _of_newest(
+    entries: Sequence[BoardEntry], folders: set[str], table_of: Callable[[Entry], pd.DataFrame]
+) -> pd.DataFrame:
+    """Return the rows that the runs of the versions in these folders have of their own models."""
+    tables = [
+        (submission.name, table_of(judged)) for submission, judged in _judged(entries) if submission.folder in folders
     ]
-    return pd.concat([kappa[kappa["model"] == name] for name, kappa in newest], ignore_index=True)
+    return pd.concat([table[table["model"] == name] for name, table in tables], ignore_index=True)
 
 
 def _regions(kappa: pd.DataFrame, newest: pd.DataFrame) -> Table:
-    """Return the largest error of each model and quantity in each region, in the order of the newest versions."""
+    """Return the largest and the mean error of each model and quantity in each region, in the order of the newest."""
     keys = ["model", "quantity"]
     table = newest.loc[newest["cases"] > 0, keys]
     known = kappa[kappa["kappa"].notna()]
     for heading, condition in LAYOUT["regions"].items():
-        worst = worst_rows(known.query(condition), keys)[[*keys, "kappa", "u_kappa"]]
+        rows = known.query(condition)
+        worst = worst_rows(rows, keys)[[*keys, "kappa", "u_kappa"]]
         names = {"kappa": f"kappa {heading}", "u_kappa": f"u {heading}"}
         table = table.merge(worst.rename(columns=names), on=keys, how="left")
-    layout = [column(name, f"kappa {name}", "short percent", f"u {name}") for name in LAYOUT["regions"]]
+        mean = rows.groupby(keys)["kappa"].mean().rename(f"mean {heading}").reset_index()
+        table = table.merge(mean, on=keys, how="left")
+    layout = [
+        replace(column(name, f"kappa {name}", "short percent", f"u {name}"), small=partial(_mean_text, name))
+        for name in LAYOUT["regions"]
+    ]
     return Table("regions", "Largest |κ| in percent with its sign, by region", [*columns(*keys), *layout], table)
+
+
+def _mean_text(region: str, row: Record) -> str:
+    mean = row[f"mean {region}"]
+    return "" if pd.isna(mean) else f"mean {short_percent(mean)}"
 
 
 def _submissions(entries: Sequence[BoardEntry]) -> Table:
@@ -187,6 +215,6 @@ def _submissions(entries: Sequence[BoardEntry]) -> Table:
             row |= asdict(submission) | {"model": submission.name, "authors": ", ".join(submission.authors)}
         if entry.judged and submission:
             stored = entry.judged.stored
-            row |= {"status": str(overall(stored.verdicts, stored.checks)), "folder": submission.folder}
+            row |= {"status": str(overall(_judged_verdicts(stored), stored.checks)), "folder": submission.folder}
         rows.append(row)
     return laid_out("submissions", pd.DataFrame(rows))

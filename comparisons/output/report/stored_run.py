@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections import defaultdict
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 import pandas as pd
@@ -17,6 +18,7 @@ from comparisons.data.input_files import read_text
 from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged
 from comparisons.judging.report_card import ModelCheck, check_models
+from comparisons.judging.standing import inside
 from comparisons.judging.summary import COVERAGE
 from comparisons.output import errors
 from comparisons.output.verdicts import GATE_COLUMNS
@@ -74,14 +76,41 @@ class Stored:
         """The SPEC that finds each external model."""
         return dict(self.record["arguments"]["external"])
 
-    def error_summary(self, planned: Collection[tuple[Key, str]] | None = None) -> pd.DataFrame:
-        """Return the summary of errors (`comparisons.output.errors`) over the results that have a reference.
+    @property
+    def domains(self) -> dict[str, Any]:
+        """The domain that each external model declares."""
+        return dict(self.record.get("domains", {}))
+
+    @property
+    def kappa_inside(self) -> pd.DataFrame:
+        """The relative errors within the ranges that the models declare."""
+        return self.kappa[inside(self.kappa, self.kappa["model"], self.domains)]
+
+    @property
+    def problem_kinds(self) -> dict[str, tuple[str, str]]:
+        """The kind of solid and of punch of each problem file."""
+        kinds = {}
+        for name, text in self.texts.items():
+            if name != file_names.GRID_TEXT:
+                sections = tomllib.loads(text)
+                solid, punch = (sections.get(section, {}).get("kind", section) for section in ("solid", "punch"))
+                kinds[PurePosixPath(name).name] = (str(solid), str(punch))
+        return kinds
+
+    def evaluations(self, planned: Collection[tuple[Key, str]] | None = None) -> pd.DataFrame:
+        """Return the results that have a reference, each with its error, and whether its model declares its case.
 
         Parameters
         ----------
         planned : set of (Key, str), optional
             The keys of the results that count, with a reference of each; by default every result in a case in which
             the reference has a result, if a model has an error in this quantity against it.
+
+        Returns
+        -------
+        DataFrame
+            Columns of the results, reference, kappa and u_kappa, and inside
+            (`comparisons.judging.standing.inside`).
         """
         kappa = with_problem(self.kappa)[[*_KEY, "reference", "kappa", "u_kappa"]]
         counted = self._compared() if planned is None else planned
@@ -92,11 +121,14 @@ class Stored:
         results = with_problem(self.results).iloc[[row for row, _ in pairs]]
         results = results.assign(reference=pd.Series([name for _, name in pairs], results.index, dtype=str))
         joined = results.merge(kappa, on=[*_KEY, "reference"], how="left")
-        summary = errors.error_summary(joined[joined["model"] != joined["reference"]])
-        if planned is not None:
-            return summary
-        # A model with values and no error is compared with no reference: it verifies one.
-        return summary[(summary["cases"] > 0) | (summary["answered"] == 0)].reset_index(drop=True)
+        joined = joined[joined["model"] != joined["reference"]]
+        if planned is None:
+            # A model with values and no error is compared with no reference: it verifies one.
+            series = [joined[name] for name in ("model", "quantity", "reference")]
+            compared = joined["kappa"].notna().groupby(series).transform("any")
+            answered = (joined["status"] == "ok").groupby(series).transform("any")
+            joined = joined[compared | ~answered]
+        return joined.assign(inside=inside(joined, joined["model"], self.domains)).reset_index(drop=True)
 
     def _compared(self) -> set[tuple[Key, str]]:
         """Return the keys of the results that may have an error, with each reference of a result in their case."""

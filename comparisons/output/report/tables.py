@@ -14,6 +14,7 @@ from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import METRICS
 from comparisons.judging.report_card import card_lines, given_models
 from comparisons.judging.summary import worst_first
+from comparisons.output.markup import in_words
 from comparisons.output.plots import Plot
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.table import CASE as CASE_COLUMNS
@@ -52,7 +53,7 @@ def gates(stored: Stored) -> Iterator[Table]:
         "matrix",
         stored.summary,
         replace(gate, small=requirement, kind="prose"),
-        Column("cases", lambda row: counts[row["gate"], row["candidate"]], kind="prose", small=_reason),
+        Column("cases", lambda row: in_words(counts[row["gate"], row["candidate"]]), kind="prose", small=_reason),
         replace(limits, small=grounds, kind="prose"),
     )
     cards, domains = stored.record.get("cards", {}), stored.record.get("domains", {})
@@ -60,7 +61,8 @@ def gates(stored: Stored) -> Iterator[Table]:
     for name in given_models(stored.record["arguments"].get("model"), stored.verdicts, cards):
         domain = Domain.of_json(domains[name]) if name in domains else None
         lines += [(name, *line) for line in card_lines(name, stored.verdicts, stored.checks, cards.get(name), domain)]
-    yield laid_out("cards", pd.DataFrame(lines, columns=["model", "item", "result"]))
+    spoken = [(name, item, in_words(result)) for name, item, result in lines]
+    yield laid_out("cards", pd.DataFrame(spoken, columns=["model", "item", "result"]))
 
 
 def worst_cases(stored: Stored) -> Iterator[Table]:
@@ -68,7 +70,7 @@ def worst_cases(stored: Stored) -> Iterator[Table]:
     judged = worst_first(stored.verdicts[stored.verdicts["verdict"] != Verdict.NOT_APPLICABLE])
     bad = int((judged["verdict"] != Verdict.PASS).sum())
     rows = judged.head(min(max(bad, _AT_LEAST), _AT_MOST))
-    note = f"{bad} of {len(judged)} judged cases do not pass; declared failures (XFAIL) count here."
+    note = f"{bad} of {len(judged)} judged cases do not pass; expected deviations count here."
     if bad < _AT_LEAST:
         note += " Cases that pass are here too: those nearest to a limit, as a share of the gate's width."
     (gate,) = columns("gate")

@@ -5,8 +5,23 @@ const Plots = (() => {
   // One hover tool for each side of the point, so that models which agree are read off side by side.
   const SIDES = ["left", "right", "above", "below"];
 
-  function make(plot) {
-    const figure = document.getElementById(plot.id);
+  // The library, run once.
+  let library;
+  const withLibrary = () => (library ??= Rows.text("bokeh").then((textContent) => {
+    Rows.run({ textContent });
+    Bokeh.set_log_level("warn");
+  }));
+
+  // A plot is drawn once, when it is first asked for.
+  const drawing = {};
+  function draw(figure) {
+    const { id } = figure;
+    drawing[id] ??= Promise.all([Rows.read(id), withLibrary()]).then(([plot]) => make(plot, figure))
+      .catch((error) => Rows.complain(figure, error));
+    return drawing[id];
+  }
+
+  function make(plot, figure) {
     const canvas = figure.querySelector(".canvas");
     const box = new Bokeh.BoxZoomTool();
     const touch = matchMedia("(pointer: coarse)").matches;
@@ -30,7 +45,9 @@ const Plots = (() => {
         major_label_text_font: "system-ui, sans-serif", major_label_text_font_size: "12px",
       });
     }
-    const zero = new Bokeh.Span({ location: 0, dimension: "width", line_width: 1 });
+    // Zero error, or the line on which a model is where the reference is.
+    const zero = plot.mark === "points" ? new Bokeh.Slope({ gradient: 1, y_intercept: 0, line_width: 1 })
+      : new Bokeh.Span({ location: 0, dimension: "width", line_width: 1 });
     drawn.add_layout(zero);
     const one = { plot, figure, drawn, hovers, zero, layers: {}, dark: Theme.dark() };
     made[plot.id] = one;
@@ -93,9 +110,11 @@ const Plots = (() => {
         renderers.push(drawn.varea({ field: "x" }, { field: "low" }, { field: "high" }, { source, fill_color: colour, fill_alpha: 0.2 }));
       }
       const below = plot.mark === "line" && broad;
-      renderers.push(drawn.line({ field: "x" }, { field: "y" }, {
-        source, line_color: colour, line_dash: dash, line_width: below ? 3.5 : 2, line_alpha: below ? 0.45 : 1,
-      }));
+      if (plot.mark !== "points") {
+        renderers.push(drawn.line({ field: "x" }, { field: "y" }, {
+          source, line_color: colour, line_dash: dash, line_width: below ? 3.5 : 2, line_alpha: below ? 0.45 : 1,
+        }));
+      }
       if (plot.mark !== "line") {
         // A source of its own: pointing at a marker would take away the line and the band of the same source.
         renderers.push(drawn.scatter({ field: "x" }, { field: "y" }, {
@@ -177,8 +196,15 @@ const Plots = (() => {
     return [back(middle - half), back(middle + half)];
   }
 
-  Bokeh.set_log_level("warn");
-  const ready = Promise.all(DATA.plots.map(make)).then(() => { document.documentElement.dataset.plots = "drawn"; });
+  const figures = Array.from(document.querySelectorAll("figure.plot"));
+  const all = () => Promise.all(figures.map(draw));
+  // A reader who scrolls finds a plot drawn.
+  const near = new IntersectionObserver((entries) => {
+    for (const { isIntersecting, target } of entries) if (isIntersecting) draw(target);
+  }, { rootMargin: "300px" });
+  for (const figure of figures) near.observe(figure);
+  // Paper has every plot.
+  document.querySelector("#print")?.addEventListener("click", () => all().then(() => print()));
 
   // The visible part of both axes, for tests: Plots.range("plot-kappa").
   function range(id) {
@@ -191,5 +217,5 @@ const Plots = (() => {
     return [bbox.left, bbox.top, bbox.width, bbox.height];
   }
   const dark = (id) => made[id].dark;
-  return { ready, range, inner, dark };
+  return { all, range, inner, dark };
 })();

@@ -1,42 +1,57 @@
 "use strict";
-// Tables that sort and filter, commands that can be copied.
-// Text from the data goes into the page as text (textContent), never as HTML.
-const DATA = JSON.parse(document.getElementById("data").textContent);
-
+// Tables that sort and filter, commands that can be copied.  A table shows some rows; the others are loaded when asked for.
+// A cell is HTML in which all text of the data is escaped.
 const Tables = (() => {
   const byId = {};
+  // Rows that a table shows at once, and more at each click.
+  const STEP = 100;
 
   function make(box) {
     const id = box.dataset.table;
     const table = {
-      id, box, body: box.querySelector("tbody"), count: box.querySelector(".count"), group: null, words: [],
-      rows: Array.from(box.querySelectorAll("tbody tr")), groups: DATA.tables[id].groups,
+      id, box, body: box.querySelector("tbody"), count: box.querySelector(".count"), more: box.querySelector(".more"),
+      all: Number(box.dataset.rows), group: null, words: [], order: null, most: STEP, content: null, asked: 0, done: 0,
     };
     byId[id] = table;
-    table.rows.forEach((row, index) => { row.dataset.row = index; });
-    for (const data of box.querySelectorAll("td > data:not(.rank)")) data.title = data.value;
     box.querySelectorAll("thead th").forEach((head, index) => {
       const button = document.createElement("button");
       Object.assign(button, { type: "button", className: "sort", textContent: head.textContent });
-      button.addEventListener("click", () => sort(table, head, index));
+      button.addEventListener("click", () => act(table, () => sort(table, head, index)));
       head.replaceChildren(button);
       head.setAttribute("aria-sort", "none");
-      head.classList.toggle("number", table.rows.some((row) => row.cells[index].querySelector(":scope > data:not(.rank)")));
     });
     box.querySelector(".filter").addEventListener("input", (event) => {
       table.words = event.target.value.toLowerCase().split(/\s+/).filter(Boolean);
-      show(table);
+      act(table, () => { table.most = STEP; });
     });
-    show(table);
+    table.more.addEventListener("click", () => act(table, () => { table.most += STEP; }));
+    box.closest("details")?.addEventListener("toggle", (event) => { if (event.target.open) act(table); });
+    mark(table);
+    count(table, Math.min(table.all, table.body.rows.length), table.all);
   }
+
+  // Change what is shown as soon as the rows are there.
+  async function act(table, change = () => {}) {
+    const asked = ++table.asked;
+    try {
+      table.content ??= await Rows.read(table.id);
+      change();
+      if (asked === table.asked) show(table);
+    } catch (error) {
+      Rows.complain(table.box, error);
+    }
+    table.done = Math.max(table.done, asked);
+  }
+
+  const ENTITIES = { "&lt;": "<", "&gt;": ">", "&#39;": "'", "&#34;": '"', "&amp;": "&" };
+  const plain = (cell) => cell.replace(/<[^>]*>/g, "").replace(/&(lt|gt|#39|#34|amp);/g, (entity) => ENTITIES[entity]);
 
   function sort(table, head, index) {
     const rising = head.getAttribute("aria-sort") !== "ascending";
     for (const other of head.parentNode.children) other.setAttribute("aria-sort", "none");
     head.setAttribute("aria-sort", rising ? "ascending" : "descending");
-    const keyed = table.rows.map((row) => {
-      const text = row.cells[index].textContent;
-      const stored = row.cells[index].querySelector("data")?.value;
+    const keyed = table.content.cells.map((cells, row) => {
+      const [text, stored] = [plain(cells[index]), cells[index].match(/^<data[^>]* value="([^"]*)"/)?.[1]];
       // Texts that are numbers sort as numbers; what is missing comes last either way.
       const number = stored === undefined ? (text === "" ? NaN : Number(text)) : Number(stored.replace("inf", "Infinity"));
       return { row, number, text };
@@ -49,32 +64,56 @@ const Tables = (() => {
       if (!one) return sign * (a.number === b.number ? 0 : a.number < b.number ? -1 : 1);
       return sign * a.text.localeCompare(b.text, "en", { numeric: true });
     });
-    table.body.append(...keyed.map((one) => one.row));
+    table.order = keyed.map(({ row }) => row);
+  }
+
+  // The places of the rows that the filter and the choice leave, in their order.
+  function left(table) {
+    const { cells, groups } = table.content;
+    return (table.order ?? cells.map((_, row) => row)).filter((row) => {
+      if (table.group !== null && groups[row] !== table.group) return false;
+      if (!table.words.length) return true;
+      const text = cells[row].map(plain).join(" ").toLowerCase();
+      return table.words.every((word) => text.includes(word));
+    });
   }
 
   function show(table) {
-    let shown = 0;
-    for (const row of table.rows) {
-      const chosen = table.group === null || table.groups[row.dataset.row] === table.group;
-      const text = table.words.length ? row.textContent.toLowerCase() : "";
-      row.hidden = !(chosen && table.words.every((word) => text.includes(word)));
-      shown += !row.hidden;
-    }
-    const all = table.rows.length;
-    table.count.textContent = shown === all ? `${all} rows` : `${shown} of ${all} rows`;
+    const rows = left(table);
+    const shown = rows.slice(0, table.most);
+    table.body.innerHTML = shown.map((row) => `<tr><td>${table.content.cells[row].join("</td><td>")}</td></tr>`).join("");
+    mark(table);
+    count(table, shown.length, rows.length);
+  }
+
+  function mark(table) {
+    for (const number of table.body.querySelectorAll("td > data:not(.rank)")) number.title = number.value;
+    table.box.querySelectorAll("thead th").forEach((head, index) => {
+      const isNumber = Array.from(table.body.rows).some((row) => row.cells[index].querySelector(":scope > data:not(.rank)"));
+      head.classList.toggle("number", isNumber);
+    });
+  }
+
+  function count(table, shown, chosen) {
+    const rows = chosen === table.all ? `${table.all} rows` : `${chosen} of ${table.all} rows`;
+    table.count.textContent = shown === chosen ? rows : `${rows}, ${shown} shown`;
+    table.more.hidden = shown >= chosen;
   }
 
   // Show only the rows that belong to a choice of a plot; null for all.
   function choose(id, group) {
     const table = byId[id];
-    if (!table) return;
+    if (!table || table.group === group) return;
     table.group = group;
-    show(table);
+    table.most = STEP;
+    if (!table.box.closest("details")?.matches(":not([open])")) act(table);
   }
 
-  // The places of the rows that are shown, in their order.
-  function shown(id) {
-    return Array.from(byId[id].body.rows).filter((row) => !row.hidden).map((row) => Number(row.dataset.row));
+  // The rows that the filter and the choice leave, in their order, and the content of the table.
+  async function chosen(id) {
+    const table = byId[id];
+    table.content ??= await Rows.read(id);
+    return { rows: left(table), content: table.content };
   }
 
   async function copy(button) {
@@ -94,5 +133,7 @@ const Tables = (() => {
     const button = event.target.closest("button");
     if (button?.classList.contains("copy")) copy(button);
   });
-  return { choose, shown };
+  // Whether every table shows what was asked for, for tests.
+  const settled = () => Object.values(byId).every((table) => table.asked === table.done);
+  return { choose, chosen, settled };
 })();

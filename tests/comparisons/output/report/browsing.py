@@ -53,7 +53,13 @@ def show(browser, path, width, height):
         browser.get_log(kind)
     size(browser, width, height)
     browser.get(path.as_uri())
-    wait(lambda: browser.execute_script("return document.documentElement.dataset.plots === 'drawn'"))
+    # A reader scrolls to a plot; a test draws them all.
+    browser.execute_async_script("Promise.all([Plots.all(), Maps.ready]).then(() => arguments[0]())")
+
+
+def settle(browser):
+    """Wait until every table shows what was asked for."""
+    wait(lambda: browser.execute_script("return Tables.settled()"))
 
 
 def find(browser, selector):
@@ -67,9 +73,14 @@ def click(browser, element):
 
 
 def cells(browser, table, column):
-    """The exact numbers, or else the texts, of the visible rows of a column."""
+    """The exact numbers, or else the texts, of the rows of a column, all of which are asked for."""
+    settle(browser)
+    more = find(browser, f"#table-{table} .more")
+    while not more.get_property("hidden"):
+        browser.execute_script("arguments[0].click()", more)
+        settle(browser)
     script = """
-      const rows = Array.from(document.querySelectorAll(`#table-${arguments[0]} tbody tr`)).filter((r) => !r.hidden);
+      const rows = Array.from(document.querySelectorAll(`#table-${arguments[0]} tbody tr`));
       const heads = Array.from(document.querySelectorAll(`#table-${arguments[0]} thead th`), (h) => h.innerText.trim());
       const at = heads.indexOf(arguments[1]);
       return rows.map((row) => row.cells[at].querySelector("data:not(.rank)")?.value ?? row.cells[at].textContent);
@@ -79,6 +90,12 @@ def cells(browser, table, column):
 
 def unfold(browser, table):
     browser.execute_script("document.querySelector(arguments[0]).closest('details').open = true", f"#table-{table}")
+    wait(
+        lambda: browser.execute_script(
+            "return document.querySelector(arguments[0]).rows.length > 0", f"#table-{table} tbody"
+        )
+    )
+    settle(browser)
 
 
 def head(browser, table, label):

@@ -12,7 +12,9 @@ from comparisons.output.report.stored_run import Stored
 
 def entry(kappa, results, planned):
     columns = ["quantity", "model", "n", "k", "mu", "nu", "reference", "kappa", "u_kappa"]
-    empty = pd.DataFrame(columns=["gate", "candidate", "quantity", "verdict", "value", "reference_value"])
+    empty = pd.DataFrame(
+        columns=["gate", "candidate", "quantity", "n", "k", "mu", "nu", "verdict", "value", "reference_value"]
+    )
     return Entry(Stored({}, results, empty, pd.DataFrame(kappa, columns=columns), *[empty] * 5), planned)
 
 
@@ -44,7 +46,33 @@ def test_a_verdict_on_the_whole_model_counts_for_every_quantity():
         ([passed], {"a": changing}, "FAIL"),
         ([], {"a": changing}, ""),
     ):
-        verdicts = pd.DataFrame([*rows, *more], columns=columns).assign(value=None, reference_value=None)
+        case = {name: CASE[name] for name in ("n", "k", "nu")}
+        verdicts = pd.DataFrame([*rows, *more], columns=columns).assign(
+            **case, mu=1.0, value=None, reference_value=None
+        )
         stored = replace(run_entry.stored, verdicts=verdicts, record={"cards": cards})
         (row,) = standing(replace(run_entry, stored=stored)).to_dict("records")
         assert row["verdict"] == expected
+
+
+def jkr_beside(*cases):
+    """The run of JKR in cases of mu, its error and a verdict."""
+    results = pd.DataFrame([CASE | {"model": name, "mu": mu} for name in ("jkr", "exact") for mu, *_ in cases])
+    kappa = [("pull_off_force", "jkr", 2.0, 0.0, mu, math.nan, "exact", error, 0.0) for mu, error, _ in cases]
+    planned = {(("jkr", "pull_off_force", 2.0, 0.0, mu, None, ""), "exact") for mu, *_ in cases}
+    of_run = entry(kappa, results, planned)
+    rows = [
+        {"gate": "A", "candidate": "jkr", "quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": mu, "nu": math.nan}
+        | {"verdict": verdict, "value": None, "reference_value": None}
+        for mu, _, verdict in cases
+    ]
+    return replace(of_run, stored=replace(of_run.stored, verdicts=pd.DataFrame(rows)))
+
+
+def test_a_model_is_judged_within_the_range_that_it_declares():
+    """Nobody uses JKR at mu = 0.01."""
+    (row,) = standing(jkr_beside((0.01, 11.3, "FAIL"), (5.0, -0.02, "PASS"))).to_dict("records")
+    assert (row["largest"], row["mean"], row["verdict"], row["range"]) == (-0.02, -0.02, "PASS", "μ ≥ 5")
+    assert (row["asked"], row["answered"], row["outside"]) == (1, 1, 1)
+    (row,) = standing(jkr_beside((0.01, 11.3, "PASS"), (5.0, -0.02, "FAIL"))).to_dict("records")
+    assert row["verdict"] == "FAIL"

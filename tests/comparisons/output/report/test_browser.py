@@ -4,12 +4,14 @@ Skipped where there is no Chromium with its driver, unless FSCM_BENCH_BROWSER=re
 """
 
 import re
+import shutil
 
 import pandas as pd
 import pytest
 
 from comparisons.output.latex import latex
 from comparisons.output.report.page import make_page
+from comparisons.output.report.render import rows_path
 from comparisons.output.report.stored_run import read_folder
 from comparisons.runs.csv_format import csv_text, read_table
 
@@ -21,7 +23,7 @@ from .hostile_run import SCRIPT
 def test_it_opens_without_an_error_and_without_the_network_and_admits_no_other_script(browser, page):
     browsing.show(browser, page, *DESKTOP)
     assert messages(browser) == []
-    assert browsing.requests(browser) == {page.as_uri()}
+    assert browsing.requests(browser) == {page.as_uri(), rows_path(page).as_uri()}
     assert browser.title.startswith("fscm-bench report: ")
     assert browser.execute_script("return window.hostile") is None
     assert SCRIPT in find(browser, "#plot-kappa .models").text
@@ -35,6 +37,7 @@ def test_a_hostile_name_does_nothing_even_without_the_policy(browser, page, tmp_
     bare = tmp_path / "bare.html"
     policy = r'<meta http-equiv="Content-Security-Policy"[^>]*>'
     bare.write_text(re.sub(policy, "", page.read_text(encoding="utf-8")), encoding="utf-8")
+    shutil.copy(rows_path(page), bare.with_name(rows_path(page).name))
     browsing.show(browser, bare, *DESKTOP)
     unfold(browser, "results")
     assert browser.execute_script("return [window.hostile ?? null, document.images.length]") == [None, 0]
@@ -57,17 +60,21 @@ def test_tables_sort_and_filter(opened, run_folder):
     assert find(opened, "#table-offenders .count").text == "2 of 7 rows"
 
 
+def text_of(opened, table, kind):
+    return opened.execute_async_script("Files.text(arguments[0], arguments[1]).then(arguments[2])", table, kind)
+
+
 def test_files_hold_the_rows_that_are_shown_in_their_order(opened, run_folder, tmp_path, typeset):
     for name, table in make_page(read_folder(run_folder)).tables.items():
         opened.execute_script("Tables.choose(arguments[0], null)", name)
-        csv, tex = (opened.execute_script("return Files.text(...arguments)", name, kind) for kind in ("csv", "tex"))
+        csv, tex = (text_of(opened, name, kind) for kind in ("csv", "tex"))
         assert csv == csv_text(table.stored.drop(columns="seconds", errors="ignore"))
         assert tex == latex(table.on_paper, table.caption, table.id)
         # A command has no room on paper.
         assert "solve -{}-model" not in tex
         if name in ("results", "verdicts", "kappa"):
             assert csv == (run_folder / f"{name}.csv").read_text(encoding="utf-8")
-    offenders = opened.execute_script("return Files.text('offenders', 'tex')")
+    offenders = text_of(opened, "offenders", "tex")
     typeset(offenders, (run_folder / "verdicts.tex").read_text(encoding="utf-8"), fits=False)
     find(opened, "#table-offenders .filter").send_keys("limit")
     click(opened, head(opened, "offenders", "E(U)"))
@@ -181,7 +188,9 @@ def use_everything(opened):
       return used;
     """
     used = opened.execute_script(script)
-    assert set(used) == set(opened.execute_script("return DATA.plots.map((plot) => plot.id)"))
+    assert set(used) == set(
+        opened.execute_script("return Array.from(document.querySelectorAll('figure.plot'), (plot) => plot.id)")
+    )
     assert min(used.values()) >= 20
     opened.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
     assert messages(opened) == []
