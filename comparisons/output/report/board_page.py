@@ -198,7 +198,8 @@ def _regions(kappa: pd.DataFrame, newest: pd.DataFrame) -> Table:
         replace(column(name, f"kappa {name}", "short percent", f"u {name}"), small=partial(_mean_text, name))
         for name in LAYOUT["regions"]
     ]
-    return Table("regions", "Largest |κ| in percent with its sign, by region", [*columns(*keys), *layout], table)
+    caption = "Largest |κ| in percent with its sign, by region"
+    return Table("regions", caption, [*columns("model"), *layout, *columns("quantity")], table)
 
 
 def _mean_text(region: str, row: Record) -> str:

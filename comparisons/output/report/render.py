@@ -36,7 +36,7 @@ _BOKEH = ("server/static/js/bokeh.min.js", "server/static/js/bokeh-api.min.js")
 _ASSETS = "comparisons.output.report"
 
 #: Rows of a table that is not folded that the HTML itself has: a page of many cases stays below 10,000 elements.
-_FIRST_ROWS = 100
+_FIRST_ROWS = 50
 
 #: JSON has no NaN and no infinity.
 _JSON: dict[str, Any] = {"allow_nan": False, "separators": (",", ":")}

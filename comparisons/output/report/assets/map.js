@@ -20,6 +20,7 @@ const Maps = (() => {
       groups.forEach((group, index) => {
         // Options that the choices before leave.
         const left = new Set(keys.filter((key) => key.slice(0, index).every((text, other) => text === chosen[other])).map((key) => key[index]));
+        group.hidden = left.size < 2;
         for (const input of group.querySelectorAll("input")) {
           input.checked = input.value === chosen[index];
           input.closest("label").hidden = !left.has(input.value);

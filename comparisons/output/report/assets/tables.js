@@ -4,7 +4,8 @@
 const Tables = (() => {
   const byId = {};
   // Rows that a table shows at once, and more at each click.
-  const STEP = 100;
+  const STEP = 50;
+  const words = new Intl.Collator("en", { numeric: true });
 
   function make(box) {
     const id = box.dataset.table;
@@ -62,9 +63,10 @@ const Tables = (() => {
       const [one, other] = [Number.isNaN(a.number), Number.isNaN(b.number)];
       if (one !== other) return one ? 1 : -1;
       if (!one) return sign * (a.number === b.number ? 0 : a.number < b.number ? -1 : 1);
-      return sign * a.text.localeCompare(b.text, "en", { numeric: true });
+      return sign * words.compare(a.text, b.text);
     });
     table.order = keyed.map(({ row }) => row);
+    table.most = STEP;
   }
 
   // The places of the rows that the filter and the choice leave, in their order.

@@ -43,6 +43,58 @@ def test_a_hostile_name_does_nothing_even_without_the_policy(browser, page, tmp_
     assert browser.execute_script("return [window.hostile ?? null, document.images.length]") == [None, 0]
 
 
+def test_rows_are_loaded_when_a_table_is_opened(browser, page):
+    browser.get("about:blank")
+    browser.get_log("performance")
+    size(browser, *DESKTOP)
+    browser.get(page.as_uri())
+    browsing.wait(lambda: browser.execute_script("return document.readyState === 'complete'"))
+    assert browsing.requests(browser) == {page.as_uri()}
+    assert browser.execute_script("return document.querySelectorAll('*').length") < 10_000
+    unfold(browser, "results")
+    assert browsing.requests(browser) == {rows_path(page).as_uri()}
+    shown = browser.execute_script("return document.querySelectorAll('#table-results tbody tr').length")
+    assert shown == 50
+    assert len(cells(browser, "results", "model")) == 354
+
+
+def test_a_page_without_its_rows_says_what_is_missing(browser, page, tmp_path):
+    alone = shutil.copy(page, tmp_path / "alone.html")
+    for rows in (None, 'fscmBenchRows("of another page", {});'):
+        if rows:
+            (tmp_path / rows_path(page).name).write_text(rows)
+        browser.get(alone.as_uri())
+        browser.execute_script("document.querySelector('#table-results').closest('details').open = true")
+        browsing.wait(lambda: browser.find_elements("css selector", "#table-results .missing"))
+        assert rows_path(page).name in browser.execute_script(
+            "return document.querySelector('#table-results .missing').textContent"
+        )
+
+
+def test_a_click_shows_the_map_of_that_choice(opened, run_folder):
+    (regimes,) = make_page(read_folder(run_folder)).maps
+
+    def shown():
+        script = "return Array.from(document.querySelectorAll('.map tbody tr'), (row) => row.cells[1].innerText)"
+        return [text.split("\n") for text in opened.execute_script(script)]
+
+    def expected(*options):
+        view = regimes.views["|".join(("pull-off force", "fscm", *options))]
+        return [[text for text in (regime.use, regime.nearness) if text] for regime in view.regimes]
+
+    assert shown() == expected("homogeneous", "n = 2", "k = 0")
+    for option, options in (
+        ("n = 1", ("homogeneous", "n = 1", "k = 0")),
+        ("graded, E ~ z^k", ("graded, E ~ z^k", "n = 1", "k = 0.4")),
+        ("every solid", ("every solid", "n = 1", "every k")),
+    ):
+        click(opened, find(opened, f".regimes input[value='{option}'] + span"))
+        assert shown() == expected(*options)
+    # The gradient has one option left, and is not asked for.
+    assert not find(opened, ".regimes input[value='k = 0.4']").is_displayed()
+    assert messages(opened) == []
+
+
 def test_tables_sort_and_filter(opened, run_folder):
     stored = read_table(run_folder / "verdicts.csv")
     unfold(opened, "verdicts")
