@@ -152,6 +152,8 @@ def errors_and_plot(kappa: pd.DataFrame) -> list[Block]:
 def _nearest_models(judged: pd.DataFrame) -> str:
     """Return how far the models are from their reference in the first quantity, or which of them is near most often.
 
+    Empty where nothing is compared.
+
     Examples
     --------
     >>> case = {"reference": "fscm", "quantity": "pull_off_force", "status": "ok", "u_kappa": 1e-9, "n": 2.0, "k": 0.0}
@@ -164,7 +166,8 @@ def _nearest_models(judged: pd.DataFrame) -> str:
     """
     known = judged[judged["kappa"].notna()]
     if known.empty:
-        return ""
+        beyond = "No case is within the range that its model declares; the map has the errors in brackets."
+        return beyond if (judged["status"] == "outside").any() else ""
     quantity = min(known["quantity"], key=list(ALL_QUANTITIES).index)
     known = known[known["quantity"] == quantity]
     reference = known["reference"].mode().iloc[0]

@@ -24,6 +24,7 @@ from comparisons.output.latex import latex_parts
 from comparisons.output.markup import badge, html_rows, html_table
 from comparisons.output.report.page import TEXTS, Page
 from comparisons.output.report.regime_map import STEPS, RegimeMap, View
+from comparisons.output.report.regimes import Options
 from comparisons.output.style import model_styles
 from comparisons.output.table import Table
 from comparisons.runs.atomic_files import write_file
@@ -106,7 +107,7 @@ def render(page: Page, file: str = "report-rows.js") -> Rendered:
         },
     }
     content = {"page": page, "texts": TEXTS, "model_styles": styles, "data": data, "first_rows": _FIRST_ROWS}
-    policy = _policy(scripts, data["nonce"])
+    policy = _policy(scripts, digest[:32])
     shell = {"style": Markup(_asset(_ASSETS, "assets/report.css")), "scripts": scripts, "policy": policy}
     html = _environment().get_template("page.html").render(content | shell) + "\n"
     return Rendered(html, f'fscmBenchRows("{digest}", {packed});\n')
@@ -124,14 +125,15 @@ def _environment() -> Environment:
     return environment
 
 
-def _map_view(key: str, view: View) -> Markup:
-    quantity, reference, *options = key.split("|")
+def _map_view(options: Options, view: View) -> Markup:
+    quantity, reference, *others = options
     template = _environment().get_template("map.html")
-    return Markup(template.render(chosen=[quantity, *options], reference=reference, view=view))
+    return Markup(template.render(chosen=[quantity, *others], reference=reference, view=view))
 
 
 def _map_views(regimes: RegimeMap) -> str:
-    return _packed(_json({key: _map_view(key, view) for key, view in regimes.views.items()}))
+    """Return every choice of a map: its options, and the table."""
+    return _packed(_json([[options, _map_view(options, view)] for options, view in regimes.views.items()]))
 
 
 def _legend() -> list[str]:

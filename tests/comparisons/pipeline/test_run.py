@@ -8,6 +8,7 @@ import pytest
 import comparisons
 from comparisons.cli.main import main
 from comparisons.data.file_names import VERDICT_FILES
+from comparisons.output.errors import error_summary
 from comparisons.output.report.board_page import standing
 from comparisons.output.report.stored_run import read_folder
 from comparisons.pipeline.board import entry_of
@@ -67,17 +68,18 @@ def test_a_model_has_its_errors_against_each_reference_over_the_cases_of_its_gri
     """JKR in two cases beside Bradley, and in one of them beside DMT, too."""
     text = "\n".join(
         grid_text(["jkr"], reference, id=reference) + f"n = [2]\nk = [0]\nmu = {mu}\n"
-        for reference, mu in (("bradley", "[1, 2]"), ("dmt-strength", "[2]"))
+        for reference, mu in (("bradley", "[5, 6]"), ("dmt-strength", "[6]"))
     )
     finished = run(text, folder=tmp_path / "run")
     kappa = finished.tables.kappa
     assert list(zip(kappa["reference"], kappa["mu"], strict=True)) == [
-        ("bradley", 1),
-        ("bradley", 2),
-        ("dmt-strength", 2),
+        ("bradley", 5),
+        ("bradley", 6),
+        ("dmt-strength", 6),
     ]
     assert finished.tables.largest["reference"].tolist() == ["bradley", "dmt-strength"]
-    for summary in (read_folder(tmp_path / "run").error_summary(), standing(entry_of(tmp_path / "run"))):
+    stored = read_folder(tmp_path / "run")
+    for summary in (error_summary(stored.evaluations()), standing(entry_of(tmp_path / "run"))):
         counts = summary.set_index(["model", "reference"])[["asked", "cases"]]
         assert counts.to_dict("index") == {
             ("jkr", "bradley"): {"asked": 2, "cases": 2},

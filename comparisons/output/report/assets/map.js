@@ -3,9 +3,9 @@
 const Maps = (() => {
   async function make(box) {
     const views = JSON.parse(await Rows.inflated(box.querySelector("script").textContent));
-    const keys = Object.keys(views).map((key) => key.split("|"));
-    let chosen = box.dataset.first.split("|");
+    const keys = views.map(([options]) => options);
     const groups = Array.from(box.querySelectorAll("fieldset"));
+    let chosen = groups.map((group) => group.querySelector(":checked").value);
 
     // The map with this option that has most of the other options in common with the one before.
     function choose(index, option) {
@@ -16,7 +16,7 @@ const Maps = (() => {
     }
 
     function show() {
-      box.querySelector(".scroll").innerHTML = views[chosen.join("|")];
+      box.querySelector(".scroll").innerHTML = views.find(([options]) => options.every((text, index) => text === chosen[index]))[1];
       groups.forEach((group, index) => {
         // Options that the choices before leave.
         const left = new Set(keys.filter((key) => key.slice(0, index).every((text, other) => text === chosen[other])).map((key) => key[index]));

@@ -70,7 +70,7 @@ def jkr_beside(*cases):
 
 
 def test_a_model_is_judged_within_the_range_that_it_declares():
-    """Nobody uses JKR at mu = 0.01."""
+    """JKR is not meant for mu = 0.01."""
     (row,) = standing(jkr_beside((0.01, 11.3, "FAIL"), (5.0, -0.02, "PASS"))).to_dict("records")
     assert (row["largest"], row["mean"], row["verdict"], row["range"]) == (-0.02, -0.02, "PASS", "μ ≥ 5")
     assert (row["asked"], row["answered"], row["outside"]) == (1, 1, 1)

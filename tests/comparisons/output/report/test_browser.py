@@ -79,7 +79,7 @@ def test_a_click_shows_the_map_of_that_choice(opened, run_folder):
         return [text.split("\n") for text in opened.execute_script(script)]
 
     def expected(*options):
-        view = regimes.views["|".join(("pull-off force", "fscm", *options))]
+        view = regimes.views["pull-off force", "fscm", *options]
         return [[text for text in (regime.use, regime.nearness) if text] for regime in view.regimes]
 
     assert shown() == expected("homogeneous", "n = 2", "k = 0")

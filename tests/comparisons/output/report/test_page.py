@@ -23,7 +23,7 @@ from comparisons.output.style import model_styles
 from comparisons.registry import MODELS
 from comparisons.runs.csv_format import read_table, write_table
 
-from .hostile_run import seal, write_run
+from .hostile_run import SCRIPT, seal, write_run
 
 
 @pytest.fixture(scope="module")
@@ -69,9 +69,7 @@ def shown_text(page):
     packed = json.loads(rows.partition(", ")[2].rstrip(");\n"))
     tables = (json.loads(unpacked(packed[name]))["cells"] for name in page.tables)
     text = re.sub("<(style|script).*?</\\1>", "", html, flags=re.DOTALL)
-    views = [
-        view for regimes in page.maps for view in json.loads(unpacked(re.findall('plain">(.*?)<', html)[0])).values()
-    ]
+    views = [view for _, view in json.loads(unpacked(re.findall('plain">(.*?)<', html)[0]))]
     return re.sub(
         "<[^>]*>", " ", " ".join([text, *views, *(cell for table in tables for row in table for cell in row)])
     )
@@ -79,6 +77,16 @@ def shown_text(page):
 
 def unpacked(text):
     return gzip.decompress(base64.b64decode(text)).decode()
+
+
+def test_cases_that_no_model_declares_have_a_page_that_says_so(stored):
+    of_jkr = stored.results[stored.results["mu"] < 1].replace({"model": {SCRIPT: "jkr"}, "status": {"failed": "ok"}})
+    of_jkr = of_jkr[of_jkr["model"].isin(["jkr", "fscm"])].drop_duplicates(["model", "quantity", "n", "k", "mu"])
+    kappa = stored.kappa[(stored.kappa["model"] == SCRIPT) & (stored.kappa["mu"] < 1)].assign(model="jkr")
+    page = make_page(replace(stored, results=of_jkr, kappa=kappa))
+    assert page.headline.startswith("No case is within the range that its model declares")
+    (regimes,) = page.maps
+    assert {cell.step for regime in regimes.views[regimes.first].regimes for cell in regime.cells} == {None}
 
 
 def test_no_page_has_the_name_of_a_declared_verdict(stored):
@@ -94,10 +102,12 @@ def test_no_page_has_the_name_of_a_declared_verdict(stored):
 def many_rows(stored, count):
     """The run with so many rows of every table that is long in practice."""
     times = range(count // len(stored.kappa) + 1)
+    kappa = pd.concat([stored.kappa.assign(mu=stored.kappa["mu"] * (1 + 0.001 * i)) for i in times])
     return replace(
         stored,
         results=pd.concat([stored.results.assign(mu=stored.results["mu"] * (1 + 0.001 * i)) for i in times]),
-        kappa=pd.concat([stored.kappa.assign(mu=stored.kappa["mu"] * (1 + 0.001 * i)) for i in times]),
+        kappa=kappa,
+        comparison=kappa.assign(status="ok", reason=""),
         verdicts=pd.concat([stored.verdicts] * (count // len(stored.verdicts))),
     )
 
@@ -106,6 +116,7 @@ def test_a_page_of_many_rows_opens_as_small_as_that_of_few(stored):
     page = make_page(many_rows(stored, 3000))
     assert len(page.tables["results"].stored) > 6000
     assert len(page.tables["verdicts"].stored) > 2900
+    assert len(page.tables["cases-pull_off_force-fscm"].stored) > 1500
     html, rows = render(page)
     # What is first read, and the elements it makes.
     assert len(html.encode()) < 1_000_000
