@@ -21,7 +21,7 @@ extensions = [
     "kind_tables",
 ]
 exclude_patterns = [
-    *("_extensions", "examples", "ci", "gallery", "**/.ipynb_checkpoints"),
+    *("_extensions", "examples", "ci", "gallery", "pictures", "**/.ipynb_checkpoints"),
     *("_generated/gallery/*.ipynb", "**/sg_execution_times.rst"),
 ]
 nitpicky = True
