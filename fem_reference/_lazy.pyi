@@ -1,5 +1,6 @@
 """Public names besides solids, punches and laws; `__init__.py` loads a module when one of its names is first used."""
 
+from ._numbers import BoundedNumber as BoundedNumber
 from .accuracy import ACCURACIES as ACCURACIES
 from .errors import (
     AccuracyWarning as AccuracyWarning,

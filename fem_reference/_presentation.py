@@ -17,6 +17,9 @@ __all__ = ["Columns", "with_bound"]
 #: Significant digits of a number without a bound: all of them.
 _ALL_DIGITS = 17
 
+#: Unit in SI of what is drawn.
+_UNITS = {"displacement": "m", "load": "N", "radius": "m", "pressure": "Pa"}
+
 
 def with_bound(value: float, u_num: float) -> str:
     """A value down to the first digit of its bound, and the bound."""
@@ -35,6 +38,11 @@ class Columns:
     # Points whose drawn size is a smaller share of the largest are left out at the end of the picture.
     _least_share: ClassVar[float] = 0.0
 
+    def __repr__(self) -> str:
+        over, drawn = getattr(self, self._over), getattr(self, self._drawn)
+        ranges = (f"{name} {min(y):.4g} to {max(y):.4g}" for name, y in ((self._over, over), (self._drawn, drawn)))
+        return f"{type(self).__name__}({len(over)} points, {', '.join(ranges)})"
+
     def to_frame(self) -> pd.DataFrame:
         """Return the arrays as columns, one row a point, in the units of the problem."""
         import pandas as pd
@@ -47,7 +55,7 @@ class Columns:
         """Draw into axes of matplotlib, new ones by default, and return them.
 
         The load of a path over its displacement; the pressure of a surface over the radius, out to where it has fallen
-        to a thousandth.
+        to a thousandth.  The axes state the unit; numbers are not converted.
         """
         if axes is None:
             from matplotlib import pyplot
@@ -56,5 +64,12 @@ class Columns:
         x, y = getattr(self, self._over), getattr(self, self._drawn)
         end = int(np.flatnonzero(np.abs(y) >= self._least_share * np.abs(y).max())[-1]) + 1
         axes.plot(x[:end], y[:end])
-        axes.set(xlabel=self._over.replace("_", " "), ylabel=self._drawn)
+        axes.set(xlabel=self._label(self._over), ylabel=self._label(self._drawn))
         return axes
+
+    def unit_of(self, name: str) -> str:
+        """Name of the unit of an array, if the problem is in SI."""
+        return f"{_UNITS[name]} in SI"
+
+    def _label(self, name: str) -> str:
+        return f"{name.replace('_', ' ')} [{self.unit_of(name)}]"

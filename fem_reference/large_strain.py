@@ -23,6 +23,7 @@ from fem_reference.modulus import PowerLawModulus
 from fem_reference.poisson import PoissonRatio, poisson_at
 from fem_reference.problem import Problem
 from fem_reference.punch import radius_at_height
+from fem_reference.quantities import quantity_named
 from fem_reference.result import Solution
 from fem_reference.states import EquilibriumPath, RadialField
 
@@ -192,10 +193,11 @@ def solve_large_strain(
         (order - 2, order - 1, order),
         (float("nan"), result.lower_degree, result.value),
         result.parts,
+        quantity_named(quantity).unit,
     )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class LargeStrainPath(EquilibriumPath):
     """The equilibrium path of finite strain; `edge_radius` is that of the material point before it was deformed.
 

@@ -13,7 +13,7 @@ from fem_reference._typing import Array
 from fem_reference._validation import check_positive
 from fem_reference.errors import Failure, NotConverged
 
-__all__ = ["CustomPunch", "PowerPunch", "Punch"]
+__all__ = ["Cone", "CustomPunch", "PowerPunch", "Punch", "Sphere"]
 
 #: Radii in equal ratios at which the shape of a punch is examined: forty in a factor of two over 22 decades.
 RADII = 3000
@@ -73,6 +73,57 @@ class PowerPunch:
     def slope(self, r: Array) -> Array:
         """df/dr, shape of `r`."""
         return np.asarray(r, float) ** (self.n - 1.0) / self.Q
+
+
+def Sphere(R: float, R_solid: float | None = None) -> PowerPunch:
+    """r^2 / (2 R), which JKR and DMT mean by a sphere; `fem_reference.Ball` is the exact one.
+
+    Parameters
+    ----------
+    R : float
+        Radius of the punch.
+    R_solid : float, optional
+        Radius of the solid, if it is a sphere, too: their curvatures add.
+
+    Raises
+    ------
+    ValueError
+        If a radius is not positive and finite.
+
+    Examples
+    --------
+    >>> Sphere(R=1e-6), Sphere(R=4.0, R_solid=4.0)
+    (PowerPunch(n=2.0, Q=1e-06), PowerPunch(n=2.0, Q=2.0))
+    """
+    check_positive("radius R of a sphere", R)
+    if R_solid is not None:
+        check_positive("radius R_solid of a sphere", R_solid)
+        R = R * R_solid / (R + R_solid)
+    return PowerPunch(n=2.0, Q=R)
+
+
+def Cone(half_angle: float) -> PowerPunch:
+    """r / tan(half_angle).
+
+    Parameters
+    ----------
+    half_angle : float
+        In radians, between the axis and the flank; ``math.radians(70)`` for 70 degrees.
+
+    Raises
+    ------
+    ValueError
+        If the angle is not above 0 and below pi/2.
+
+    Examples
+    --------
+    >>> round(float(Cone(half_angle=math.pi / 4).slope(np.array(2.0))), 12)
+    1.0
+    """
+    check_positive("half_angle of a cone", half_angle)
+    if half_angle >= 0.5 * math.pi:
+        raise ValueError(f"half_angle = {half_angle} is outside (0, pi/2): it is in radians, from axis to flank")
+    return PowerPunch(n=1.0, Q=math.tan(half_angle))
 
 
 @dataclass(frozen=True, slots=True)

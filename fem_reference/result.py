@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from fem_reference._contact.uncondensed import UncondensedValue
+from fem_reference._numbers import Arithmetic
 from fem_reference._presentation import with_bound
 
 if TYPE_CHECKING:
@@ -16,9 +17,11 @@ if TYPE_CHECKING:
 __all__ = ["Solution"]
 
 
-@dataclass(frozen=True, slots=True)
-class Solution:
+@dataclass(frozen=True, slots=True, repr=False)
+class Solution(Arithmetic):
     """One quantity, in the units of the input.
+
+    Sums, products and ratios with numbers and with each other are values with a bound; the order is that of the values.
 
     Attributes
     ----------
@@ -40,6 +43,14 @@ class Solution:
         "interior and exterior" (extent of the mesh), "edge" (placement of the contact edge, size of the elements at the
         apex), "tail" (displacement beyond the mesh) and "rounding" (rounding and the error of the conjugate
         gradients, and the difference of `value` from the condensed one).
+    unit : str
+        Of the value if the input is in SI, as "N in SI"; empty where it is not known.
+
+    Examples
+    --------
+    >>> force = Solution(2.5, 3e-9, 100, 3, 0.0, 0.1, (4, 5, 6), (2.4, 2.5, 2.5), unit="N in SI")
+    >>> force, f"{force:.2f}", force > 2.4
+    (Solution(2.500000000 +- 3e-09 N in SI), '2.50', True)
     """
 
     value: float
@@ -51,12 +62,10 @@ class Solution:
     degrees: tuple[int, int, int]
     values: tuple[float, float, float]
     parts: Mapping[str, float] = field(default_factory=dict, hash=False)
+    unit: str = ""
 
-    def __float__(self) -> float:
-        return float(self.value)
-
-    def __str__(self) -> str:
-        return with_bound(self.value, self.u_num)
+    def __repr__(self) -> str:
+        return f"Solution({with_bound(self.value, self.u_num)}{self.unit and ' '}{self.unit})"
 
     def as_ufloat(self) -> UFloat:
         """Return value and bound as a number of the package `uncertainties`, which propagates the bound."""

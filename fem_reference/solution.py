@@ -315,4 +315,5 @@ def _solution(row: Quantity, meshes: EventsOnMeshes) -> Solution:
         check_contact(point.branch.contact.punch, point.edge_radius)
     unknowns = meshes.fine.at(row.events[0]).branch.contact.compliance.unknowns
     u_num = math.fsum(estimate.parts.values())
-    return Solution(estimate.values[-1], u_num, unknowns, 0, 0.0, 0.0, meshes.degrees, estimate.values, estimate.parts)
+    values, parts = estimate.values, estimate.parts
+    return Solution(values[-1], u_num, unknowns, 0, 0.0, 0.0, meshes.degrees, values, parts, row.unit)

@@ -25,7 +25,7 @@ from fem_reference.problem import Problem
 __all__ = ["EVENTS", "EquilibriumPath", "RadialField", "event_state", "profile", "trace"]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class EquilibriumPath(Columns):
     """The equilibrium path; each array has one entry per point.
 
@@ -49,7 +49,7 @@ class EquilibriumPath(Columns):
     edge_radius: Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class RadialField(Columns):
     """The surface at a point of the path.
 

@@ -1,6 +1,7 @@
 """Public names besides solids, punches and laws; `__init__.py` loads a module when one of its names is first used."""
 
 from ._surface.kernel import Phi as Phi, Psi as Psi, ring_response as ring_response
+from ._numbers import BoundedNumber as BoundedNumber
 from .accuracy import ACCURACIES as ACCURACIES
 from ._sensitivity import SENSITIVE as SENSITIVE, ValueSensitivity as ValueSensitivity, sensitivity as sensitivity
 from .analysis import Analysis as Analysis

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from fscm._units import unit_name
+
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
@@ -34,6 +36,13 @@ class Columns:
     _drawn: ClassVar[str]
     # Points whose drawn size is a smaller share of the largest are left out at the end of the picture.
     _least_share: ClassVar[float] = 0.0
+    # Whether the arrays are those of a physical problem.
+    is_physical: bool
+
+    def __repr__(self) -> str:
+        over, drawn = getattr(self, self._over), getattr(self, self._drawn)
+        ranges = (f"{name} {min(y):.4g} to {max(y):.4g}" for name, y in ((self._over, over), (self._drawn, drawn)))
+        return f"{type(self).__name__}({len(over)} points, {', '.join(ranges)})"
 
     def to_frame(self) -> pd.DataFrame:
         """Return the arrays as columns, one row a point, in the units of the problem."""
@@ -47,7 +56,7 @@ class Columns:
         """Draw into axes of matplotlib, new ones by default, and return them.
 
         The load of a path over its displacement; the pressure of a surface over the radius, out to where it has fallen
-        to a thousandth.
+        to a thousandth.  The axes state the unit; numbers are not converted.
         """
         if axes is None:
             from matplotlib import pyplot
@@ -56,5 +65,12 @@ class Columns:
         x, y = getattr(self, self._over), getattr(self, self._drawn)
         end = int(np.flatnonzero(np.abs(y) >= self._least_share * np.abs(y).max())[-1]) + 1
         axes.plot(x[:end], y[:end])
-        axes.set(xlabel=self._over.replace("_", " "), ylabel=self._drawn)
+        axes.set(xlabel=self._label(self._over), ylabel=self._label(self._drawn))
         return axes
+
+    def unit_of(self, name: str) -> str:
+        """Name of the unit of an array; of a physical problem that in SI."""
+        return unit_name({"pressure": "traction"}.get(name, name), is_physical=self.is_physical)
+
+    def _label(self, name: str) -> str:
+        return f"{name.replace('_', ' ')} [{self.unit_of(name)}]"

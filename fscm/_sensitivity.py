@@ -75,11 +75,11 @@ class ValueSensitivity:
         core, unit = problem.dimensionless, problem.units[row.kind]
         if core.k == 1.0:
             self._core = GibsonSolid(core).solution(quantity)
-            self.solution = self._core.times(unit)
+            self.solution = self._core.times(unit, problem.unit_name(row.kind))
             return
         analysis = Analysis(core, Meshes.of(accuracy))
         self._core = analysis.solution(quantity)
-        self.solution = self._core.times(unit)
+        self.solution = self._core.times(unit, problem.unit_name(row.kind))
         state, extremal = analysis.event(row.event).value, EXTREMAL[row.event]
         self._sign = row.sign
         self._rule: Adjoint | AtExtreme

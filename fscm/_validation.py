@@ -41,7 +41,7 @@ def real_number(
     interval = f"{'[' if closed_low else '('}{low:g}, {high:g}{']' if closed_high else ')'}"
     # bool is an int for Python, but never a length or an exponent.
     if isinstance(value, bool) or not isinstance(value, Real):
-        raise ValueError(f"{name} = {value!r} is not a real number in {interval}: {reason}")
+        raise ValueError(f"{name} = {value!r} is not a real number in {interval}: {reason}{_remedy(value)}")
     try:
         number = float(value)
     except OverflowError:
@@ -51,3 +51,10 @@ def real_number(
     if not (above and below and math.isfinite(number)):
         raise ValueError(f"{name} = {value} is outside {interval}: {reason}")
     return number
+
+
+def _remedy(value: object) -> str:
+    """Where a value with a unit or an uncertainty is taken: a text, or a number of pint or uncertainties."""
+    if isinstance(value, str) or hasattr(value, "magnitude") or hasattr(value, "nominal_value"):
+        return "; take plain numbers in one system of units, or pose the problem by comparisons.Problem.of"
+    return ""

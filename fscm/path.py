@@ -21,6 +21,7 @@ from fscm._surface.response import largest_mu
 from fscm._surface.state import State
 from fscm._threads import one_thread
 from fscm._typing import Array
+from fscm._units import DIMENSIONLESS
 from fscm._validation import real_number
 from fscm.accuracy import Accuracy, Meshes
 from fscm.folds import Fold, edge_radius, fold_at, folds_between
@@ -41,7 +42,7 @@ _MAX_POINTS = 5000
 _LARGEST_TURN = 5.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class EquilibriumPath(Columns):
     """The equilibrium path from far separation into contact; all arrays have shape (m,).
 
@@ -61,6 +62,8 @@ class EquilibriumPath(Columns):
     stable_under_displacement, stable_under_load : ndarray of bool
         Whether the state is stable at prescribed displacement, or load; False at the folds where stability ends.  See
         `fscm.stability`.
+    is_physical : bool
+        Whether it is in the units of a physical problem.
 
     Examples
     --------
@@ -84,6 +87,7 @@ class EquilibriumPath(Columns):
     folds: tuple[Fold, ...] = ()
     stable_under_displacement: Mask = field(default_factory=lambda: np.empty(0, np.bool_))
     stable_under_load: Mask = field(default_factory=lambda: np.empty(0, np.bool_))
+    is_physical: bool = False
 
     def in_units(self, units: Mapping[str, float]) -> EquilibriumPath:
         """The path of a dimensionless problem in the units of a physical one."""
@@ -97,6 +101,7 @@ class EquilibriumPath(Columns):
             u_displacement=self.u_displacement * units["displacement"],
             u_load=self.u_load * units["load"],
             folds=tuple(fold.in_units(units) for fold in self.folds),
+            is_physical=units is not DIMENSIONLESS,
         )
 
 

@@ -13,7 +13,7 @@ from typing import Any, overload
 
 from fscm._problem_checks import check_bodies, check_exponents, check_parts, check_tabor_number, checked_numbers
 from fscm._response_factor import response_factor_per_rest
-from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, units_of
+from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, unit_name, units_of
 from fscm.bodies import Bodies, ScaledSolid, power_law_of, scaled
 from fscm.interaction import Interaction, interaction_of
 from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law
@@ -251,6 +251,16 @@ class Problem:
         (Eq. 31); energy: load * displacement; stiffness: load / displacement; energy_per_area: dgamma; number: 1.
         """
         return self._units
+
+    def unit_name(self, kind: str) -> str:
+        """Name of the unit of a kind of quantity, as "z0"; of a physical problem that in SI, as "N in SI".
+
+        Examples
+        --------
+        >>> Problem(n=2, k=0.4, mu=1.0).unit_name("load")
+        'pi Q^(2/n) dgamma z0^(2/n-1)'
+        """
+        return unit_name(kind, is_physical=self._dimensionless is not None)
 
     def under(self, interaction: str | None) -> Problem:
         """The problem with another interaction; itself for None.

@@ -17,7 +17,7 @@ from fscm._typing import Array
 from fscm._validation import real_number
 from fscm.errors import Failure, NotConverged
 
-__all__ = ["Ball", "PowerPunch", "PowerSum", "PunchShape", "RoundedCone"]
+__all__ = ["Ball", "Cone", "PowerPunch", "PowerSum", "PunchShape", "RoundedCone", "Sphere"]
 
 #: Least radius in the search for the unit of radii of a custom shape, and number of bisections: the choice of the unit
 #: changes no result.
@@ -125,6 +125,61 @@ class PowerPunch:
             return np.asarray(r, float) ** (self.n - 1.0) / self.Q
 
 
+def Sphere(R: float, R_solid: float | None = None) -> PowerPunch:
+    """The paraboloid r^2 / (2 R) of a sphere, which JKR and DMT mean by one; `Ball` is the exact sphere.
+
+    Parameters
+    ----------
+    R : float
+        Radius of the sphere, a length > 0.
+    R_solid : float, optional
+        Radius of a spherical solid: the gap is that of a sphere with 1/R + 1/R_solid on a plane.
+
+    Raises
+    ------
+    ValueError
+        When a radius is not a positive finite number.
+
+    Examples
+    --------
+    >>> Sphere(R=1e-6), Sphere(R=4.0, R_solid=4.0)
+    (PowerPunch(n=2.0, Q=1e-06), PowerPunch(n=2.0, Q=2.0))
+    """
+    R = _radius("R", R)
+    if R_solid is None:
+        return PowerPunch(2.0, R)
+    other = _radius("R_solid", R_solid)
+    return PowerPunch(2.0, R * other / (R + other))
+
+
+def Cone(half_angle: float) -> PowerPunch:
+    """The cone r / tan(half_angle).
+
+    Parameters
+    ----------
+    half_angle : float
+        Angle between axis and flank in radians, above 0 and below pi/2; ``math.radians(70)`` for 70 degrees.
+
+    Raises
+    ------
+    ValueError
+        When the angle is outside its range.
+
+    Examples
+    --------
+    >>> round(float(Cone(half_angle=math.pi / 4).height(np.array(3.0))), 12)
+    3.0
+    """
+    half_angle = real_number(
+        "half_angle", half_angle, low=0.0, high=0.5 * math.pi, reason="it is that between axis and flank in radians"
+    )
+    return PowerPunch(1.0, math.tan(half_angle))
+
+
+def _radius(name: str, value: object) -> float:
+    return real_number(f"radius {name}", value, low=0.0, high=math.inf, reason="it is a positive quantity")
+
+
 @dataclass(frozen=True, slots=True)
 class Ball:
     """An exact sphere f(r) = R - sqrt(R^2 - r^2); `PowerPunch(2, R)` is the paraboloid with the same curvature.
@@ -151,8 +206,7 @@ class Ball:
     R: float
 
     def __post_init__(self) -> None:
-        R = real_number("radius R", self.R, low=0.0, high=math.inf, reason="it is a positive quantity")
-        object.__setattr__(self, "R", R)
+        object.__setattr__(self, "R", _radius("R", self.R))
 
     def unit_of_radii(self, z0: float) -> tuple[float, float]:
         """n and Q of the paraboloid of the tip."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from fscm._numbers import Arithmetic
 from fscm._presentation import with_bound
 from fscm._surface.state import State
 
@@ -89,9 +90,11 @@ class Parts(Mapping[str, float]):
 _CAUSES = tuple(field.name for field in fields(Parts))
 
 
-@dataclass(frozen=True)
-class Solution:
+@dataclass(frozen=True, repr=False)
+class Solution(Arithmetic):
     """A number with its numerical uncertainty.
+
+    Sums, products and ratios with numbers and with each other are values with a bound; the order is that of the values.
 
     Attributes
     ----------
@@ -106,6 +109,9 @@ class Solution:
     residual : float
         Largest residual relative to 1 + |H| before the last Newton step.
     seconds : float
+    unit : str
+        What the value is measured in: of a dimensionless problem a scale, as "z0"; of a physical one "N in SI", or
+        what corresponds to it in the units of the problem; empty where it is not known.
 
     Examples
     --------
@@ -118,10 +124,13 @@ class Solution:
 
     It prints as value and bound, and is a number where one is asked:
 
-    >>> print(Solution(1.788481710, Parts(mesh=2e-9), size=9, iterations=3, residual=0.0, seconds=0.1))
-    1.788481710 +- 2e-09
-    >>> float(Solution(1.5, Parts(), size=9, iterations=3, residual=0.0, seconds=0.1))
-    1.5
+    >>> force = Solution(1.788481710, Parts(mesh=2e-9), size=9, iterations=3, residual=0.0, seconds=0.1, unit="N")
+    >>> force
+    Solution(1.788481710 +- 2e-09 N)
+    >>> print(force, f"{force:.3f}", force > 1.7, 2 * force)
+    1.788481710 +- 2e-09 1.788 True 3.576963420 +- 4e-09
+    >>> float(force)
+    1.78848171
     >>> solution.as_ufloat().std_dev == solution.u_num
     True
     """
@@ -132,17 +141,15 @@ class Solution:
     iterations: int
     residual: float
     seconds: float
+    unit: str = ""
 
     @property
     def u_num(self) -> float:
         """Bound on the error of the value: the sum of the parts."""
         return self.parts.total
 
-    def __float__(self) -> float:
-        return float(self.value)
-
-    def __str__(self) -> str:
-        return with_bound(self.value, self.u_num)
+    def __repr__(self) -> str:
+        return f"Solution({with_bound(self.value, self.u_num)}{self.unit and ' '}{self.unit})"
 
     def as_ufloat(self) -> UFloat:
         """Return value and bound as a number of the package `uncertainties`, which propagates the bound."""
@@ -150,15 +157,15 @@ class Solution:
 
         return ufloat(self.value, self.u_num)
 
-    def times(self, unit: float) -> Solution:
-        """The solution multiplied by the unit of a dimensionless value.
+    def times(self, factor: float, unit: str = "") -> Solution:
+        """The solution multiplied by the unit of a dimensionless value, whose name it gets.
 
         Examples
         --------
         >>> Solution(2.0, Parts(mesh=1e-12), size=9, iterations=3, residual=0.0, seconds=0.1).times(0.5).value
         1.0
         """
-        return replace(self, value=self.value * unit, parts=self.parts.times(unit))
+        return replace(self, value=self.value * factor, parts=self.parts.times(factor), unit=unit)
 
 
 @dataclass(frozen=True, eq=False)

@@ -68,8 +68,9 @@ def solve(
     27.066203
     """
     problem = _posed(problem).under(interaction)
-    unit = problem.units[quantity_named(quantity).kind]
-    return _model(problem.dimensionless, accuracy).solution(quantity).times(unit)
+    kind = quantity_named(quantity).kind
+    solution = _model(problem.dimensionless, accuracy).solution(quantity)
+    return solution.times(problem.units[kind], problem.unit_name(kind))
 
 
 def _posed(problem: object) -> Problem:
@@ -118,12 +119,12 @@ def solve_together(
     if isinstance(quantities, str):
         raise ValueError(f"quantities = {quantities!r} is one name: give several as a list, or call solve for one")
     problem = _posed(problem).under(interaction)
-    units = {name: problem.units[quantity_named(name).kind] for name in quantities}
+    kinds = {name: quantity_named(name).kind for name in quantities}
     model = _model(problem.dimensionless, accuracy)
     solutions: dict[str, Solution | NoSuchEvent] = {}
-    for name, unit in units.items():
+    for name, kind in kinds.items():
         try:
-            solutions[name] = model.solution(name).times(unit)
+            solutions[name] = model.solution(name).times(problem.units[kind], problem.unit_name(kind))
         except NoSuchEvent as missing:
             solutions[name] = missing
     return solutions

@@ -16,6 +16,7 @@ from fscm._presentation import Columns
 from fscm._surface.state import State
 from fscm._threads import one_thread
 from fscm._typing import Array
+from fscm._units import DIMENSIONLESS
 from fscm.accuracy import Accuracy, Meshes
 from fscm.analysis import Analysis
 from fscm.folds import edge_radius
@@ -44,7 +45,7 @@ _NEAR = 1e-2
 _SPACING = 1e-4
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RadialField(Columns):
     """Gap, pressure and deformation over the radius at one state; arrays of shape (m,), in the units of the problem.
 
@@ -67,6 +68,7 @@ class RadialField(Columns):
     deformation: Array
     displacement: float
     load: float
+    is_physical: bool = False
 
     def in_units(self, units: Mapping[str, float]) -> RadialField:
         """The surface of a dimensionless problem in the units of a physical one."""
@@ -77,6 +79,7 @@ class RadialField(Columns):
             self.deformation * units["displacement"],
             self.displacement * units["displacement"],
             self.load * units["load"],
+            units is not DIMENSIONLESS,
         )
 
 

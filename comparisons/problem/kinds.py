@@ -146,12 +146,6 @@ def _tabulated_modulus(solver: ModuleType, solid: Section, **keywords: float) ->
     return solver.TabulatedModulus(solid.columns["z"], solid.columns["E"], ratios, **keywords)
 
 
-def _paraboloid(solver: ModuleType, punch: Section) -> Any:
-    """The gap of two spheres is that of a sphere and a plane whose curvature is the sum."""
-    R, R_solid = punch["R"], punch.get("R_solid")
-    return solver.PowerPunch(2.0, R if R_solid is None else R * R_solid / (R + R_solid))
-
-
 def _profile(solver: ModuleType, punch: Section) -> Any:
     radii, heights, growth = punch.columns["r"], punch.columns["height"], punch.get("growth", 2.0)
     if "smoothing" in punch.values:
@@ -173,8 +167,7 @@ def _tabulated_law(solver: ModuleType, law: Section) -> Any:
 _BUILDERS: dict[str, Callable[..., Any]] = {
     "solid.coating": _coating,
     "solid.table": _tabulated_modulus,
-    "punch.sphere": _paraboloid,
-    "punch.cone": lambda solver, punch: solver.PowerPunch(1.0, math.tan(punch["half_angle"])),
+    "punch.sphere": lambda solver, punch: solver.Sphere(punch["R"], punch.get("R_solid")),
     "punch.rounded-cone": lambda solver, punch: solver.RoundedCone(punch["R"] * punch["slope"], punch["slope"]),
     "punch.rounded-flat": lambda solver, punch: RoundedFlat(punch["flat_radius"], punch["R"]),
     "punch.table": _profile,

@@ -40,6 +40,11 @@ class Quantity:
     addends: tuple[str, ...] = ()
 
     @property
+    def unit(self) -> str:
+        """The unit of a problem in SI."""
+        return {"force": "N", "length": "m", "energy": "J", "modulus": "Pa"}[self.kind] + " in SI"
+
+    @property
     def events(self) -> tuple[str, ...]:
         """The events that it needs."""
         return tuple(dict.fromkeys(term.event for term in self.terms))

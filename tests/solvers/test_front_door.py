@@ -1,17 +1,23 @@
 """What both solvers say of a result, and of an argument that is none."""
 
+import operator
 from fractions import Fraction
-from math import isclose
+from math import isclose, radians, tan
 
 import numpy as np
 import pandas as pd
+import pint
 import pytest
 from matplotlib.figure import Figure
+from uncertainties import ufloat
 
 import comparisons
 import fem_reference
 import fscm
+from fscm.solution import Parts
 from tests.refusals import refused
+
+ureg = pint.UnitRegistry()
 
 FSCM = fscm.Problem(n=2, k=0.4, mu=1)
 FEM = fem_reference.Problem(
@@ -26,6 +32,84 @@ def test_a_solution_is_a_number_and_prints_its_bound(solver, problem):
     assert float(solution) == solution.value
     assert abs(value - solution.value) <= solution.u_num
     assert isclose(bound, solution.u_num, rel_tol=0.5)
+
+
+def solution_of(solver, value, u_num, unit=""):
+    """A solution of a solver with a value and a bound."""
+    if solver is fscm:
+        return fscm.Solution(value, Parts(mesh=u_num), 9, 3, 0.0, 0.1, unit)
+    return fem_reference.Solution(value, u_num, 9, 3, 0.0, 0.1, (4, 5, 6), (value,) * 3, unit=unit)
+
+
+@pytest.mark.parametrize("solver", [fscm, fem_reference], ids=["fscm", "fem"])
+def test_a_solution_is_formatted_and_shown_with_its_unit(solver):
+    solution = solution_of(solver, 1.78848171, 2e-8, "z0")
+    assert f"{solution:.3f}" == "1.788"
+    assert f"{solution}" == str(solution)
+    assert repr(solution) == "Solution(1.78848171 +- 2e-08 z0)"
+    for operation in (lambda a: a + "x", lambda a: a * None, lambda a: a < "x"):
+        with pytest.raises(TypeError):
+            operation(solution)
+
+
+#: Operations and values of two operands; the second is not zero within its bound.
+OPERATIONS = [operator.add, operator.sub, operator.mul, operator.truediv]
+
+
+@pytest.mark.parametrize("solver", [fscm, fem_reference], ids=["fscm", "fem"])
+@pytest.mark.parametrize("operation", OPERATIONS, ids=lambda operation: operation.__name__)
+@pytest.mark.parametrize(
+    ("first", "second"), [((1.5, 0.1), (2.0, 0.3)), ((-3.0, 0.5), (0.7, 0.2)), ((0.0, 0.1), (-1.0, 0.0))]
+)
+def test_the_bound_of_a_result_holds_and_is_reached(solver, operation, first, second):
+    """At every combination of the ends of both operands, by exact fractions."""
+    result = operation(solution_of(solver, *first), solution_of(solver, *second))
+    assert result.value == operation(first[0], second[0])
+    (a, ua), (b, ub) = (map(Fraction, operand) for operand in (first, second))
+    ends = [operation(a + s * ua, b + t * ub) for s in (-1, 1) for t in (-1, 1)]
+    worst = max(abs(end - Fraction(result.value)) for end in ends)
+    assert worst <= Fraction(result.u_num) <= worst * Fraction(101, 100) + Fraction(1e-15)
+    # A plain number is exact, on either side.
+    for a, b in ((solution_of(solver, *first), second[0]), (first[0], solution_of(solver, *second))):
+        assert operation(a, b).value == operation(float(a), float(b))
+        assert operation(a, b).u_num <= result.u_num
+
+
+def test_solutions_of_both_solvers_combine_and_compare():
+    a, b = solution_of(fscm, 2.0, 0.01), solution_of(fem_reference, 1.9, 0.02)
+    assert (a - b).u_num == pytest.approx(0.03)
+    assert (b / a).value == 0.95
+    assert (a > b, b <= a, a < 1.0, a <= 2.0, max(a, b) is a) == (True, True, False, True, True)
+    assert (float(-a), float(abs(-a)), (-a).u_num) == (-2.0, 2.0, 0.01)
+    with pytest.raises(ZeroDivisionError):
+        1.0 / solution_of(fscm, 0.01, 0.02)
+
+
+def test_a_solution_states_its_unit():
+    physical = FSCM.in_units(c0=1e-6, nu=0.3, Q=1e-6, work_of_adhesion=0.05, z0=3e-10)
+    for problem, units in ((FSCM, ("pi Q^(2/n) dgamma z0^(2/n-1)", "z0")), (physical, ("N in SI", "m in SI"))):
+        solutions = fscm.solve_together(problem, ["pull_off_force", "pull_off_displacement"], "quick")
+        assert tuple(solution.unit for solution in solutions.values()) == units
+    assert fem_reference.solve(FEM, "pull_off_force", "quick").unit == "N in SI"
+
+
+@pytest.mark.parametrize("solver", [fscm, fem_reference], ids=["fscm", "fem"])
+def test_spheres_and_cones_are_power_laws(solver):
+    assert solver.Sphere(3.0) == solver.PowerPunch(2.0, 3.0)
+    assert pytest.approx(2.0) == solver.Sphere(3.0, R_solid=6.0).Q
+    assert solver.Cone(radians(70.0)).height(np.array(1.0)) == pytest.approx(1.0 / tan(radians(70.0)))
+    refused("radius R", solver.Sphere, -1.0)
+    refused("R_solid", solver.Sphere, 1.0, 0.0)
+    for angle in (0.0, 70.0, None):
+        refused("half_angle", solver.Cone, angle)
+
+
+@pytest.mark.parametrize("solver", [fscm, fem_reference], ids=["fscm", "fem"])
+@pytest.mark.parametrize(
+    "value", ["2 um", ureg.Quantity(2.0, "um"), ufloat(2e-6, 1e-7)], ids=["text", "pint", "ufloat"]
+)
+def test_a_value_with_a_unit_is_led_to_where_it_is_taken(solver, value):
+    refused("comparisons.Problem.of", solver.Sphere, value)
 
 
 @pytest.mark.parametrize(("solver", "problem"), [(fscm, FSCM), (fem_reference, FEM)], ids=["fscm", "fem"])
@@ -43,6 +127,10 @@ def test_paths_and_surfaces_are_tables_and_pictures(solver, problem):
     axes = Figure().add_subplot()
     (line,) = path.plot(axes).lines
     assert line.get_ydata().min() == path.load.min()
+    units = ("z0", "pi Q^(2/n) dgamma z0^(2/n-1)") if solver is fscm else ("m in SI", "N in SI")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == (f"displacement [{units[0]}]", f"load [{units[1]}]")
+    assert len(repr(path)) < 120
+    assert len(repr(surface)) < 120
     assert surface.to_frame()["gap"].equals(pd.Series(surface.gap, name="gap"))
     (line,) = surface.plot(Figure().add_subplot()).lines
     assert line.get_ydata().min() == surface.pressure.min()
