@@ -31,6 +31,7 @@ _EXPORTS = {
     "evaluate": "comparisons.runs.tasks",
     "errors": "comparisons.pipeline.compare",
     "compare": "comparisons.pipeline.compare",
+    "sensitivity": "comparisons.description.uncertainty",
     "fit": "comparisons.fitting.fit",
     "run": "comparisons.pipeline.run",
     "judge": "comparisons.judging.judge",

@@ -8,16 +8,41 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from fscm._units import unit_name
-
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
-__all__ = ["Columns", "with_bound"]
+__all__ = ["Columns", "unit_name", "with_bound"]
 
 #: Significant digits of a number without a bound: all of them.
 _ALL_DIGITS = 17
+
+
+#: Names of the units of a dimensionless problem, and in SI, by kind of quantity.
+_SCALES = {
+    "displacement": ("z0", "m"),
+    "gap": ("z0", "m"),
+    "radius": ("(Q z0)^(1/n)", "m"),
+    "traction": ("dgamma / z0", "Pa"),
+    "load": ("pi Q^(2/n) dgamma z0^(2/n-1)", "N"),
+    "energy": ("pi Q^(2/n) dgamma z0^(2/n)", "J"),
+    "stiffness": ("pi Q^(2/n) dgamma z0^(2/n-2)", "N/m"),
+    "energy_per_area": ("dgamma", "J/m^2"),
+}
+
+
+def unit_name(kind: str, *, is_physical: bool) -> str:
+    """Name of the unit of a kind of quantity.
+
+    Examples
+    --------
+    >>> unit_name("gap", is_physical=False), unit_name("load", is_physical=True), unit_name("number", is_physical=True)
+    ('z0', 'N in SI', '1')
+    """
+    if kind == "number":
+        return "1"
+    scale, si = _SCALES[kind]
+    return f"{si} in SI" if is_physical else scale
 
 
 def with_bound(value: float, u_num: float) -> str:

@@ -18,7 +18,6 @@ __all__ = [
     "log_tabor_number",
     "modulus_for",
     "number_from_log",
-    "unit_name",
     "units_of",
 ]
 
@@ -29,38 +28,6 @@ _KINDS = ("displacement", "gap", "radius", "traction", "load", "energy", "stiffn
 
 #: Units of a dimensionless problem: each is one.
 DIMENSIONLESS: Mapping[str, float] = MappingProxyType(dict.fromkeys(_KINDS, 1.0))
-
-
-#: Name of the unit of each kind in a dimensionless problem, and in one in SI.
-_SCALES: Mapping[str, str] = MappingProxyType(
-    {
-        "displacement": "z0",
-        "gap": "z0",
-        "radius": "(Q z0)^(1/n)",
-        "traction": "dgamma / z0",
-        "load": "pi Q^(2/n) dgamma z0^(2/n-1)",
-        "energy": "pi Q^(2/n) dgamma z0^(2/n)",
-        "stiffness": "pi Q^(2/n) dgamma z0^(2/n-2)",
-        "energy_per_area": "dgamma",
-        "number": "1",
-    }
-)
-_SI: Mapping[str, str] = MappingProxyType(
-    dict(zip(_KINDS, ("m", "m", "m", "Pa", "N", "J", "N/m", "J/m^2", "1"), strict=True))
-)
-
-
-def unit_name(kind: str, *, is_physical: bool) -> str:
-    """Name of the unit of a kind of quantity.
-
-    Examples
-    --------
-    >>> unit_name("gap", is_physical=False), unit_name("load", is_physical=True), unit_name("number", is_physical=True)
-    ('z0', 'N in SI', '1')
-    """
-    if not is_physical or kind == "number":
-        return _SCALES[kind]
-    return f"{_SI[kind]} in SI"
 
 
 def number_from_log(name: str, log: float) -> float:

@@ -11,9 +11,10 @@ from dataclasses import dataclass, field, replace
 from numbers import Number
 from typing import Any, overload
 
+from fscm._presentation import unit_name
 from fscm._problem_checks import check_bodies, check_exponents, check_parts, check_tabor_number, checked_numbers
 from fscm._response_factor import response_factor_per_rest
-from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, unit_name, units_of
+from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, units_of
 from fscm.bodies import Bodies, ScaledSolid, power_law_of, scaled
 from fscm.interaction import Interaction, interaction_of
 from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law

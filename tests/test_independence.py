@@ -52,7 +52,7 @@ ALLOWED = {
 #: First layer to last: the modules and folders of each package.  A module imports from its own layer and those before.
 LAYERS = {
     "fscm": (
-        ("errors", "_typing", "_threads", "_validation", "_presentation", "_response_factor", "_law_curve"),
+        ("errors", "_typing", "_threads", "_validation", "_presentation", "_numbers", "_response_factor", "_law_curve"),
         ("laws", "tabulated_law", "dlvo", "wells", "punch", "custom_punch", "measured_punch"),
         ("_whole_punch", "_chebyshev_tree", "_potential", "_potential_table"),
         ("_ball_under_law", "_ball", "_body_of_revolution", "_curved_face", "interaction"),
@@ -70,7 +70,7 @@ LAYERS = {
         ("experiment", "states", "solver", "_sensitivity"),
     ),
     "fem_reference": (
-        ("_typing", "_threads", "_validation", "_presentation", "errors", "_law_between_points"),
+        ("_typing", "_threads", "_validation", "_presentation", "_numbers", "errors", "_law_between_points"),
         ("modulus", "poisson", "depth_profiles", "modulus_checks", "solids", "neo_hookean"),
         ("punch", "profiles", "laws", "_wells", "tabulated_law", "dlvo"),
         ("_azimuth", "_face", "_vertical_line", "_ball_under_law", "_curved_face", "_body_of_revolution"),

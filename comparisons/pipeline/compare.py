@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -86,11 +87,11 @@ def compare(
     *,
     problem: Path | None = None,
     vary: Sequence[str] = (),
-    n: Sequence[float] | None = None,
-    k: Sequence[float] | None = None,
-    mu: Sequence[float] | None = None,
-    nu: Sequence[float] | None = None,
-    quantities: Sequence[str] = ("pull_off_force",),
+    n: float | Sequence[float] | None = None,
+    k: float | Sequence[float] | None = None,
+    mu: float | Sequence[float] | None = None,
+    nu: float | Sequence[float] | None = None,
+    quantities: str | Sequence[str] = ("pull_off_force",),
     reference: str | None = None,
     folder: Path | None = None,
     jobs: int = 1,
@@ -107,11 +108,11 @@ def compare(
         A problem file in place of a grid.
     vary : sequence of str
         Values of its keys, as ``"solid.thickness=5, 10 nm"``: every combination is a case.
-    n, k, mu : sequence of float
+    n, k, mu : float or sequence of float
         Without a grid or a file: every combination is a case.
-    nu : sequence of float, optional
+    nu : float or sequence of float, optional
         Poisson's ratios, for models that need one.
-    quantities : sequence of str
+    quantities : str or sequence of str
         Numbers, not curves, as in `comparisons.quantities.QUANTITIES`.
     reference : str, optional
         A model: "fscm" by default; "atlas" takes microseconds and has no value outside its range.
@@ -131,7 +132,7 @@ def compare(
     --------
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
-    ...     compared = compare(["jkr", "bradley"], n=[2], k=[0], mu=[1], reference="atlas", folder=Path(folder))
+    ...     compared = compare(["jkr", "bradley"], n=2, k=0, mu=1, reference="atlas", folder=Path(folder))
     >>> compared.table[["model", "kappa"]].round(4).values.tolist()
     [['jkr', -0.1022], ['bradley', 0.1971]]
     """
@@ -139,8 +140,9 @@ def compare(
     specs = [*named] if ALL not in named else [*(spec for spec in named if spec != ALL), *COMPARABLE]
     if not specs:
         raise ValueError("no model is named; a comparison needs at least one")
-    numbers = {"n": n, "k": k, "mu": mu, "nu": nu}
-    cases = _cases(grid, problem, vary, numbers, quantities, reference)
+    numbers = {name: _several(values) for name, values in {"n": n, "k": k, "mu": mu, "nu": nu}.items()}
+    asked = [quantities] if isinstance(quantities, str) else list(quantities)
+    cases = _cases(grid, problem, vary, numbers, asked, reference)
     _check(cases, specs)
     with running(cases, models=specs, folder=folder, jobs=jobs) as finished:
         table = comparison_table(finished.tables.results, finished.inputs.cases.grids, finished.inputs.models)
@@ -154,6 +156,13 @@ def compare(
         # With the checksums of these files.
         write_record(read_record(finished.folder / RECORD), finished.folder / RECORD)
     return comparison
+
+
+def _several(values: float | Sequence[float] | None) -> list[float] | None:
+    """Several numbers, or a single one as a list of one."""
+    if values is None:
+        return None
+    return [values] if isinstance(values, Real) else list(values)  # type: ignore[list-item,arg-type]  # a Real is a float here
 
 
 def _cases(

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.data.validation import known_name, shown
-from comparisons.problem.kinds import KINDS, PUNCH_SOLID, Form, Kind
+from comparisons.problem.kinds import KINDS, PUNCH_SOLID, Form, Kind, absent
 from comparisons.problem.uncertain import Uncertainty, uncertain_in_si
-from comparisons.problem.units import NotAValue, in_si
+from comparisons.problem.units import NotAValue, in_si, magnitude_in_si
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,10 +61,12 @@ def kind_of(section: str, table: object, source: Source) -> Kind:
     if "kind" not in table:
         raise source.refusal(f"{section}: kind missing; it is one of {', '.join(KINDS[section])}", section)
     name = str(table["kind"])
+    if name not in KINDS[section] and (remedy := absent(name)):
+        raise source.refusal(f"{section}.kind = {shown(name)}: {remedy}", section, "kind")
     known_name(f"{section}.kind", name, KINDS[section], source.place(section, "kind"))
     kind = KINDS[section][name]
     for key in table:
-        if key not in ("kind", *kind.keys) and (reason := _of_another(section, name, key)):
+        if key not in ("kind", *kind.keys) and (reason := _of_another(section, name, key) or absent(key)):
             raise source.refusal(f"{section}.{key}: {reason}", section, key)
         known_name("key", key, ["kind", *kind.keys], f"{source.place(section, key)}: {section}")
     if missing := [key for key in kind.required if key not in table]:
@@ -146,7 +148,8 @@ def _word(written: object, form: Form) -> str:
 def _value(written: object, form: Form, power: float) -> tuple[float, Uncertainty | None]:
     """A value in SI, with its uncertainty if it has one; `NotAValue` if it is not admissible."""
     unit = form.unit.removesuffix("^(n-1)")
-    uncertain = uncertain_in_si(written, unit, power) if isinstance(written, str) else None
+    written = magnitude_in_si(written, unit, power)
+    uncertain = uncertain_in_si(written, unit, power)
     if uncertain and not form.is_uncertain:
         raise NotAValue("has an uncertainty, which is not admissible here")
     if isinstance(written, str) and not unit and not uncertain:

@@ -8,6 +8,7 @@ are not the arguments of a class in both solvers.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import ModuleType
@@ -207,6 +208,18 @@ KINDS = {name: _kinds(name, name) for name in SECTIONS} | {PUNCH_SOLID: _kinds(P
 
 #: What every solid may state, besides its elasticity, of its surface.
 SURFACE_KEYS = tuple(_TABLES["every"]["solid"]["keys"])
+
+
+def absent(name: str) -> str:
+    """Return what to do about physics that no kind has, if a name of a section, a key or a kind is of it; else nothing.
+
+    Examples
+    --------
+    >>> absent("solid_temperature").partition(":")[0], absent("E0")
+    ('nothing here depends on a temperature', '')
+    """
+    words = {name, *re.split(r"[-_ ]", name)}
+    return next((str(row["remedy"]) for row in _TABLES["absent"] if words & {*row["words"]}), "")
 
 
 def kind_rows() -> Iterator[dict[str, str]]:

@@ -154,6 +154,49 @@ class Problem:
 
         return load_problem(path)
 
+    @classmethod
+    def of(
+        cls,
+        solid: Mapping[str, Any],
+        punch: Mapping[str, Any],
+        law: Mapping[str, Any],
+        punch_solid: Mapping[str, Any] | None = None,
+        *,
+        folder: str | os.PathLike[str] = "",
+    ) -> Problem:
+        """Return the problem of the sections of a problem file, written in Python.
+
+        Parameters
+        ----------
+        solid, punch, law : mapping
+            The kind and its keys, as in a problem file (``fscm-bench list kinds``).  A value is a text with a unit, as
+            "2 GPa" or "2 +- 0.1 GPa", a plain number in SI, a quantity of `pint`, or a number of `uncertainties`, in
+            SI or as the magnitude of a quantity.
+        punch_solid : mapping, optional
+            The solid of an elastic punch.
+        folder : path
+            That of the tables which a section names; by default the current one.
+
+        Raises
+        ------
+        ValueError
+            One sentence with key, value and remedy.
+
+        Examples
+        --------
+        >>> bead = Problem.of(
+        ...     solid={"kind": "homogeneous", "E": "1.5 MPa", "nu": 0.49},
+        ...     punch={"kind": "sphere", "R": "5 um"},
+        ...     law={"kind": "lennard-jones-9-3", "work_of_adhesion": "50 mJ/m^2", "z0": "3 nm"},
+        ... )
+        >>> bead["solid.E"], round(bead.mu, 2)
+        (1500000.0, 49.16)
+        """
+        from comparisons.problem.reading import problem_of_sections
+
+        sections = {"solid": solid, "punch": punch, "law": law}
+        return problem_of_sections(sections if punch_solid is None else sections | {PUNCH_SOLID: punch_solid}, folder)
+
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Problem) and (self.digest, self.key) == (other.digest, other.key)
 
@@ -231,6 +274,16 @@ class Problem:
         """What is uncertain, by names such as "solid.E0"."""
         sections = self._sections.items()
         return {f"{name}.{key}": spread for name, section in sections for key, spread in section.uncertain.items()}
+
+    @property
+    def numbers_of_sections(self) -> list[str]:
+        """Names such as "solid.E0" of the keys whose value is one number."""
+        return [
+            f"{name}.{key}"
+            for name, section in self._sections.items()
+            for key, value in section.values.items()
+            if isinstance(value, float)
+        ]
 
     def form(self, name: str) -> Form:
         """Return what the table of kinds states of a key, as "solid.E0", or of the list of an entry."""

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from numbers import Real
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 import fscm
 from comparisons.data.contained_paths import path_inside
@@ -14,7 +18,7 @@ from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, shown
 from comparisons.problem.columns import read_columns
 from comparisons.problem.form import Source, kind_of, values_in_si
-from comparisons.problem.kinds import KINDS, PUNCH_SOLID, SECTIONS
+from comparisons.problem.kinds import KINDS, PUNCH_SOLID, SECTIONS, absent
 from comparisons.problem.problem import Problem, Section
 from fscm.punch import unit_of_radii
 
@@ -50,6 +54,38 @@ def load_problem(path: str | os.PathLike[str]) -> Problem:
     return problem_of(*document_of(path))
 
 
+def problem_of_sections(sections: Mapping[str, Any], folder: str | os.PathLike[str] = "") -> Problem:
+    """Return the problem of sections that are written in Python; their tables are in a folder.
+
+    Raises
+    ------
+    ValueError
+        As `load_problem`.
+
+    Examples
+    --------
+    >>> sections = {"solid": {"kind": "homogeneous", "E": "2 nm", "nu": 0.3}, "punch": {}, "law": {}}
+    >>> problem_of_sections(sections)  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    ValueError: problem: solid.E = '2 nm' has the unit nm, which is not one of Pa; it must be a positive modulus, ...
+    """
+    document = {name: _as_written(section) for name, section in sections.items()}
+    return replace(problem_of(document, Source(Path(folder) / "problem", "")), path=None)
+
+
+def _as_written(section: object) -> object:
+    """A section whose values are those of a file: lists for tuples and arrays, and numbers for those of NumPy."""
+    if not isinstance(section, Mapping):
+        return section
+    return {key: _plain(value) for key, value in section.items()}
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, tuple | np.ndarray):
+        return [_plain(entry) for entry in value]
+    return float(value) if isinstance(value, Real) and not isinstance(value, bool | int | float) else value
+
+
 def document_of(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Source]:
     """Return the sections of a problem file as they are written, and its text.
 
@@ -71,6 +107,8 @@ def problem_of(document: Mapping[str, Any], source: Source) -> Problem:
         As `load_problem`.
     """
     for name in document:
+        if name not in KINDS and (remedy := absent(name) or next(filter(None, map(absent, _keys(document[name]))), "")):
+            raise source.refusal(f"section {shown(name)}: {remedy}", name)
         known_name("section", name, KINDS, source.place(name))
     if missing := [name for name in SECTIONS if name not in document]:
         raise ValueError(f"{source.path}: {', '.join(missing)} missing; a problem file has {', '.join(SECTIONS)}")
@@ -87,6 +125,10 @@ def problem_of(document: Mapping[str, Any], source: Source) -> Problem:
         )
     _check_scales(problem, source)
     return problem
+
+
+def _keys(section: object) -> Iterable[str]:
+    return section if isinstance(section, Mapping) else ()
 
 
 def _section(name: str, table: Mapping[str, Any], source: Source) -> Section:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from uncertainties import ufloat_fromstr
+from uncertainties import UFloat, ufloat_fromstr
 
 from comparisons.problem.units import NUMBER, NotAValue, in_si
 
@@ -45,12 +45,13 @@ class Uncertainty:
         return value - self.size, value + self.size
 
 
-def uncertain_in_si(text: str, target: str, power: float = 1.0) -> tuple[float, Uncertainty] | None:
+def uncertain_in_si(text: object, target: str, power: float = 1.0) -> tuple[float, Uncertainty] | None:
     """Return the value of a text with an uncertainty, in SI; that of an interval is its middle.
 
     Parameters
     ----------
-    text : str
+    text : str or UFloat
+        A number of `uncertainties`, in SI, or a text:
         ``2 +- 0.1 GPa``, ``(2 +- 0.1) GPa``, ``2 GPa +- 100 MPa``, ``2 GPa +- 5 %``, ``2 +- 5 % GPa``, ``2.0(1) GPa``
         (standard deviations) or ``[1.8, 2.2] GPa``; without a unit for a plain number.  The sign may be ``±`` or
         ``+/-``.
@@ -62,7 +63,7 @@ def uncertain_in_si(text: str, target: str, power: float = 1.0) -> tuple[float, 
     Returns
     -------
     tuple or None
-        None for a text of another form.
+        None for a text of another form, and for any other number.
 
     Raises
     ------
@@ -76,6 +77,12 @@ def uncertain_in_si(text: str, target: str, power: float = 1.0) -> tuple[float, 
     >>> uncertain_in_si("2 GPa", "Pa") is None
     True
     """
+    if isinstance(text, UFloat):
+        if not text.std_dev > 0.0:
+            raise NotAValue("has a standard deviation that is not above 0")
+        return float(text.nominal_value), Uncertainty(float(text.std_dev), False, f"{text} {target}".strip())
+    if not isinstance(text, str):
+        return None
     if interval := _INTERVAL.fullmatch(text):
         low, high = (_si(number, interval[3], target, power) for number in interval.groups()[:2])
         if not low < high:

@@ -77,6 +77,34 @@ def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
     return float(registry.Quantity(1.0, source_unit).to(aim).magnitude)
 
 
+def magnitude_in_si(value: object, target: str, power: float = 1.0) -> object:
+    """Return the magnitude of a quantity of `pint` in SI; anything else as it is.
+
+    Parameters
+    ----------
+    value : object
+        A quantity of any registry has `magnitude` and `m_as`.
+    target, power
+        As for `in_si`.
+
+    Raises
+    ------
+    NotAValue
+        If it has another dimension.
+
+    Examples
+    --------
+    >>> magnitude_in_si("2 GPa", "Pa"), magnitude_in_si(_registry().Quantity(2.0, "GPa"), "Pa")
+    ('2 GPa', 2000000000.0)
+    """
+    if not (hasattr(value, "magnitude") and hasattr(value, "m_as")):
+        return value
+    try:
+        return value.m_as(f"({target})**{round(power, _DIGITS)}" if target else "dimensionless")
+    except Exception:  # that of pint is of the version of the quantity
+        raise NotAValue(f"has another unit than {target or 'none'}") from None
+
+
 def in_si(value: object, target: str, power: float = 1.0) -> float:
     """Return a value in SI.
 

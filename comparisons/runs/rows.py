@@ -10,6 +10,7 @@ from typing import Any
 from comparisons.model import Effort
 from comparisons.numerics.number_text import case_text, short
 from comparisons.problem import PARAMETERS
+from comparisons.problem.units import si_text
 
 #: Columns that identify a problem: n, k, mu, nu and its name (empty for a dimensionless one).
 CASE = (*PARAMETERS, "problem")
@@ -75,9 +76,18 @@ class Row(Effort):
             raise ValueError(f"{self.model} has no {self.quantity}: {self.reason}")
         return self.value
 
+    def __format__(self, spec: str) -> str:
+        return format(float(self), spec) if spec else str(self)
+
     def __str__(self) -> str:
-        value = self.reason if self.value is None else f"{short(self.value, self.u_num)} {self.unit}"
+        value = self.reason if self.value is None else self._value_text(self.value)
         return f"{self.model}, {self.quantity}: {value}"
+
+    def _value_text(self, value: float) -> str:
+        # In SI with a prefix; the units of the paper have none.
+        if self.problem:
+            return si_text(value, self.u_num or 0.0, self.unit)
+        return f"{short(value, self.u_num)} {self.unit}"
 
     @property
     def numbers(self) -> dict[str, Any]:

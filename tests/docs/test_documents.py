@@ -113,6 +113,15 @@ def test_the_python_of_the_tutorial_prints_the_numbers_of_its_comments(tmp_path,
         assert f"{float(number):.{digits}g}" == f"{float(text):.{digits}g}"
 
 
+def test_the_python_of_the_problem_files_prints_its_comments(tmp_path):
+    (code,) = blocks(DOCS / "problem_files.md", "python")
+    printed = printed_by(code, tmp_path)
+    stated = re.findall(r"^print\(.*\)  # (.*)$", code, flags=re.MULTILINE)
+    assert len(printed) == len(stated) == 2
+    assert stable(printed[0])[:40] == stable(stated[0])[:40]
+    assert float(printed[1]) == pytest.approx(float(stated[1]), rel=1e-4)
+
+
 def test_every_command_parses():
     """Names of commands and options, choices, required arguments."""
     lines = [line for path in DOCUMENTS for block in blocks(path, "sh") for line in block.splitlines()]

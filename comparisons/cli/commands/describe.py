@@ -14,7 +14,7 @@ from comparisons.description.equivalent_power_law import equivalent_power_law
 from comparisons.description.forces import profile_sensitivity, reference_force
 from comparisons.description.overview import overview
 from comparisons.description.text import description_text
-from comparisons.description.uncertainty import uncertainty
+from comparisons.description.uncertainty import check_quantity, uncertainty
 from comparisons.problem import Problem
 
 _UNCERTAIN = "also print the uncertainty of the pull-off force from the uncertain values of the file"
@@ -42,6 +42,8 @@ def describe_command(args: argparse.Namespace) -> int:
     """
     if args.quantity is not None and not args.uncertain:
         raise ValueError("--quantity is that of --uncertain; give both, or take solve for the value")
+    if args.quantity is not None:
+        check_quantity(args.quantity)
     if (args.file is None) == (args.problem is None):
         raise ValueError("describe takes one problem file: fscm-bench describe FILE")
     problem = Problem.load(args.file or args.problem)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Mapping
 from typing import Any
 
 from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, command, option, output_format, problem_of
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
-from comparisons.numerics.number_text import short
+from comparisons.numerics.number_text import case_text, short
 from comparisons.problem import Problem
 from comparisons.problem.units import si_text
 from comparisons.quantities import QUANTITIES
@@ -32,22 +33,28 @@ def solve_command(args: argparse.Namespace) -> int:
         fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1
         fscm-bench solve --model jkr --quantity jump_out_gap --n 2 --k 0 --mu 2 --format json
         fscm-bench solve --model fscm --quantity pull_off_force --problem pad.toml
+        fscm-bench solve --model fscm --quantity critical_tabor_number --n 2 --k 0.4
     """
     if args.quantity not in QUANTITIES:
         raise ValueError(f"unknown quantity {args.quantity!r}; the quantities are {', '.join(QUANTITIES)}")
+    without_mu = args.quantity == "critical_tabor_number" and args.problem is None and args.mu is None
+    if without_mu:
+        # Any mu leads to that at which jumps begin.
+        args.mu = 1.0
     problem = problem_of(args)
-    with waiting(f"{args.model}, {problem.label}"):
+    case = {name: number for name, number in problem.parameters.items() if not (without_mu and name == "mu")}
+    with waiting(f"{args.model}, {case_text(case) or problem.label}"):
         row = evaluate(args.model, args.quantity, problem)
     if args.format == "text":
-        print_lines(_lines(problem, row))
+        print_lines(_lines(problem, row, case))
     else:
-        print(_json(problem, row) if args.format == "json" else _csv(row), end="")
+        print(_json(problem, row, case) if args.format == "json" else _csv(row), end="")
     return FAILED if row.status == "failed" else OK
 
 
-def _json(problem: Problem, row: Row) -> str:
+def _json(problem: Problem, row: Row, case: Mapping[str, Any]) -> str:
     content: dict[str, Any] = {"model": row.model, "quantity": row.quantity}
-    content |= {"case": dict(problem.parameters)} if problem.is_dimensionless else {"problem": problem.content}
+    content |= {"case": dict(case)} if problem.is_dimensionless else {"problem": problem.content}
     content |= {name: getattr(row, name) for name in ("value", "u_num", "status", "unit", "seconds")}
     if row.dimensionless_unit:
         content["dimensionless"] = {name: getattr(row, f"dimensionless_{name}") for name in ("value", "u_num", "unit")}
@@ -76,9 +83,10 @@ def _csv(row: Row) -> str:
     return csv_text(frame([row]))
 
 
-def _lines(problem: Problem, row: Row) -> list[str]:
+def _lines(problem: Problem, row: Row, case: Mapping[str, Any]) -> list[str]:
     quantity = QUANTITIES[row.quantity]
-    lines = [f"{row.model}: {row.quantity} {'at' if problem.is_dimensionless else 'of'} {problem.label}"]
+    label = f"at {case_text(case)}" if problem.is_dimensionless else f"of {problem.label}"
+    lines = [f"{row.model}: {row.quantity} {label}"]
     if row.value is None or row.u_num is None:
         lines.append(f"  {row.status}: {row.reason}")
     elif not problem.is_dimensionless:
@@ -96,7 +104,7 @@ def _lines(problem: Problem, row: Row) -> list[str]:
 
         line = budget_line(assumed, row.u_num / abs(row.value))
         lines += [f"  {line}"] if line else []
-    if (problem["n"], problem["k"]) == (2.0, 0.0):
+    if (problem["n"], problem["k"]) == (2.0, 0.0) and "mu" in case:
         # Imported here: the other formats and problems do not need it.
         from comparisons.models.transition_formulas import maugis_parameter
 
