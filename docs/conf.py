@@ -18,7 +18,6 @@ extensions = [
     "mathml",
     "api_pages",
     "repository_pages",
-    "kind_tables",
 ]
 exclude_patterns = [
     *("_extensions", "examples", "ci", "gallery", "pictures", "**/.ipynb_checkpoints"),
