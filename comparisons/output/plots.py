@@ -85,8 +85,8 @@ class Plot:
 
     @property
     def models(self) -> list[str]:
-        """Names of what can be switched on and off; the broad line is drawn first, below the others."""
-        return sorted(dict.fromkeys(self.points["model"]), key=lambda name: name != BROAD)
+        """Names of what can be switched on and off: the broad line below the others, external models, then ours."""
+        return sorted(dict.fromkeys(self.points["model"]), key=lambda name: (name != BROAD, name in MODELS))
 
     @property
     def first_models(self) -> list[str]:

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 #: Okabe and Ito's colours that stay apart for every kind of colour vision and, in this order, in grey.
 COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666")
+#: Those of them that are no colour for an external model: black, which is that of `fscm`, and grey.
+_COLOURLESS = {COLOURS.index("#000000"), COLOURS.index("#666666")}
 #: Colours that a dark page has in place of those that are too dark for it; the others are used on both.
 _ON_DARK = {"#000000": "#f2f4f6", "#0072b2": "#3f9fe0", "#d55e00": "#f07a24", "#666666": "#a8afb7"}
 #: Markers of the points, in the order of `COLOURS`; the same in Bokeh, and as characters.
@@ -77,7 +79,7 @@ class ModelStyle:
 
 
 def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
-    """Return the style of each model; external models have what is free beside ours.
+    """Return the style of each model; external models have what is free beside ours, but neither black nor grey.
 
     Examples
     --------
@@ -87,7 +89,8 @@ def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
     """
     present = sorted(set(names))
     positions = {name: position for position, name in enumerate(MODELS) if name in present}
-    free = (position for position in count() if position not in positions.values())
+    taken = {*positions.values()}
+    free = (at for at in count() if at not in taken and at % len(COLOURS) not in _COLOURLESS)
     return {name: _style(positions[name] if name in positions else next(free), broad=name == BROAD) for name in present}
 
 

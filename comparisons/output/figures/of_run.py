@@ -13,6 +13,7 @@ from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA, KAPPA_FIGURE, 
 from comparisons.numerics.number_text import number_parts
 from comparisons.output import plots
 from comparisons.output.style import ModelStyle, model_styles, new_figure, styled
+from comparisons.registry import MODELS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -104,9 +105,10 @@ def _legend_entries(drawn: Sequence[plots.Plot]) -> dict[str, str]:
 def _panel(axes: Axes, plot: plots.Plot, rows: pd.DataFrame, styles: Mapping[str, ModelStyle]) -> dict[str, Any]:
     """Draw the points of one choice; return what the legend shows of each model."""
     handles = {}
-    for model, points in rows.groupby("model"):
+    # External models stand first in the legend, and above the others.
+    for model, points in sorted(rows.groupby("model"), key=lambda pair: pair[0] in MODELS):
         style = styles[str(model)]
-        drawn = style.arguments
+        drawn = style.arguments | ({} if model in MODELS else {"zorder": 4})
         if plot.mark == "both":
             bars = points["high"] - points["y"]
             drawn |= {"yerr": bars, "elinewidth": 0.8, "capsize": 2, "marker": style.symbol, "ms": 3.5}

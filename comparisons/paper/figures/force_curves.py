@@ -24,7 +24,13 @@ _CASE = {"n": 2.0, "k": 0.4, "mu": 3.0}
 _S_RANGES = {"central_gap": (-0.04, 7.0), "displacement": (-7.2, 7.6), "load": (-2.05, 0.55)}
 _S_AXES = (("central_gap", "displacement"), ("central_gap", "load"), ("displacement", "load"))
 #: In contact the central gap hardly moves; its scale is linear below and logarithmic beyond.
-_LINEAR_GAP = 0.05
+_LINEAR_GAP, _GAP_TICKS = 0.05, (0.0, 0.05, 0.2, 1.0, 5.0)
+#: Where the letter of a point stands, in points of text from it, by panel: above, on the right, unless a curve is there.
+_BESIDE = {
+    "displacement": {"A": (-4, 5), "B": (0, -11), "A'": (5, 1), "B'": (-14, -6)},
+    "load": {"A": (-9, 5), "B": (5, -4), "A'": (6, -4), "B'": (-12, 4), "C": (-3, -12), "D": (6, -10)},
+    "forces": {"A": (5, 1), "B": (-10, -4), "A'": (5, 3), "B'": (-5, 6), "C": (-3, -12), "D": (-10, 4)},
+}
 
 #: Figs. 4 and 13, by shape index.
 _SHAPES: Ranges = {
@@ -50,14 +56,17 @@ def _s_curve(figure: Figure, curves: pd.DataFrame, points: pd.DataFrame, hystere
     path, jkr = of_model(curves, "fscm", "jkr")
     lattice = panels(figure, ("", "", case(**_CASE)))
     lattice[2].fill(*loop(path, points), color=COLOURS[6], alpha=0.35, lw=0)
-    for axes, (x, y) in zip(lattice, _S_AXES, strict=True):
+    for axes, (x, y), beside in zip(lattice, _S_AXES, _BESIDE.values(), strict=True):
         level(axes)
         axes.plot(path[x], path[y], color=COLOURS[0], label="fscm")
         axes.plot(points[x], points[y], ls="none", marker="o", ms=4, color=COLOURS[2])
         for name, point in points.iterrows():
-            axes.annotate(str(name), (point[x], point[y]), (3, 4), textcoords="offset points", fontsize=8)
+            axes.annotate(
+                str(name), (point[x], point[y]), beside.get(str(name), (4, 4)), textcoords="offset points", fontsize=8
+            )
         if x == "central_gap":
             axes.set_xscale("symlog", linthresh=_LINEAR_GAP)
+            axes.set_xticks(_GAP_TICKS, [f"{gap:g}" for gap in _GAP_TICKS])
         axes.set(xlabel=LABELS[x], ylabel=LABELS[y], xlim=_S_RANGES[x], ylim=_S_RANGES[y])
     forces = lattice[2]
     forces.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label="jkr")

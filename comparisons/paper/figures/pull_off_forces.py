@@ -124,12 +124,12 @@ def _scaled(table: pd.DataFrame, limit: str) -> Tables:
     return {"": scaled, "kappa": kappa[["quantity", "n", "k", "mu", "model", "kappa", "u_kappa"]]}
 
 
-def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str) -> None:
+def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str, limit: str = "") -> None:
     lattice = panels(figure, [case(n=n, k=_K) for n in _SHAPES], "mu", label, rows=2, sharex=True)
     for axes, (_, of_shape) in zip(lattice, table.groupby("n"), strict=True):
         # A ratio to a limiting model has the limit 1.
         if y == "ratio":
-            level(axes, 1.0, color="0.55", lw=0.9, ls="-.")
+            level(axes, 1.0, color="0.55", lw=0.9, ls="-.", label=limit)
         for name, dashes in (("bradley", "-."), ("jkr", ":")) if y == "value" else ():
             (line,) = of_model(of_shape, name)
             axes.plot(line["mu"], line[y], color="0.55", lw=0.9, ls=dashes, label=name)
@@ -143,7 +143,7 @@ def _panels_of_models(figure: Figure, table: pd.DataFrame, y: str, label: str) -
 
 
 _forces = partial(_panels_of_models, y="value", label="force")
-_by_rigid = partial(_panels_of_models, y="ratio", label=r"$P_c/P_c^{\mathrm{Bradley}}$")
+_by_rigid = partial(_panels_of_models, y="ratio", limit="bradley", label=r"$P_c/P_c^{\mathrm{Bradley}}$")
 
 
 @paper_figure(_forces, size=(7.2, 5.6))
@@ -168,7 +168,7 @@ def _by_soft(figure: Figure, table: pd.DataFrame, kappa: pd.DataFrame) -> None:
             style = {"color": COLOURS[index], "marker": MARKERS[index], "mfc": face, "ms": 3.5, "ls": ls}
             banded(complete, rows["mu"], rows["kappa"], rows["u_kappa"], label=f"$n$ = {n:g}, {model}", **style)
             banded(enlarged, rows["mu"], rows["kappa"], rows["u_kappa"], label="_", **style)
-    level(scaled, 1.0, ls=":")
+    level(scaled, 1.0, ls=":", label="jkr")
     _log_forces(scaled, table["ratio"].min() / 1.2, table["ratio"].max() * 1.2)
     for axes in (scaled, complete, enlarged):
         axes.set(xscale="log")

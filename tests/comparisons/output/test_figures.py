@@ -28,6 +28,14 @@ def test_the_errors_of_both_models_have_a_panel_for_each_shape_at_one_k():
     assert list(figures_of({"kappa": errors(["jkr"])})) == []
 
 
+def test_an_external_model_stands_first_and_above_ours():
+    figure = draw_comparison(errors(["jkr", "mine", "md-improved"]).assign(status="ok"))
+    (legend,) = figure.legends
+    assert [text.get_text().partition(",")[0] for text in legend.get_texts()] == ["mine", "jkr", "md-improved"]
+    mine, *ours = [container[0] for container in figure.axes[0].containers]
+    assert mine.get_zorder() > max(line.get_zorder() for line in ours)
+
+
 def test_the_agreement_of_two_models_is_their_difference_over_its_bound():
     case = {"quantity": "pull_off_force", "model": "fem", "reference": "fscm", "k": 0.4, "mu": 1.0, "nu": 0.3}
     table = pd.DataFrame([case | {"n": 1.0, "en": -0.5}, case | {"n": 2.0, "en": 1.5}])

@@ -171,6 +171,9 @@ def test_models_of_ours_and_external_ones_differ_by_colour_and_shape():
     styles = model_styles([*MODELS, *(f"mine-{number}" for number in range(300))]).values()
     for shape in ("marker", "sign", "dash"):
         assert len({(style.colour, getattr(style, shape)) for style in styles}) == len(styles)
+    # Beside whatever models of ours, an external one has a colour.
+    for number in range(len(MODELS)):
+        assert model_styles([*list(MODELS)[:number], "mine"])["mine"].colour not in ("#666666", "#000000")
 
 
 def test_a_run_without_verdicts_errors_or_curves_has_a_page(run_folder, tmp_path):
