@@ -17,6 +17,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_origin
 
+from api_start import table
 from api_texts import PACKAGES, ROOT, texts_of
 
 from comparisons.runs.environment import NOT_INSTALLED
@@ -112,7 +113,9 @@ def pages() -> Iterator[tuple[str, str]]:
         "The names of the three packages, and below them the modules behind them.  "
         "A module whose name begins with an underscore is private and may change.\n\n"
     )
-    yield "index", f"{_heading('API reference', '=')}{text}.. toctree::\n   :maxdepth: 1\n\n   {listed}\n"
+    start = "These names are enough for most work.  The classes of `fscm` have the same names in `fem_reference`.\n\n"
+    start += f"{table()}\n"
+    yield "index", f"{_heading('API reference', '=')}{start}{text}.. toctree::\n   :maxdepth: 1\n\n   {listed}\n"
 
 
 def _folder(module: str) -> str:

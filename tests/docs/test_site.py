@@ -83,6 +83,20 @@ def test_the_reference_has_every_name_of_a_package_and_of_its_public_modules(pac
     assert [name for name in described if is_private(name)] == []
 
 
+def test_the_first_page_of_the_reference_has_names_that_it_describes(reference):
+    names = [name for group in extension("api_start").NAMES.values() for name in group]
+    assert len(names) == len(set(names)) == 25
+    assert [name for name in names if name not in documented(reference)] == []
+    assert [name for name in names if f":py:obj:`{name}`" not in reference["index"]] == []
+    # The text says so of the classes of the FSCM.
+    solids_punches_laws = [
+        group for purpose, group in extension("api_start").NAMES.items() if purpose in "Solids Punches Laws"
+    ]
+    classes = [name.removeprefix("fscm.") for group in solids_punches_laws for name in group]
+    assert len(classes) == 13
+    assert [name for name in classes if name not in fem_reference.__all__] == []
+
+
 def test_the_page_of_problem_files_has_a_table_of_every_kind():
     text = (DOCS / "problem_files.md").read_text(encoding="utf-8")
     assert runpy.run_path(DOCS / "kind_tables.py")["with_tables"](text) == text

@@ -25,7 +25,7 @@ _S_RANGES = {"central_gap": (-0.04, 7.0), "displacement": (-7.2, 7.6), "load": (
 _S_AXES = (("central_gap", "displacement"), ("central_gap", "load"), ("displacement", "load"))
 #: In contact the central gap hardly moves; its scale is linear below and logarithmic beyond.
 _LINEAR_GAP, _GAP_TICKS = 0.05, (0.0, 0.05, 0.2, 1.0, 5.0)
-#: Where the letter of a point stands, in points of text from it, by panel: above, on the right, unless a curve is there.
+#: Where the letter of a point stands, in points of text from it, by panel: above, on the right, or beside a curve.
 _BESIDE = {
     "displacement": {"A": (-4, 5), "B": (0, -11), "A'": (5, 1), "B'": (-14, -6)},
     "load": {"A": (-9, 5), "B": (5, -4), "A'": (6, -4), "B'": (-12, 4), "C": (-3, -12), "D": (6, -10)},
