@@ -95,7 +95,7 @@ def _line(kind: Kind, key: str, values: dict[str, object]) -> str:
     """A key with its value and what it may be."""
     form = kind.keys[key]
     value = values.get(key, form.example or (form.words[0] if form.words else None))
-    in_place = next((f"in place of {', '.join(kind.choices[0])}: " for group in kind.choices[1:] if key in group), "")
-    note = "optional: " if key in kind.optional else in_place
+    instead = next((f"in place of {', '.join(kind.choices[0])}: " for group in kind.choices[1:] if key in group), "")
+    note = "optional: " if key in kind.optional else instead
     described = f"{form.description}, for each layer" if form.is_list else form.description
     return f"{key} = {json.dumps(value)}  # {note}{described}"
