@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from fem_reference._typing import Array
 from fem_reference.laws import LennardJones, Mie, SurfaceLaw
 
-__all__ = ["has_one_well", "outermost_turn", "stable_gaps", "work_of_tension"]
+__all__ = ["has_one_well", "outermost_turn", "scale_of_energy", "stable_gaps", "work_of_tension"]
 
 #: Gaps at which the sign of a traction is looked at: distances from the singular gap in units of that of the largest
 #: tension, 0.5 % apart.
@@ -49,6 +49,17 @@ def work_of_tension(law: SurfaceLaw) -> float:
     energy, p = law.energy(gaps), law.traction(gaps)
     under_tension = 0.5 * (p[:-1] + p[1:]) < 0
     return float(np.sum(np.diff(energy)[under_tension]) - energy[-1])
+
+
+def scale_of_energy(law: SurfaceLaw) -> float:
+    """Return the work of adhesion, or that of the tension alone where no well adheres: a scale of lengths.
+
+    Examples
+    --------
+    >>> scale_of_energy(LennardJones(work_of_adhesion=2.0, z0=0.5))
+    2.0
+    """
+    return law.work_of_adhesion if law.work_of_adhesion > 0.0 else work_of_tension(law)
 
 
 def outermost_turn(law: SurfaceLaw) -> float:

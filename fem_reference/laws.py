@@ -26,7 +26,7 @@ class SurfaceLaw(Protocol):
 
     @property
     def work_of_adhesion(self) -> float:
-        """Energy per area to separate the faces from the gap without traction to infinity."""
+        """Energy per area to separate the faces from the gap without traction; negative if they repel each other."""
         ...
 
     @property

@@ -34,6 +34,9 @@ WALL = 9.0
 FEWEST_IN_TAIL = 4
 
 
+#: Depth of the shallowest well, relative to the deepest: shallower ones are rounding.
+SHALLOWEST = 1e-9
+
 #: Share of the last interval where a root of the slope is its end: a law of finite range ends with a double root.
 END_SHARE = 1e-3
 
@@ -83,7 +86,8 @@ class TabulatedLaw:
         Exponent m > 1 of the attraction far away, where it is known; C and t are fitted then.  By default the origin t
         is that of the wall, and C and m are fitted.
     work : float, optional
-        Work of adhesion to which the tractions are scaled.  By default they are not scaled.
+        Work of adhesion to which the tractions are scaled, > 0.  By default they are not scaled, and their work of
+        adhesion may be negative: a barrier may push more than the tension pulls.
     smoothing : float
         Zero: the law passes through every point.
 
@@ -132,14 +136,12 @@ class TabulatedLaw:
         x, p = columns[0] / self.z0, columns[1] / stress
         spline, wall, tail, peak = _law(x, p, self.tail_exponent)
         beyond = 0.0 if tail is None else float(tail.integral(x[-1:], np.array([math.inf]))[0])
-        works = {
-            gap: -(float(spline.integrate(gap, x[-1])) + beyond) * stress * self.z0 for gap in stable_gaps(spline, x)
-        }
-        zero = max(works, key=works.__getitem__)
-        work = works[zero]
-        if not work > 0.0:
+        zero, work = _zero_gap(spline, x, beyond)
+        work *= stress * self.z0
+        if self.work is not None and not work > 0.0:
             raise ValueError(
-                f"the work of adhesion of the points is {work:g}, outside (0, infinity): they do not adhere"
+                f"the work of adhesion of the points is {work:g}, outside (0, infinity): it cannot be scaled to "
+                f"work = {self.work:g}; leave that out"
             )
         pieces = PPoly(spline.c, spline.x - zero)
         for name, new in (
@@ -207,6 +209,23 @@ class TabulatedLaw:
         return np.asarray(self._stress * self.z0 * (tail + middle + self._wall.integral(compressed, start)))
 
 
+def _zero_gap(spline: PPoly, x: Array, beyond: float) -> tuple[float, float]:
+    """Of the gaps without traction where a tension begins: that of the largest work of adhesion, and this work.
+
+    `beyond` is the integral of the traction beyond the last point.
+    """
+    gaps = np.array(stable_gaps(spline, x))
+    primitive = spline.antiderivative()
+    energies = primitive(x[-1]) - primitive(np.concatenate([gaps, x])) + beyond
+    lows, at_points = energies[: gaps.size], energies[gaps.size :]
+    # A repulsion that ends at zero ends in no well: the energy rises nowhere beyond.
+    tops = np.where(x > gaps[:, np.newaxis], np.maximum(at_points, 0.0), 0.0).max(axis=1)
+    depths = tops - lows
+    wells = np.flatnonzero(depths > SHALLOWEST * depths.max())
+    lowest = wells[np.argmin(lows[wells])]
+    return float(gaps[lowest]), -float(lows[lowest])
+
+
 def _columns(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, Array]:
     """Gaps and tractions as arrays, if they can be those of a surface law."""
     try:
@@ -231,7 +250,7 @@ def _columns(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, 
     if not p[0] > 0 or not p[-1] <= 0:
         raise ValueError(
             f"the tractions go from {p[0]:g} to {p[-1]:g}: the first must be a compression (> 0), and the last a "
-            "tension or zero"
+            "tension, or zero where a repulsion has faded"
         )
     if not p.min() < 0 or np.argmin(p) == p.size - 1:
         raise ValueError(

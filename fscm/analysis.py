@@ -16,7 +16,7 @@ from fscm._path.arc_length import Point
 from fscm._path.completeness import completed
 from fscm._path.events import Bracket, Condition
 from fscm._path.jumps import Branch, jumps_between, with_accurate_ends
-from fscm._path.pull_off_path import deepest_minimum, pull_off_path
+from fscm._path.pull_off_path import deepest_minimum, pull_off_path, without_tension
 from fscm._path.punch_rules import rules_of
 from fscm._path.whole_path import bracketing_path
 from fscm._threads import one_thread
@@ -152,7 +152,10 @@ class Analysis:
         return deepest_minimum(points, self.meshes)
 
     def _last_zero_load(self) -> Bracket:
-        return events.crossings(self.points, events.zero_load, events.load_fold)[-1]
+        zeros = events.crossings(self.points, events.zero_load, events.load_fold)
+        if not zeros:
+            raise NoSuchEvent(f"the load is positive along the path of {self.problem}: it has no zero")
+        return zeros[-1]
 
     @one_thread()
     def event(self, name: str) -> EventPair:
@@ -185,7 +188,10 @@ class Analysis:
             raise ValueError(f"unknown event {name!r}; known are {', '.join(_EVENTS)}")
         if name not in self._pairs:
             bracket, condition = _EVENTS[name]
-            self._pairs[name] = self._pair(bracket(self), condition)
+            pair = self._pair(bracket(self), condition)
+            if name == "pull_off" and not pair.value.load < 0.0:
+                raise NoSuchEvent(without_tension(self.problem))
+            self._pairs[name] = pair
         return self._pairs[name]
 
     def _pair(self, bracket: Bracket, condition: Condition) -> EventPair:

@@ -1,13 +1,14 @@
 """Surface laws: traction p(H) between two parallel faces at gap H, in any consistent units.
 
 Compression is positive, tension negative.  H = 0 is the equilibrium gap, and the energy there is minus the work of
-adhesion.  A dimensionless law has the work of adhesion 1 and the range 1: gaps in z0, tractions in dgamma / z0.
+adhesion.  A dimensionless law has the work of adhesion 1 and the range 1: gaps in z0, tractions in dgamma / z0.  Where
+no well adheres, because a barrier returns more than the tension takes, dgamma is the depth of the well.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -16,6 +17,10 @@ from fscm._typing import Array
 from fscm._validation import real_number
 
 __all__ = ["LennardJones", "Mie", "SurfaceLaw"]
+
+#: Gaps at which the top of a barrier is looked for, in distances of the largest tension from the singular gap: 0.5 %
+#: apart, so that the top is found to 1e-5 of itself, the second order.
+_BEYOND_WELL = np.geomspace(1e-2, 1e6, 4000)
 
 
 @runtime_checkable
@@ -30,7 +35,7 @@ class SurfaceLaw(Protocol):
 
     @property
     def work_of_adhesion(self) -> float:
-        """Energy per area to separate the faces from H = 0 to infinity."""
+        """Energy per area to separate the faces from H = 0 to infinity; negative where they repel each other more."""
         ...
 
     @property
@@ -273,7 +278,7 @@ class Mie:
 
 @dataclass(frozen=True, slots=True)
 class ScaledLaw:
-    """A law of one's own with gaps in its z0 and tractions in its work of adhesion over z0.
+    """A law of one's own with gaps in its z0 and tractions in its unit of energy over z0.
 
     Parameters
     ----------
@@ -287,11 +292,15 @@ class ScaledLaw:
     """
 
     law: SurfaceLaw
+    _unit: float = field(init=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_unit", unit_of_energy(self.law))
 
     @property
     def work_of_adhesion(self) -> float:
-        """One."""
-        return 1.0
+        """One, or zero and less where no well adheres."""
+        return self.law.work_of_adhesion / self._unit
 
     @property
     def z0(self) -> float:
@@ -312,34 +321,57 @@ class ScaledLaw:
     def decay(self) -> tuple[float, float]:
         """(C, m) of the tail."""
         C, m = self.law.decay
-        return (C / (self.law.work_of_adhesion * self.law.z0 ** (m - 1.0)), m) if C else (C, m)
+        return (C / (self._unit * self.law.z0 ** (m - 1.0)), m) if C else (C, m)
 
     def traction(self, H: Array) -> Array:
         """p(H)."""
-        return self.law.traction(np.asarray(H, float) * self.law.z0) / (self.law.work_of_adhesion / self.law.z0)
+        return self.law.traction(np.asarray(H, float) * self.law.z0) / (self._unit / self.law.z0)
 
     def slope(self, H: Array) -> Array:
         """dp/dH."""
-        return self.law.slope(np.asarray(H, float) * self.law.z0) / (self.law.work_of_adhesion / self.law.z0**2)
+        return self.law.slope(np.asarray(H, float) * self.law.z0) / (self._unit / self.law.z0**2)
 
     def curvature(self, H: Array) -> Array:
         """d2p/dH2."""
-        return self.law.curvature(np.asarray(H, float) * self.law.z0) / (self.law.work_of_adhesion / self.law.z0**3)
+        return self.law.curvature(np.asarray(H, float) * self.law.z0) / (self._unit / self.law.z0**3)
 
     def energy(self, H: Array) -> Array:
         """Integral of p from H to infinity."""
-        return self.law.energy(np.asarray(H, float) * self.law.z0) / self.law.work_of_adhesion
+        return self.law.energy(np.asarray(H, float) * self.law.z0) / self._unit
+
+
+def unit_of_energy(law: SurfaceLaw) -> float:
+    """The work of adhesion; the energy from H = 0 to the top of the barriers, the depth of the well, if none adheres.
+
+    Raises
+    ------
+    ValueError
+        When the energy rises nowhere beyond H = 0, so that this is no well.
+
+    Examples
+    --------
+    >>> unit_of_energy(LennardJones(work_of_adhesion=0.05, z0=3e-10))
+    0.05
+    """
+    w = law.work_of_adhesion
+    if w > 0.0:
+        return w
+    gaps = (law.peak_gap - law.singular_gap) * _BEYOND_WELL
+    depth = float(np.max(law.energy(gaps))) + w
+    if not depth > 0.0:
+        raise ValueError(f"law = {law!r} has the work of adhesion {w:g} and no well at H = 0: it holds no two surfaces")
+    return depth
 
 
 def dimensionless_law(law: SurfaceLaw) -> SurfaceLaw:
-    """The law with gaps in its z0 and tractions in its work of adhesion over z0.
+    """The law with gaps in its z0 and tractions in its `unit_of_energy` over z0.
 
     Examples
     --------
     >>> dimensionless_law(LennardJones(work_of_adhesion=0.05, z0=3e-10))
     LennardJones(work_of_adhesion=1.0, z0=1.0)
     """
-    if law.work_of_adhesion == law.z0 == 1.0:
+    if unit_of_energy(law) == law.z0 == 1.0:
         return law
     # A subclass may override anything: that of its base would be another law.
     if "dimensionless" in vars(type(law)):

@@ -17,7 +17,7 @@ from fscm._response_factor import response_factor_per_rest
 from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, units_of
 from fscm.bodies import Bodies, ScaledSolid, power_law_of, scaled
 from fscm.interaction import Interaction, interaction_of
-from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law
+from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law, unit_of_energy
 from fscm.punch import PowerPunch, PunchShape, ScaledPunch, scaled_punch, unit_of_radii
 from fscm.solids import GradedHalfSpace, PowerLaw, Solid
 
@@ -188,7 +188,7 @@ class Problem:
     ) -> None:
         """Set a physical problem, and its dimensionless one, which is checked."""
         check_parts(punch, law)
-        w, z0 = law.work_of_adhesion, law.z0
+        w, z0 = unit_of_energy(law), law.z0
         n, Q = unit_of_radii(punch, z0)
         units = units_of(n, Q, w, z0)
         bodies = Bodies((solid,) if punch_solid is None else (solid, punch_solid))

@@ -19,6 +19,7 @@ import scipy
 from fscm._law_curve import law_curve
 from fscm._typing import Array
 from fscm._validation import real_number
+from fscm.laws import unit_of_energy
 
 __all__ = ["TabulatedLaw"]
 
@@ -34,6 +35,8 @@ _WALL_EXPONENT = 9.0
 _TAIL_POINTS = 4
 #: Largest admissible smoothing of an alternative: the limit itself is excluded.
 _LARGEST_SMOOTHING = 0.1 - 1e-9
+#: A well whose depth is below this share of that of the deepest is rounding: where a repulsion fades to zero.
+_SMALLEST_WELL = 1e-9
 #: Rounding of the curve, relative to the largest traction.
 _ROUNDOFF = 2.0**-52
 
@@ -69,7 +72,8 @@ class TabulatedLaw:
         half-spaces). C and the origin t are then fitted to the end of the data.  Otherwise t is the gap at
         which the wall diverges, and C and m are fitted.
     work : float, optional
-        Work of adhesion to which the tractions are scaled.  By default they are not scaled.
+        Work of adhesion to which the tractions are scaled, > 0.  By default they are not scaled, and the work of
+        adhesion has any sign: a barrier may return more on separation than the tension takes.
     smoothing : float, optional
         Relative standard error of the tractions, below 0.1.  Above 0 the law is a smooth curve through the points
         within about this error, instead of an interpolating one: for noisy data.  The effect of this choice is a part
@@ -96,6 +100,7 @@ class TabulatedLaw:
     smoothing: float = 0.0
     equilibrium_gap: float = field(init=False, compare=False)
     work_of_adhesion: float = field(init=False, compare=False)
+    _unit: float = field(init=False, compare=False)
     _spline: scipy.interpolate.PPoly = field(init=False, compare=False)
     _integral: scipy.interpolate.PPoly = field(init=False, compare=False)
     _peak: float = field(init=False, compare=False)
@@ -119,9 +124,14 @@ class TabulatedLaw:
         error = real_number("smoothing", self.smoothing, low=0.0, high=0.1, reason=reason, closed_low=True)
         spline, wall, tail, peak = _curve(gap, p, m, error)
         equilibrium, adhesion = _deepest_well(spline, tail)
-        if not adhesion > 0.0:
-            raise ValueError(f"the work of adhesion of the data is {adhesion:g}, outside (0, inf): no net attraction")
-        normalised = scipy.interpolate.PPoly(spline.c / adhesion, spline.x - equilibrium)
+        if work is not None and not adhesion > 0.0:
+            raise ValueError(
+                f"the work of adhesion of the data is {adhesion * z0:g}, outside (0, inf): it cannot be scaled to "
+                f"work = {work:g}, so leave that out"
+            )
+        # Without adhesion the data keep their unit.
+        unit = adhesion if adhesion > 0.0 else 1.0
+        normalised = scipy.interpolate.PPoly(spline.c / unit, spline.x - equilibrium)
         values = {
             "gaps": tuple(columns[0].tolist()),
             "tractions": tuple(columns[1].tolist()),
@@ -131,11 +141,12 @@ class TabulatedLaw:
             "smoothing": error,
             "equilibrium_gap": equilibrium * z0,
             "work_of_adhesion": adhesion * z0 if work is None else work,
+            "_unit": unit * z0 if work is None else work,
             "_spline": normalised,
             "_integral": normalised.antiderivative(),
             "_peak": peak - equilibrium,
-            "_wall": (wall[0] / adhesion, wall[1] / adhesion, wall[2] - equilibrium),
-            "_tail": (tail[0] / adhesion, tail[1], tail[2] - equilibrium),
+            "_wall": (wall[0] / unit, wall[1] / unit, wall[2] - equilibrium),
+            "_tail": (tail[0] / unit, tail[1], tail[2] - equilibrium),
         }
         for name, value in values.items():
             object.__setattr__(self, name, value)
@@ -169,8 +180,12 @@ class TabulatedLaw:
 
     @property
     def dimensionless(self) -> TabulatedLaw:
-        """The law with the work of adhesion 1 and the range 1."""
-        return replace(self, gaps=tuple((np.array(self.gaps) / self.z0).tolist()), z0=1.0, work=1.0)
+        """The law with the work of adhesion 1, or a well of the depth 1 if none adheres, and the range 1."""
+        gaps = tuple((np.array(self.gaps) / self.z0).tolist())
+        if self.work_of_adhesion > 0.0:
+            return replace(self, gaps=gaps, z0=1.0, work=1.0)
+        tractions = np.array(self.tractions) / (unit_of_energy(self) / self.z0)
+        return replace(self, gaps=gaps, tractions=tuple(tractions.tolist()), z0=1.0)
 
     @property
     def singular_gap(self) -> float:
@@ -186,19 +201,19 @@ class TabulatedLaw:
     def decay(self) -> tuple[float, float]:
         """(C, m) of the tail: p H^m -> -C; (0, inf) for a law of finite range."""
         C, m = self._tail[:2]
-        return (C * (self.work_of_adhesion * self.z0 ** (m - 1.0)), m) if C else (C, m)
+        return (C * (self._unit * self.z0 ** (m - 1.0)), m) if C else (C, m)
 
     def traction(self, H: Array) -> Array:
         """p(H)."""
-        return self._joined(H, 0) * (self.work_of_adhesion / self.z0)
+        return self._joined(H, 0) * (self._unit / self.z0)
 
     def slope(self, H: Array) -> Array:
         """dp/dH."""
-        return self._joined(H, 1) * (self.work_of_adhesion / self.z0**2)
+        return self._joined(H, 1) * (self._unit / self.z0**2)
 
     def curvature(self, H: Array) -> Array:
         """d2p/dH2."""
-        return self._joined(H, 2) * (self.work_of_adhesion / self.z0**3)
+        return self._joined(H, 2) * (self._unit / self.z0**3)
 
     def energy(self, H: Array) -> Array:
         """Integral of p from H to infinity, exact for the spline, the wall and the tail."""
@@ -207,7 +222,7 @@ class TabulatedLaw:
         inside = np.clip(H, lowest, highest)
         beyond = -_tail_derivative(np.maximum(H, highest), self._tail, -1)
         below = _wall_derivative(lowest, self._wall, -1) - _wall_derivative(np.minimum(H, lowest), self._wall, -1)
-        return np.asarray((self._integral(highest) - self._integral(inside) + beyond + below) * self.work_of_adhesion)
+        return np.asarray((self._integral(highest) - self._integral(inside) + beyond + below) * self._unit)
 
     def _joined(self, H: Array, order: int) -> Array:
         """Derivative of the dimensionless traction."""
@@ -306,7 +321,10 @@ def _checked_points(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[
     if p[0] <= 0.0:
         raise ValueError(f"the first traction {p[0]:g} is outside (0, inf): the data have to reach the repulsive wall")
     if p[-1] > 0.0:
-        raise ValueError(f"the last traction {p[-1]:g} is outside (-inf, 0]: the tail of a law attracts")
+        raise ValueError(
+            f"the last traction {p[-1]:g} is outside (-inf, 0]: the tail of a law attracts; end a repulsion that fades "
+            "with a traction of 0"
+        )
     least = int(np.argmin(p))
     if p[least] >= 0.0 or least == len(p) - 1:
         raise ValueError(
@@ -321,8 +339,11 @@ def _deepest_well(spline: scipy.interpolate.PPoly, tail: tuple[float, float, flo
     end, slope = spline.x[-1], spline.derivative()
     beyond = float(_tail_derivative(end, tail, -1))
     inside = [float(x) for x in spline.roots(discontinuity=False, extrapolate=False) if spline.x[0] < x < end]
-    works = {x: beyond - float(spline.integrate(x, end)) for x in inside if slope(x) < 0.0}
-    deepest = max(works, key=works.__getitem__)
+    works = {x: beyond - float(spline.integrate(x, end)) for x in inside}
+    wells = [x for x in inside if slope(x) < 0.0]
+    # To the top of the barriers beyond.
+    depths = {x: works[x] - min([0.0, *(works[y] for y in inside if y > x)]) for x in wells}
+    deepest = max((x for x in wells if depths[x] > _SMALLEST_WELL * max(depths.values())), key=works.__getitem__)
     return deepest, works[deepest]
 
 

@@ -158,9 +158,11 @@ def _tabulated_law(solver: ModuleType, law: Section) -> Any:
     gaps, tractions, exponent = law.columns["gap"], law.columns["traction"], law.get("tail_exponent")
     z0 = law.get("z0")
     if z0 is None:
-        # The work of adhesion over the largest tension.
+        # The work of adhesion, or the depth of the well if none adheres, over the largest tension.
         table = solver.TabulatedLaw(gaps, tractions, gaps[-1] - gaps[0], exponent)
-        z0 = table.work_of_adhesion / -min(tractions)
+        work = table.work_of_adhesion
+        depth = max(float(table.energy(gap - gaps[0])) for gap in gaps) + work
+        z0 = (work if work > 0.0 else depth) / -min(tractions)
     return solver.TabulatedLaw(gaps, tractions, z0, exponent)
 
 

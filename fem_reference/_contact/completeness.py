@@ -8,18 +8,32 @@ What is assumed: the fourth derivative inside an interval is at most twice the o
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from fem_reference._contact.hermite import Interval, Sample
 from fem_reference._contact.states import Point, branches_of, point_at
+from fem_reference._wells import work_of_tension
 from fem_reference.errors import Failure, NotConverged
+from fem_reference.punch import radius_at_height
 
-__all__ = ["complete_branch", "complete_path", "displacement_range", "displacement_sample", "load_sample"]
+__all__ = [
+    "complete_branch",
+    "complete_path",
+    "displacement_range",
+    "displacement_sample",
+    "load_sample",
+    "load_scale",
+]
 
 #: Change of delta in lengths of the law, and of P in units of its largest tension, below which two turning points are
 #: not told from none: ten times the rounding of a state.
 SMALLEST_CHANGE = 1e-9
+
+#: Tension of a path, relative to that of the law over the area where the punch is below its range, that is rounding:
+#: a barrier may press on the whole path.
+NO_TENSION = 1e-9
 
 #: Largest number of passes over the path; each halves the intervals that are undecided.
 ROUNDS = 14
@@ -33,6 +47,15 @@ def displacement_sample(point: Point) -> Sample:
 def load_sample(point: Point) -> Sample:
     """Load and its rate along the path at a point."""
     return Sample(point.parameter, point.state.load, point.orientation * point.load_rate)
+
+
+def load_scale(points: Sequence[Point]) -> float:
+    """Return the largest tension of a path; where none of its states carries tension, that of the law over a spot."""
+    contact = points[0].branch.contact
+    law, tension = contact.law, -min(point.state.load for point in points)
+    area = math.pi * radius_at_height(contact.punch, law.z0) ** 2
+    unit = area * work_of_tension(law) / law.z0
+    return tension if tension > NO_TENSION * unit else unit
 
 
 def _intervals(points: Sequence[Point], sample: Callable[[Point], Sample]) -> list[Interval]:
@@ -90,7 +113,7 @@ def complete_path(points: Sequence[Point]) -> list[Point]:
         If that needs more than `ROUNDS` passes, or if the load or the displacement turns where two branches meet.
     """
     length = points[0].branch.contact.law.z0
-    scale = max(abs(min(point.state.load for point in points)), 1e-300)
+    scale = load_scale(points)
     tests = ((displacement_sample, SMALLEST_CHANGE * length), (load_sample, SMALLEST_CHANGE * scale))
     branches = branches_of(points)
     for before, after in pairwise(branches):

@@ -23,6 +23,7 @@ from fem_reference._contact.friction import BondedSolid
 from fem_reference._contact.path import traced
 from fem_reference._contact.states import Point
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._wells import scale_of_energy
 from fem_reference.errors import Failure, NoSuchEvent, NotConverged
 from fem_reference.problem import Problem
 from fem_reference.punch import radius_at_height
@@ -135,7 +136,7 @@ def _estimate(problem: Problem, solid: PowerLaw | OffsetPowerLaw) -> float:
     law = problem.law
     radius = radius_at_height(problem.punch, law.z0)
     relative = float(replace(solid, E0=1.0).modulus(np.array(radius))) / (1.0 - solid.nu**2)
-    return law.work_of_adhesion * radius / (SHARE * law.z0**2 * relative)
+    return scale_of_energy(law) * radius / (SHARE * law.z0**2 * relative)
 
 
 def _bracket(trial: Callable[[float], _Trial]) -> tuple[_Trial, _Trial]:

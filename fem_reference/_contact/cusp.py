@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import linalg
 
+from fem_reference._contact.completeness import load_scale
 from fem_reference._contact.controls import CentralGap, GapRise, mesh_control
 from fem_reference._contact.states import Branch, Point, point_at
 from fem_reference._typing import Array
@@ -88,7 +89,7 @@ def displacement_rates(point: Point) -> DisplacementRates:
 def slowest_sample(points: Sequence[Point]) -> int:
     """Return the index of the sample where the displacement is slowest relative to the load."""
     length = points[0].branch.contact.law.z0
-    scale = max(abs(min(point.state.load for point in points)), 1e-300)
+    scale = load_scale(points)
 
     def relative(i: int) -> float:
         rate = points[i].displacement_rate / length

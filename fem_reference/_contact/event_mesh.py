@@ -179,7 +179,8 @@ def whole_path(problem: Problem, accuracy: float | str) -> PathEvents:
 
 def _whole_path(meshes: Meshes) -> PathEvents:
     """The path of these meshes; one that scales is followed with a lower degree first, for its edges."""
-    return event_mesh(meshes, ("zero_load",)).whole_path if meshes.scale else followed_path(meshes).events()
+    path = followed_path(meshes)
+    return path_on(meshes, *path.mesh_of_path()) if meshes.scale else path.events()
 
 
 def _on_first(problem: Problem, accuracy: float | str, computed: Callable[[Meshes], Computed]) -> Computed:

@@ -216,7 +216,10 @@ class PathEvents:
         minima = self.minima("pull_off")
         if not minima:
             raise NoSuchEvent("the load has no minimum along the path")
-        return min(minima, key=lambda p: p.state.load)
+        deepest = min(minima, key=lambda p: p.state.load)
+        if not deepest.state.load < 0.0:
+            raise NoSuchEvent("no state on the path carries tension: nothing is to be pulled off")
+        return deepest
 
     @cached_property
     def jump_in(self) -> Point:

@@ -205,6 +205,19 @@ class FollowedPath:
             # Beyond the pull-off the edge is sharper relative to its radius, but that part is not needed.
             deepest = min(range(len(points)), key=lambda i: points[i].state.load)
             points = points[: deepest + 3]
+        return self._mesh_of(points)
+
+    def mesh_of_path(self) -> tuple[MeshSpec, float]:
+        """Return the mesh that scales and is fine at every edge of the path, and its size.
+
+        Raises
+        ------
+        NotConverged
+            As `mesh`.
+        """
+        return self._mesh_of(self._whole.points)
+
+    def _mesh_of(self, points: Sequence[Point]) -> tuple[MeshSpec, float]:
         narrowest = min((edge_width(point) for point in points if point.branch.touching), default=WIDEST)
         width = min(WIDTH_SHARE * narrowest, self._first[0].edge_width)
         check_width(width)

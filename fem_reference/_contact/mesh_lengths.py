@@ -18,6 +18,7 @@ from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
 from fem_reference._elastic.depth_scales import depth_scales
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._wells import scale_of_energy
 from fem_reference.accuracy import Level
 from fem_reference.errors import Failure, NotConverged
 from fem_reference.problem import Problem
@@ -231,7 +232,7 @@ def balance_length(problem: Problem, radius: float) -> float:
     # power of 2 to which `spec` rounds.
     for _ in range(BALANCE_STEPS):
         E = plane_strain_modulus(problem, depth)
-        before, depth = depth, np.sqrt(depth * E * law.z0**2 / (2.0 * law.work_of_adhesion))
+        before, depth = depth, np.sqrt(depth * E * law.z0**2 / (2.0 * scale_of_energy(law)))
         if depth == before:
             break
     return float(depth)
@@ -257,7 +258,7 @@ def scales(problem: Problem) -> bool:
     radius = radius_at_height(punch, law.z0)
     for _ in range(BALANCE_STEPS):
         height, E = float(punch.height(np.array(radius))), stiffness_at(problem, np.array(radius))
-        if height**2 * E > law.work_of_adhesion * radius:
+        if height**2 * E > scale_of_energy(law) * radius:
             break
         radius *= RADIUS_STEP
     width = WIDTH_SHARE * EDGE_PER_BALANCE * balance_length(problem, radius) / radius

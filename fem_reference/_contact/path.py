@@ -22,7 +22,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.optimize import brentq
 
-from fem_reference._contact.completeness import complete_branch, displacement_range
+from fem_reference._contact.completeness import complete_branch, displacement_range, load_scale
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import CentralGap, GapRise, mesh_control
 from fem_reference._contact.hermite import Interval, Sample
@@ -224,8 +224,10 @@ def completed(at: Callable[[float], Point], points: Sequence[Point], exact_rates
     """
     rates = list if exact_rates else with_rates
     length = points[0].branch.contact.law.z0
-    tension = abs(min(point.state.load for point in points))
-    tests = ((_log_displacement_sample, LARGEST_CHANGE * length), (_log_load_sample, LARGEST_CHANGE * tension))
+    tests = (
+        (_log_displacement_sample, LARGEST_CHANGE * length),
+        (_log_load_sample, LARGEST_CHANGE * load_scale(points)),
+    )
     return [
         point
         for branch in branches_of(points)

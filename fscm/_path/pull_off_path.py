@@ -24,12 +24,12 @@ from fscm._surface.discretisation import STEEP
 from fscm._surface.state import State
 from fscm._typing import Array
 from fscm.accuracy import Meshes
-from fscm.errors import Failure, NotConverged
+from fscm.errors import Failure, NoSuchEvent, NotConverged
 from fscm.laws import LennardJones, Mie
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
-__all__ = ["deepest_minimum", "pull_off_path", "rigid_tension"]
+__all__ = ["deepest_minimum", "pull_off_path", "rigid_tension", "without_tension"]
 
 #: Heights of the punch at which the tension is evaluated: least, largest, number.
 _LOWEST, _HIGHEST, _HEIGHTS = 1e-4, 1e6, 500
@@ -143,13 +143,20 @@ def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
     return points if minima and -least > rigid_tension(problem, start) else None
 
 
+def without_tension(problem: Problem) -> str:
+    """Sentence for a law whose barrier presses the surfaces apart along the whole path."""
+    return f"no state on the path of {problem} carries tension, so that no force pulls the surfaces apart"
+
+
 def deepest_minimum(points: list[Point], meshes: Meshes) -> Bracket:
     """Neighbouring points of a path between which the load has its deepest minimum.
 
     Raises
     ------
+    NoSuchEvent
+        When the load has no minimum on a path without tension.
     NotConverged
-        When the load has no minimum on the path.
+        When it has none on another path.
     """
     # A minimum above the load of some point is not of interest.
     below = min(point.state.load for point in points)
@@ -157,6 +164,8 @@ def deepest_minimum(points: list[Point], meshes: Meshes) -> Bracket:
     points = completed(points, meshes.path.tolerance, below, ("load",))
     minima = [pair for pair in brackets(points, load_fold, rising=True) if least_loads(*pair) < below]
     if not minima:
+        if min(point.state.load for point in points) >= 0.0:
+            raise NoSuchEvent(without_tension(points[0].state.disc.problem))
         raise NotConverged(
             f"no minimum of the load was found on the path of {points[0].state.disc.problem}", Failure.FOLDS
         )

@@ -19,9 +19,11 @@ an extreme of the load or the displacement as that of the polynomial through nin
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -29,7 +31,6 @@ from scipy.special import roots_jacobi
 
 Array = np.ndarray
 
-PEAK_GAP = 3.0 ** (1.0 / 6.0) - 1.0
 # Nodes a panel and nodes of the rule on a piece: t^-9 between r and 2r leaves (3 + sqrt 8)^-16 = 6e-13.
 ORDER, RULE = 16, 20
 # A piece of an integral is at most this many times as far from the singular point as it begins.
@@ -54,14 +55,21 @@ def gauss(alpha: float, beta: float) -> tuple[Array, Array]:
     return 0.5 * (1.0 + x), w / 2.0 ** (1.0 + alpha + beta)
 
 
-def traction(H: Array) -> Array:
-    """The 9-3 law."""
-    return 8.0 / 3.0 * ((H + 1.0) ** -9 - (H + 1.0) ** -3)
+class Law(NamedTuple):
+    """Traction and slope of a law, the gap of its largest tension, and one where only a wrong step leads."""
+
+    traction: Callable[[Array], Array]
+    slope: Callable[[Array], Array]
+    peak_gap: float
+    lowest: float
 
 
-def traction_slope(H: Array) -> Array:
-    """Its derivative."""
-    return 8.0 * (H + 1.0) ** -4 - 24.0 * (H + 1.0) ** -10
+NINE_THREE = Law(
+    lambda H: 8.0 / 3.0 * ((H + 1.0) ** -9 - (H + 1.0) ** -3),
+    lambda H: 8.0 * (H + 1.0) ** -4 - 24.0 * (H + 1.0) ** -10,
+    3.0 ** (1.0 / 6.0) - 1.0,
+    -0.7,
+)
 
 
 def cardinals(order: int, u: Array) -> Array:
@@ -87,6 +95,7 @@ class Surface:
     k: float
     mu: float
     breaks: Array
+    law: Law = NINE_THREE
 
     def __post_init__(self) -> None:
         u = 0.5 * (1.0 + chebyshev.chebpts1(ORDER))
@@ -151,6 +160,7 @@ class Surface:
         H = guess + (gap - guess[pin])
         H = np.maximum(H, 0.5 * (guess - 1.0))
         H[pin] = gap
+        traction, slope = self.law.traction, self.law.slope
         differences = self.response - self.response[pin]
         shape = self.height - self.height[pin]
 
@@ -161,7 +171,7 @@ class Surface:
 
         R = residual(H)
         for _ in range(60):
-            J = -differences * traction_slope(H)
+            J = -differences * slope(H)
             J[np.diag_indices_from(J)] += 1.0
             J[:, pin] -= 1.0
             J[pin], J[pin, pin] = 0.0, 1.0
@@ -169,7 +179,7 @@ class Surface:
             damping = 1.0
             while True:
                 new = H - damping * step
-                if new.min() > -0.7:
+                if new.min() > self.law.lowest:
                     R_new = residual(new)
                     if np.max(np.abs(R_new)) < (1.0 - 0.1 * damping) * np.max(np.abs(R)) + 1e-13:
                         break
@@ -201,23 +211,29 @@ def breaks_to(n: float, remainder: float) -> Array:
 
 
 def path(surface: Surface, start_gap: float, event: str) -> list[State]:
-    """States from separation on: the gap of the first node falls, then the gap PEAK_GAP moves from node to node.
+    """States from separation on: the gap of the first node falls, then that of the peak moves from node to node.
 
-    The path ends behind the jump-in, if that is sought, and else at the first compression.
+    The path ends behind the jump that is sought, or where a contact is compressed and load and displacement rise.
     """
     states: list[State] = []
-    gaps = PEAK_GAP + (start_gap - PEAK_GAP) * np.linspace(1.0, 0.0, 40) ** 1.5
-    places = [(0, float(gap)) for gap in gaps] + [(pin, PEAK_GAP) for pin in range(2, len(surface.radius), 2)]
+    peak = surface.law.peak_gap
+    gaps = peak + (start_gap - peak) * np.linspace(1.0, 0.0, 40) ** 1.5
+    places = [(0, float(gap)) for gap in gaps] + [(pin, peak) for pin in range(2, len(surface.radius), 2)]
     H = surface.height + start_gap
     for pin, gap in places:
         states.append(surface.state(pin, gap, H))
         H = states[-1].gap
-        behind = len(states) > 1 and states[-1].displacement < states[-2].displacement
-        if states[-1].load > 0.0 or (event == "jump_in" and behind):
+        if len(states) == 1:
+            continue
+        rises = np.diff([(state.displacement, state.load) for state in states], axis=0) > 0.0
+        pressed = pin > 0 and states[-1].load > 0.0 and rises[-1].all()
+        if pressed or np.count_nonzero(np.diff(rises[:, 0])) >= JUMPS.get(event, len(places)):
             break
     return states
 
 
+#: Folds of the displacement up to the end of each jump.
+JUMPS = {"jump_in": 1, "jump_out": 2}
 EXTREMES = {
     "pull_off": (lambda state: state.load, 1.0),
     "jump_in": (lambda state: state.displacement, -1.0),
@@ -263,7 +279,7 @@ def unresolved(surface: Surface, state: State, tolerance: float) -> Array:
     """Panels whose last Chebyshev coefficients of the pressure change load or displacement by more than a tolerance."""
     modes = (
         (2.0 / ORDER)
-        * traction(state.gap).reshape(-1, ORDER)
+        * surface.law.traction(state.gap).reshape(-1, ORDER)
         @ chebyshev.chebvander(chebyshev.chebpts1(ORDER), ORDER - 1)
     )
     highest_modes = np.max(np.abs(modes[:, -2:]), axis=1)
@@ -274,7 +290,7 @@ def unresolved(surface: Surface, state: State, tolerance: float) -> Array:
 
 def on_breaks(old: Surface, state: State, breaks: Array) -> tuple[Surface, State]:
     """The state on other panels; the gap is kept at the node nearest to the old one."""
-    new = Surface(old.n, old.k, old.mu, breaks)
+    new = Surface(old.n, old.k, old.mu, breaks, old.law)
     smooth = state.gap - old.height
     at = np.minimum(new.radius, old.breaks[-1])
     H = new.height + np.array([old.row(np.array([r]), np.ones(1)) @ smooth for r in at])
@@ -282,14 +298,16 @@ def on_breaks(old: Surface, state: State, breaks: Array) -> tuple[Surface, State
     return new, new.state(pin, float(H[pin]), H)
 
 
-def solve(n: float, k: float, mu: float, event: str = "pull_off", tolerance: float = TOLERANCE) -> State:
+def solve(
+    n: float, k: float, mu: float, event: str = "pull_off", tolerance: float = TOLERANCE, law: Law = NINE_THREE
+) -> State:
     """The state at an event; load and displacement are its results.
 
     Raises
     ------
     RingCodeFailed
     """
-    surface = Surface(n, k, mu, breaks_to(n, PATH_REMAINDER))
+    surface = Surface(n, k, mu, breaks_to(n, PATH_REMAINDER), law)
     state = extreme(surface, *bracket(path(surface, 4.0 + 3.0 * mu, event), event), event)
     surface, state = on_breaks(surface, state, breaks_to(n, REMAINDER))
     while (split := unresolved(surface, state, tolerance)).any():

@@ -130,7 +130,7 @@ def _cycles(points_of_models: dict[str, Points], stiffness: float) -> tuple[pd.D
 def _from_afar(points: Points) -> tuple[Array, Array]:
     """Return displacement and load; a model of the contact alone has no load before it."""
     displacement, load = np.array(points.x), np.array(points.y)
-    if displacement[1] > displacement[0] and load[0] > _FAR * load.min():
+    if displacement[1] > displacement[0] and load[0] >= _FAR * load.min():
         return displacement, load
     far = displacement[0] - np.ptp(displacement)
     return np.concatenate([[far, displacement[0]], displacement]), np.concatenate([[0.0, 0.0], load])

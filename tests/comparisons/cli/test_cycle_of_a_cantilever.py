@@ -103,3 +103,41 @@ def test_what_is_no_stiffness_is_refused(capsys, probe, options, word):
 def test_a_cantilever_needs_a_contact_with_units(capsys):
     assert main(["curve", "--model", "jkr", "--n", "2", "--k", "0", "--mu", "1", "--stiffness", "2 N/m"]) == 2
     assert "--problem" in capsys.readouterr().err
+
+
+@pytest.fixture(name="wetted")
+def _wetted(tmp_path):
+    """A stiff bead whose barrier takes more on approach than the tension gives."""
+    gap = np.linspace(0.75, 6.0, 300)
+    well = 8.0 / 3.0 * (gap**-9 - gap**-3) * np.exp(-((gap - 1.0) ** 2))
+    p = well + 0.125 * gap**2 * (1.0 - (gap / 6.0) ** 2) ** 4
+    rows = "\n".join(f"{x:.12g},{y:.12g}" for x, y in zip(0.4 * gap, np.append(p[:-1], 0.0), strict=True))
+    (tmp_path / "law.csv").write_text(f"gap [nm],traction [MPa]\n{rows}\n", encoding="utf-8")
+    path = tmp_path / "bead.toml"
+    bead = 'solid = {kind = "homogeneous", E = "30 MPa", nu = 0.45}\npunch = {kind = "sphere", R = "200 nm"}\n'
+    path.write_text(f'{bead}law = {{kind = "table", file = "law.csv"}}\n', encoding="utf-8")
+    return path
+
+
+def test_a_bead_that_a_film_pushes_away(capsys, wetted):
+    """Its soft cantilever squeezes the film out at one compression, and lets it back at a smaller one."""
+    problem = Problem.load(wetted)
+    law = problem.posed.law
+    assert law.work_of_adhesion < 0.0
+    assert float(np.max(law.energy(np.linspace(0.1, 20.0, 2000)))) + law.work_of_adhesion == pytest.approx(
+        1.0, rel=1e-3
+    )
+    largest = float(np.min(law.traction(np.linspace(0.0, 3.0, 2000))))
+    assert largest == pytest.approx(-1.0, rel=1e-3)  # z0 is the depth of the well over the largest tension
+    assert main(["describe", str(wetted)]) == 0
+    assert "not-applicable" in capsys.readouterr().out
+    status, table, said = cycle(capsys, wetted, "0.01 N/m", "fscm")
+    assert status == 0
+    assert "snaps in" in said
+    (_, into, _), (_, out, _) = ends(table, "approach"), ends(table, "retreat")
+    assert into > out > 0.0
+    # The cantilever is soft: the load turns where it is largest and least. A stiff bead has Derjaguin's loads.
+    energy = law.energy(np.linspace(0.0, 20.0, 2000)) * problem.units["energy_per_area"]
+    assert [into, out] == pytest.approx(
+        [2.0 * np.pi * 200e-9 * energy.max(), 2.0 * np.pi * 200e-9 * energy[0]], rel=0.3
+    )
