@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from fscm._bound.parts import EventErrors
 from fscm._path import events
 from fscm._path.arc_length import Point, parameter_of
+from fscm._path.continuation import beyond_wells
 from fscm._path.curve_density import turning_slowly
 from fscm._path.whole_path import path_by_any_mesh, path_end
 from fscm._presentation import Columns
@@ -129,7 +130,8 @@ def trace(
         The path ends in contact at this load, after the deepest pull-off; by default where the compression equals
         the largest tension.  For a punch that is not a power law it goes on until no later state carries tension.
     start_gap : float, optional
-        Central gap at the far end; by default (10 + 5 mu) z0, with mu where the solid is softest.
+        Central gap at the far end; by default (10 + 5 mu) z0, with mu where the solid is softest, and farther out where
+        a law has a barrier.
     longest_step : float
         Bound on the step from point to point; 0.05 gives three times the points of the default, for
         interpolation.  In compression beyond the largest tension steps are longer, up to eight times.
@@ -159,7 +161,7 @@ def trace(
     largest_turn = real_number(
         "largest_turn", largest_turn, low=0.0, high=180.0, closed_high=True, reason="it is an angle"
     )
-    start = 10.0 + 5.0 * largest_mu(problem) if start_gap is None else start_gap
+    start = 10.0 + 5.0 * largest_mu(problem) + beyond_wells(problem) if start_gap is None else start_gap
 
     def ending() -> Callable[[State], bool]:
         end, lowest = path_end(problem, meshes.end_height), 0.0

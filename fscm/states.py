@@ -11,6 +11,7 @@ from itertools import pairwise
 from fscm._bound.parts import EventErrors
 from fscm._path import events
 from fscm._path.arc_length import Point, parameter_of, rates_of
+from fscm._path.continuation import beyond_wells
 from fscm._path.whole_path import path_by_any_mesh, path_end
 from fscm._presentation import Columns
 from fscm._surface.state import State
@@ -187,7 +188,7 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
         complete = path_end(problem, meshes.end_height)
         return lambda state: complete(state) and direction * condition(state, None) > 0.0
 
-    start_gap = 10.0 + 5.0 * problem.mu + (0.0 if control == "load" else 2.0 * abs(value))
+    start_gap = 10.0 + 5.0 * problem.mu + beyond_wells(problem) + (0.0 if control == "load" else 2.0 * abs(value))
     end = f"the {control} {value:g}"
     points = path_by_any_mesh(problem, [meshes.path], ending, end, start_gap=start_gap, end_height=meshes.end_height)
     fold = _FOLDS[control]

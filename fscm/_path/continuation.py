@@ -36,7 +36,7 @@ from fscm.errors import Failure, NotConverged
 from fscm.problem import Problem
 from fscm.wells import has_one_well, outermost_turn
 
-__all__ = ["equilibrium_path", "moved", "usual_start"]
+__all__ = ["beyond_wells", "equilibrium_path", "moved", "usual_start"]
 
 #: Steps of arc length: the first one, and the smallest one that is tried.
 _FIRST_STEP, _SMALLEST_STEP = 0.5, 1e-6
@@ -87,8 +87,12 @@ def usual_start(problem: Problem) -> float:
 
     Under a law with several wells it is beyond the outermost of them, too.
     """
-    outermost = 0.0 if has_one_well(problem.law) else _BEYOND_WELLS * outermost_turn(problem.law)
-    return 3.0 + 3.0 * largest_mu(problem) + outermost
+    return 3.0 + 3.0 * largest_mu(problem) + beyond_wells(problem)
+
+
+def beyond_wells(problem: Problem) -> float:
+    """How much farther out a path begins under a law with several wells; zero under any other."""
+    return 0.0 if has_one_well(problem.law) else _BEYOND_WELLS * outermost_turn(problem.law)
 
 
 class _Tracer:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from fscm import Analysis, Dlvo, LennardJones, Mie, Problem, TabulatedLaw, solve
+from fscm import Analysis, Dlvo, LennardJones, Mie, Problem, TabulatedLaw, solve, trace
 from fscm._path.ends import LeastLoad
 from fscm._surface.breaks import end_radius
 from fscm.wells import has_one_well, outermost_turn, tension_beyond
@@ -127,3 +127,11 @@ def test_a_table_may_have_a_barrier() -> None:
     assert table.work_of_adhesion == pytest.approx(law.work_of_adhesion, rel=1e-7)
     values = [solve(Problem(n=2.0, k=0.0, mu=1.0, law=each), "pull_off_force").value for each in (law, table)]
     assert values[1] == pytest.approx(values[0], rel=1e-8)
+
+
+def test_a_curve_begins_beyond_the_barrier() -> None:
+    """At its first state the outer well attracts; inside, the double layer would press the surfaces apart."""
+    law = dlvo(7.5e-3, 15.0)
+    curve = trace(Problem(n=2.0, k=0.0, mu=0.3, law=law), "quick", with_bounds=False)
+    assert curve.central_gap[0] + law.distance > law.equilibrium_distances[-1]
+    assert -1e-2 * curve.load.max() < curve.load[0] < 0.0
