@@ -9,6 +9,8 @@ import pytest
 
 import fem_reference
 import fscm
+from fscm._units import modulus_for
+from tests.marks import heavy
 
 #: Double layer, as a share of 8 w/(3 z0) of the law without one, its length in z0, and the Tabor number.
 BARRIERS = [(1.0, 1.0, 0.3), (1.0, 1.0, 1.0), (0.8, 1.0, 0.7), (7.5e-3, 15.0, 3.0), (7.5e-4, 48.0, 3.0)]
@@ -59,3 +61,33 @@ def test_both_laws_are_the_same(barrier: tuple[float, float, float]) -> None:
     assert theirs.peak_gap == pytest.approx(ours.peak_gap, rel=1e-12, abs=1e-13)
     for name in ("traction", "slope", "energy"):
         assert getattr(theirs, name)(gap) == pytest.approx(getattr(ours, name)(gap), rel=1e-9, abs=1e-13)
+
+
+#: Double layer and length as above, Tabor number, n and k, and the units of length and pressure.
+OTHERS = [
+    (1.0, 1.0, 1.0, 4.0, 0.0, 1.0, 1.0),
+    (1.0, 1.0, 1.0, 2.0, 0.4, 1.0, 1.0),
+    (1.0, 1.0, 0.7, 1.5, 0.0, 1.0, 1.0),
+    (7.5e-3, 15.0, 2.0, 2.0, 0.0, 1e3, 1e-3),
+]
+
+
+@pytest.mark.parametrize("barrier", [OTHERS[0], *heavy(*((case,) for case in OTHERS[1:]))])
+def test_other_punches_gradients_and_units(barrier: tuple[float, ...]) -> None:
+    """In physical units, far from one, and both by the same numbers."""
+    share, length, mu, n, k, unit, pressure = barrier
+    parameters = 16.0 * math.pi * pressure * unit**3, unit, 8.0 / 3.0 * share * pressure, length * unit
+    w, Q = fscm.Dlvo(*parameters).work_of_adhesion, unit ** (n - 1.0)
+    E0 = modulus_for(mu, n=n, k=k, nu=0.3, c0=unit, Q=Q, work_of_adhesion=w, z0=unit)
+    (a, u_a), (b, u_b) = [
+        (solution.value, solution.u_num)
+        for module in (fscm, fem_reference)
+        for solution in [
+            module.solve(
+                module.Problem(module.PowerLaw(E0, unit, k, 0.3), module.PowerPunch(n, Q), module.Dlvo(*parameters)),
+                "pull_off_force",
+            )
+        ]
+    ]
+    assert abs(a - b) <= u_a + u_b
+    assert u_b <= 1e-4 * b
