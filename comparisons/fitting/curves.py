@@ -7,7 +7,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from comparisons.fitting.equilibria import Equilibria, by_fscm, by_jkr, is_limit, is_without_adhesion, paths_alike
+from comparisons.fitting.equilibria import (
+    Equilibria,
+    by_fscm,
+    by_jkr,
+    has_series,
+    is_limit,
+    is_without_adhesion,
+    paths_alike,
+    series_of,
+)
 from comparisons.fitting.parameters import Key, changed
 from comparisons.model import Array
 from comparisons.problem import Problem
@@ -36,10 +45,48 @@ class Curves:
 
     def equilibria(self, problem: Problem, numbers: Mapping[str, float], largest: float) -> Equilibria:
         """Return those of a problem up to a load in N; a search for those of the FSCM may pass through its limits."""
-        is_jkr = self.model == "jkr" or is_without_adhesion(problem, largest) or is_limit(problem)
-        of_model = by_jkr if is_jkr else by_fscm
+        of_model = by_jkr if self._is_limit(problem, largest) else by_fscm
         displacement, load = of_model(problem, largest)
         return Equilibria(displacement, load * self.factor)
+
+    def _is_limit(self, problem: Problem, largest: float) -> bool:
+        return self.model == "jkr" or is_without_adhesion(problem, largest) or is_limit(problem)
+
+    def expanded(self, problem: Problem, largest: float) -> Curves:
+        """Return those near a problem: by its series and the derivative of this, or the same where it has none."""
+        if self._is_limit(problem, largest) or not has_series(problem, largest):
+            return self
+        posed = problem.posed
+        curve = series_of(posed)
+        slopes = curve.derivative("mu")
+        path = np.array([curve.displacement, curve.load])
+        slope = np.array([slopes.displacement, slopes.load])
+        return ExpandedCurves(self.model, self.factor, center=(posed.n, posed.k, posed.mu), path=path, slope=slope)
+
+
+@dataclass(frozen=True, eq=False)
+class ExpandedCurves(Curves):
+    """The equilibria near a problem whose path is a series: linear in the Tabor number.
+
+    Attributes
+    ----------
+    center : tuple of float
+        n, k and mu.
+    path, slope : ndarray, shape (2, m)
+        Displacement and load there, and their exact derivatives by the Tabor number.
+    """
+
+    center: tuple[float, float, float] = field(kw_only=True)
+    path: Array = field(kw_only=True)
+    slope: Array = field(kw_only=True)
+
+    def equilibria(self, problem: Problem, numbers: Mapping[str, float], largest: float) -> Equilibria:
+        """Return those of a neighbour; of one with other exponents by its own series."""
+        posed, units = problem.posed, problem.units
+        if (posed.n, posed.k) != self.center[:2]:
+            return super().equilibria(problem, numbers, largest)
+        displacement, load = self.path + (posed.mu - self.center[2]) * self.slope
+        return Equilibria(displacement * units["displacement"], load * units["load"] * self.factor)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +132,10 @@ class NearbyCurves(Curves):
         path, *paths = paths_alike([here.posed, *(each.posed for each in beside)], end)
         slopes = {name: (other - path) / step for (name, step), other in zip(steps.items(), paths, strict=True)}
         return NearbyCurves("fscm", self.factor, center, path, center, slopes)
+
+    def expanded(self, problem: Problem, largest: float) -> Curves:
+        """Return the same: they are linear already."""
+        return self
 
     def equilibria(self, problem: Problem, numbers: Mapping[str, float], largest: float) -> Equilibria:
         """Return those of a problem of nearby numbers."""

@@ -98,13 +98,33 @@ def by_fscm(problem: Problem, largest: float, exact: bool = False) -> Equilibria
     posed, units = problem.posed, problem.units
     if posed.mu < _LEAST_MU:
         raise ComputationFailed("a search does not need a contact as stiff")
-    # The power of two above a load: few different ends of paths.
-    end = 2.0 ** math.ceil(math.log2(max(largest / units["load"], 2.0)))
     if exact:
-        displacement, load = paths_alike([posed], end)[0]
+        displacement, load = paths_alike([posed], _end(problem, largest))[0]
+    elif has_series(problem, largest):
+        curve = series_of(posed)
+        displacement, load = curve.displacement, curve.load
     else:
-        displacement, load = _by_series(posed) if _has_series(posed, end) else _between(posed, end)
+        displacement, load = _between(posed, _end(problem, largest))
     return Equilibria(displacement * units["displacement"], load * units["load"])
+
+
+def _end(problem: Problem, largest: float) -> float:
+    """The power of two above a load in N: few different ends of paths."""
+    return float(2.0 ** math.ceil(math.log2(max(largest / problem.units["load"], 2.0))))
+
+
+def has_series(problem: Problem, largest: float) -> bool:
+    """Return whether the path to a load in N is known as a series that is good enough for a fit."""
+    (_, most_k), (least_mu, most_mu) = BOX["k"], BOX["mu"]
+    posed = problem.posed
+    is_inside = posed.k <= most_k and least_mu <= posed.mu <= most_mu
+    return posed.n == SPHERE and is_inside and _end(problem, largest) <= LARGEST_LOAD
+
+
+@lru_cache(maxsize=256)
+def series_of(problem: fscm.Problem) -> fscm.ForceCurve:
+    """Return the curve of a dimensionless problem by its series."""
+    return fscm.force_curve(problem.n, problem.k, problem.mu, points=_OF_SERIES)
 
 
 def by_jkr(problem: Problem, largest: float) -> Equilibria:
@@ -171,18 +191,13 @@ def paths_alike(problems: Sequence[fscm.Problem], end: float) -> list[Array]:
     return [_resampled(problem, end, common) for problem in problems]
 
 
-def _has_series(problem: fscm.Problem, end: float) -> bool:
-    """Return whether the path to a load is known as a series that is good enough for a fit."""
-    (_, most_k), (least_mu, most_mu) = BOX["k"], BOX["mu"]
-    is_inside = problem.k <= most_k and least_mu <= problem.mu <= most_mu
-    return problem.n == SPHERE and is_inside and end <= LARGEST_LOAD
-
-
-@lru_cache(maxsize=256)
-def _by_series(problem: fscm.Problem) -> Array:
-    """Return the path of a series, shape (2, m)."""
-    curve = fscm.force_curve(problem.n, problem.k, problem.mu, points=_OF_SERIES)
-    return np.array([curve.displacement, curve.load])
+@lru_cache(maxsize=64)
+def pull_off_force(n: float, k: float, mu: float) -> float:
+    """Return the dimensionless pull-off force, to a few percent."""
+    try:
+        return -float(fscm.force_curve(n, k, mu).load.min())
+    except fscm.OutsideAtlas:
+        return float(evaluate("fscm", "pull_off_force", Problem.dimensionless(n=n, k=k, mu=mu)))
 
 
 def _between(problem: fscm.Problem, end: float) -> Array:

@@ -8,13 +8,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from comparisons.fitting.curves import Curves
-from comparisons.fitting.search import DESCRIBED, Search, derivatives, numbers_of
+from comparisons.fitting.least_squares import Minimum
+from comparisons.fitting.search import DESCRIBED, Search
 from comparisons.model import Array, ComputationFailed
 from comparisons.problem.units import si_text
 
@@ -67,25 +67,22 @@ class Jump:
         )
 
 
-def jumps_apart(search: Search, result: Any, curves: Curves) -> list[Jump]:
+def jumps_apart(search: Search, result: Minimum, curves: Curves) -> list[Jump]:
     """Return the jumps that disagree with the rest of a record.
 
     The distance of a jump from the fit becomes that from the fit without it by 1/(1 - h), its standard deviation by
     1/sqrt(1 - h), where h is its leverage.
     """
-    values = numbers_of(result.params)
-    present = _jump_residuals(search, values, curves)
-    if not present or result.covar is None:
+    present = _jump_residuals(search, result.numbers, curves)
+    if not present or result.covariance is None:
         return []
-    names = list(result.var_names)
-    covariance = result.covar / max(float(result.redchi), 1.0)
+    covariance = result.covariance / max(result.reduced, 1.0)
 
-    def residuals(parameters: Any) -> Array:
-        changed = _jump_residuals(search, numbers_of(parameters), curves)
+    def residuals(values: Mapping[str, float], curves: Curves) -> Array:
+        changed = _jump_residuals(search, values, curves)
         return np.array([changed.get(approach, math.nan) for approach in present])
 
-    slopes = derivatives(residuals, result.params.copy(), 1e-3)
-    rows = slopes[:, [list(result.params).index(name) for name in names]]
+    rows = search.derivatives(residuals, result.numbers, curves, 1e-3)
     jumps = []
     for row, (approach, distance) in zip(rows, present.items(), strict=True):
         leverage = float(row @ covariance @ row)
@@ -96,7 +93,7 @@ def jumps_apart(search: Search, result: Any, curves: Curves) -> list[Jump]:
     return jumps
 
 
-def _jump_residuals(search: Search, values: dict[str, float], curves: Curves) -> dict[bool, float]:
+def _jump_residuals(search: Search, values: Mapping[str, float], curves: Curves) -> dict[bool, float]:
     position, _ = search.zeros(values)
     return search.jump_residuals(search.machine(values, curves), position, curves.model)
 
@@ -141,7 +138,7 @@ def runs_remark(errors: Array, approach: NDArray[np.bool_], least: float) -> str
 
 
 def of_branches(
-    fits: Mapping[str, Callable[[], tuple[Any, Search]]],
+    fits: Mapping[str, Callable[[], tuple[Minimum, Search]]],
 ) -> dict[str, dict[str, tuple[float, float]]]:
     """Return values and standard deviations of the free keys by each branch alone, where it determines them."""
     values: dict[str, dict[str, tuple[float, float]]] = {}
@@ -152,10 +149,9 @@ def of_branches(
             continue
         of_branch = {}
         for key in search.keys:
-            parameter = result.params[key.name.replace(".", "__")]
-            value = key.value(float(parameter.value))
-            if parameter.stderr and key.prior is None:
-                of_branch[key.name] = value, key.uncertainty(value, float(parameter.stderr))
+            value, deviation = key.value(result.numbers[key.name]), result.deviations[key.name]
+            if math.isfinite(deviation) and key.prior is None:
+                of_branch[key.name] = value, key.uncertainty(value, deviation)
         values[branch] = of_branch
     return values
 
@@ -176,9 +172,9 @@ def branches_remark(values: Mapping[str, Mapping[str, tuple[float, float]]], uni
     return None
 
 
-def cause(result: Any, ratio: float, wide: bool, remarks: Sequence[str]) -> str | None:
+def cause(result: Minimum, ratio: float, wide: bool, remarks: Sequence[str]) -> str | None:
     """Return the most likely cause where the model does not describe a record, and what to do."""
-    if result.redchi < DESCRIBED:
+    if result.reduced < DESCRIBED:
         return None
     return "the model does not describe the curve with these values: " + _likely(ratio, wide, remarks)
 

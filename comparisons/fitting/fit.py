@@ -1,6 +1,6 @@
 """Fit of a contact to a measured force-displacement curve: values of a problem file, with uncertainties.
 
-Least squares of the load (by lmfit) over the position that the machine prescribes, and of the positions of both jumps.
+Least squares of the load over the position that the machine prescribes, and of the positions of both jumps.
 The noise is that of the residuals; a value of the file with an uncertainty is a datum like those of the record, so that
 the uncertainty of a result contains it.
 """
@@ -22,11 +22,12 @@ from comparisons.fitting.baseline import BaselineName
 from comparisons.fitting.curves import Curves
 from comparisons.fitting.equilibria import distance_of_hertz, distance_of_jkr, is_limit, is_without_adhesion
 from comparisons.fitting.evidence import Jump, branches_remark, cause, jumps_apart, of_branches, runs_remark
+from comparisons.fitting.least_squares import Minimum
 from comparisons.fitting.machine import Observations
 from comparisons.fitting.parameters import Key, changed, free_keys, uncertain_keys
 from comparisons.fitting.reading import Sensitivity, read_records
 from comparisons.fitting.record import Record, checked
-from comparisons.fitting.search import Search, dotted, numbers_of, plain
+from comparisons.fitting.search import Search
 from comparisons.model import Array
 from comparisons.problem import Problem
 from comparisons.problem.units import si_text
@@ -237,27 +238,18 @@ def fit_record(
     if jumps:
         kept = {True, False} - {jump.approach for jump in jumps}
         search = Search(search.observed, problem, keys, baseline, tuple(kept))
-        result, curves = search.best(Curves(model), [numbers_of(result.params)], is_costly)
+        result, curves = search.best(Curves(model), [result.numbers], is_costly)
     by_branch = {} if is_costly else _by_branch(search, result, curves)
     return _described(search, result, curves, len(free), jumps, by_branch)
 
 
-def _by_branch(search: Search, result: Any, curves: Curves) -> dict[str, dict[str, tuple[float, float]]]:
+def _by_branch(search: Search, result: Minimum, curves: Curves) -> dict[str, dict[str, tuple[float, float]]]:
     """Values by each branch alone, from those by both; none where the record has one."""
     if not search.baseline.has_both:
         return {}
-    start = numbers_of(result.params)
-    start.pop("displacement")
 
-    def fitted(branch: str) -> tuple[Any, Search]:
-        record = search.observed.record
-        alone = Search(
-            Observations.of(checked(record.only(branch), f"the {branch} of {record.name}")),
-            search.problem,
-            search.keys,
-            "linear" if "tilt" in search.baseline.names else "constant",
-            search.jumps,
-        )
+    def fitted(branch: str) -> tuple[Minimum, Search]:
+        alone, start = search.of_branch(branch, result)
         return alone.best(curves, [start], False)[0], alone
 
     return of_branches({branch: partial(fitted, branch) for branch in ("approach", "retreat")})
@@ -265,24 +257,20 @@ def _by_branch(search: Search, result: Any, curves: Curves) -> dict[str, dict[st
 
 def _described(
     search: Search,
-    result: Any,
+    result: Minimum,
     curves: Curves,
     count: int,
     jumps: Sequence[Jump],
     by_branch: dict[str, dict[str, tuple[float, float]]],
 ) -> Fit:
     """Return values, uncertainties and the budget."""
-    values = numbers_of(result.params)
+    values, deviations = result.numbers, result.deviations
     problem = changed(search.problem, search.keys, values)
     machine = search.machine(values, curves)
     position, baseline = search.zeros(values)
     load = machine.load(position, search.observed)
     used, record = search.observed.used, search.observed.record
     errors = load + baseline - record.load
-    deviations = {
-        dotted(name): float(parameter.stderr) if parameter.stderr else math.inf
-        for name, parameter in result.params.items()
-    }
     moved = [(key, key.value(values[key.name])) for key in search.keys]
     by_noise = {key.name: key.uncertainty(value, deviations[key.name]) for key, value in moved}
     is_determined = all(by_noise[key.name] <= _UNDETERMINED * abs(value) for key, value in moved[:count])
@@ -350,11 +338,11 @@ def _baseline_remark(search: Search, values: dict[str, float]) -> list[str]:
 
 
 def _shifts(
-    search: Search, result: Any, curves: Curves, problem: Problem, assumed: Json | None
+    search: Search, result: Minimum, curves: Curves, problem: Problem, assumed: Json | None
 ) -> dict[str, dict[str, float] | None]:
     """What the errors of the model and of the assumptions in the load change, as fitted numbers."""
     errors: dict[str, float | None] = {"model": 0.0, "assumptions": None}
-    largest = search.largest(numbers_of(result.params))
+    largest = search.largest(result.numbers)
     if is_without_adhesion(problem, largest):
         errors["model"] = distance_of_hertz(problem, largest)
     elif curves.model == "jkr":
@@ -365,18 +353,19 @@ def _shifts(
     shifts: dict[str, dict[str, float] | None] = dict.fromkeys(errors)
     for name, error in errors.items():
         if error is not None:
-            shifts[name] = search.scaled(curves, result, 1.0 / (1.0 + error)) if error else numbers_of(result.params)
+            shifts[name] = search.scaled(curves, result, 1.0 / (1.0 + error)) if error else result.numbers
     return shifts
 
 
-def _remarks(parameters: dict[str, FittedValue], result: Any) -> list[str]:
+def _remarks(parameters: dict[str, FittedValue], result: Minimum) -> list[str]:
     remarks = [f"the curve does not determine {name}" for name, row in parameters.items() if not row.determined]
     names = list(parameters)
     for i, name in enumerate(names):
-        correlations = result.params[plain(name)].correl or {}
-        for other in names[i + 1 :]:
-            if abs(correlations.get(plain(other), 0.0)) > _COUPLED:
-                remarks.append(f"{name} and {other} are coupled: only their combination is determined well")
+        remarks += [
+            f"{name} and {other} are coupled: only their combination is determined well"
+            for other in names[i + 1 :]
+            if abs(result.correlation(name, other)) > _COUPLED
+        ]
     return remarks
 
 

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
-import lmfit
 import numpy as np
 
 from comparisons.fitting.baseline import Baseline, BaselineName
 from comparisons.fitting.curves import Curves, NearbyCurves
+from comparisons.fitting.equilibria import pull_off_force
+from comparisons.fitting.least_squares import Limits, Minimum, minimised
 from comparisons.fitting.machine import Machine, Observations
 from comparisons.fitting.parameters import Key, changed
+from comparisons.fitting.record import checked
 from comparisons.model import Array, ComputationFailed, NotApplicable
 from comparisons.problem import Problem
-from comparisons.runs.tasks import evaluate
 
 #: Start values of the JKR limit, as shares of those of the file: a file may be wrong by some powers of ten.
 _SHARES = (0.1, 10.0, 0.01, 100.0)
@@ -42,14 +43,24 @@ _MODEL_ERROR = 3e-4
 #: A model describes a record where its residuals are at most twice the noise.
 DESCRIBED = 4.0
 
-#: Steps of derivatives, of numbers of keys and of zeros in units of the ranges of load and position: a search with the
-#: first one crosses what folds at the points of a record make rough, one with the second goes on from there, or finds
-#: what the first one steps over.
-_STEPS = (1e-2, 1e-3)
+
+class _Precision(NamedTuple):
+    """Step of derivatives, of numbers of keys and of zeros in their ranges, and tolerance of a search."""
+
+    step: float
+    tolerance: float
+
+
+#: A coarse search crosses what folds at the points of a record make rough, a fine one goes on from there, or finds what
+#: the coarse one steps over.  The tolerances: a start is good to a thousandth of the sum of squares; that of MINPACK.
+_COARSE, _FINE = _Precision(1e-2, 1e-3), _Precision(1e-3, 1.5e-8)
 
 #: Largest change of a number by one expansion at first, their largest count, the change that ends a search, in standard
 #: deviations, and the growth of the sum of squares that makes a step too long.
 _REACH, _EXPANSIONS, _SMALL, _WORSE = 1.0, 40, 0.25, 1.01
+
+#: Share by which a coarse search has to lower the sum of squares of a fine one to have gone on from its end.
+_LESS = 1e-6
 
 #: Ratio of the loads to which equilibria reach, and how many of a search are kept: those of one table of derivatives.
 _REACHES, _KEPT = 1.1, 16
@@ -86,25 +97,29 @@ class Search:
         Tabor numbers, and only there if that of the limit is small.
         """
         free = [key.name for key in self.keys if key.logarithmic and key.prior is None]
-        near_limit = []
+        if (nearest := self._of_limit(free)) is not None and nearest.reduced < DESCRIBED:
+            return [nearest.numbers]
+        starts = [self._of_pull_off(mu) for mu in _STIFF]
+        if nearest is not None and self._problem_of(nearest.numbers).posed.mu > _SOFT:
+            return [nearest.numbers, *starts]
+        return starts
+
+    def _of_limit(self, free: Sequence[str]) -> Minimum | None:
+        """The fit of the JKR limit from the values of the file, or from shares of them; None if there is none."""
+        curves, ends = Curves("jkr"), []
         for shift in ({}, *({name: math.log(share)} for share in _SHARES for name in free)):
             try:
-                near_limit.append(_best(self.minimised(Curves("jkr"), shift, step) for step in _STEPS))
+                ends.append(self.minimised(curves, shift, _COARSE))
             except (NotApplicable, ComputationFailed, ValueError):
                 continue
             # Without the end of the tension several values describe a record, and not equally well.
-            if near_limit[-1].redchi < DESCRIBED and False in self.observed.jumps:
-                break
-        if near_limit and (nearest := _best(near_limit)).redchi < DESCRIBED:
-            return [numbers_of(nearest.params)]
-        starts = [self._of_pull_off(mu) for mu in _STIFF]
-        if near_limit:
-            values = numbers_of(_best(near_limit).params)
-            if self._problem_of(values).posed.mu > _SOFT:
-                return [values, *starts]
-        return starts
+            if ends[-1].reduced < DESCRIBED and False in self.observed.jumps:
+                return ends[-1]
+        if not ends:
+            return None
+        return _best((*ends, self.minimised(curves, _best(ends).numbers, _FINE)))
 
-    def _problem_of(self, values: dict[str, float]) -> Problem:
+    def _problem_of(self, values: Mapping[str, float]) -> Problem:
         return changed(self.problem, self.keys, values)
 
     def _of_pull_off(self, mu: float) -> dict[str, float]:
@@ -113,9 +128,8 @@ class Search:
         loads = self.observed.record.load
         force = self.baseline.load - float(loads.min())
         if _ADHESION in numbers:
-            posed = Problem.dimensionless(n=self.problem.posed.n, k=self.problem.posed.k, mu=mu)
             # The unit of the load is proportional to the work of adhesion.
-            stated = float(evaluate("fscm", "pull_off_force", posed)) * self.problem.units["load"]
+            stated = pull_off_force(self.problem.posed.n, self.problem.posed.k, mu) * self.problem.units["load"]
             numbers[_ADHESION] = math.log(force / stated) if force > 0.0 else 0.0
         moduli = [key.name for key in self.keys if key.name.startswith("solid.") and key.logarithmic]
         if moduli:
@@ -127,8 +141,8 @@ class Search:
             numbers |= dict.fromkeys(moduli, (math.log(mu) - logs[0]) / (logs[1] - logs[0]))
         return numbers
 
-    def best(self, curves: Curves, starts: Sequence[dict[str, float]], is_costly: bool) -> tuple[Any, Curves]:
-        """Return the best result of lmfit from several starts, and the curves that it is of.
+    def best(self, curves: Curves, starts: Sequence[dict[str, float]], is_costly: bool) -> tuple[Minimum, Curves]:
+        """Return the best minimum from several starts, and the curves that it is of.
 
         Parameters
         ----------
@@ -148,13 +162,13 @@ class Search:
                 results.append(self._nearby(start) if is_costly else (self._from(curves, start), curves))
             except ComputationFailed as error:
                 refusal = error
-            if results and results[-1][0].redchi < DESCRIBED:
+            if results and results[-1][0].reduced < DESCRIBED:
                 break
         if not results:
             raise refusal
-        return min(results, key=lambda result: float(result[0].chisqr))
+        return min(results, key=lambda result: result[0].squares)
 
-    def _nearby(self, start: dict[str, float]) -> tuple[Any, Curves]:
+    def _nearby(self, start: dict[str, float]) -> tuple[Minimum, Curves]:
         """The result from one start, and its curves: each expansion of them gives the numbers of the next one.
 
         The reach of an expansion shrinks where the record is described worse at the next numbers, or they have no path.
@@ -173,32 +187,58 @@ class Search:
                 reach *= 0.25
             else:
                 curves, center, least = expanded, values, squares
-            result = self.minimised(curves, center, _STEPS[1], reach)
-            values = numbers_of(result.params)
+            result = self.minimised(curves, center, _FINE, reach)
+            values = result.numbers
+            deviations = result.deviations if result.covariance is not None else dict.fromkeys(values, _FINE.step)
             if all(
-                abs(values[name] - at_center) < _SMALL * (result.params[plain(name)].stderr or _STEPS[1])
-                for name, at_center in curves.center.items()
+                abs(values[name] - at_center) < _SMALL * deviations[name] for name, at_center in curves.center.items()
             ):
                 ended = True
                 break
-        if result.redchi >= DESCRIBED and not (ended and result.errorbars):
+        if result.reduced >= DESCRIBED and not (ended and result.covariance is not None):
             raise ComputationFailed("the search found no values that describe the curve: begin nearer to them")
         return result, curves
 
-    def _from(self, curves: Curves, start: dict[str, float]) -> Any:
-        """The better result from one start and from where a coarse search from it ends."""
-        coarse = numbers_of(self.minimised(curves, start, _STEPS[0]).params)
-        return _best(self.minimised(curves, each, _STEPS[1]) for each in (start, coarse))
+    def _from(self, curves: Curves, start: dict[str, float]) -> Minimum:
+        """The least of a fine search from one start, and of one from where a coarse search ends.
 
-    def scaled(self, curves: Curves, result: Any, factor: float) -> dict[str, float]:
+        The coarse one begins at the first minimum if this describes the record: often it ends there.
+        """
+        fine = self.minimised(curves, start, _FINE)
+        is_near = fine.reduced < DESCRIBED
+        coarse = self.minimised(curves, fine.numbers if is_near else start, _COARSE)
+        if is_near and coarse.squares > (1.0 - _LESS) * fine.squares:
+            return fine
+        return _best((fine, self.minimised(curves, coarse.numbers, _FINE)))
+
+    def of_branch(self, branch: str, result: Minimum) -> tuple[Search, dict[str, float]]:
+        """Return the search for one branch of the record, and where it begins: at the numbers of both.
+
+        Raises
+        ------
+        ValueError
+            If the branch is too short.
+        """
+        record = self.observed.record
+        of_points, numbers = record.approach == (branch == "approach"), dict(result.numbers)
+        baseline: BaselineName = "linear" if "tilt" in self.baseline.names else "constant"
+        alone = checked(record.only(branch), f"the {branch} of {record.name}")
+        search = Search(Observations.of(alone), self.problem, self.keys, baseline, self.jumps)
+        time = float(self.baseline.time[of_points].mean())
+        numbers["displacement"] += numbers.pop("drift", 0.0) * (time - 0.5)
+        numbers["load"] += numbers.pop("load_drift", 0.0) * time
+        # Each search counts displacements and loads in the ranges of its own record.
+        units = {"displacement": self.range / search.range}
+        units |= dict.fromkeys(("load", "tilt"), self.load_range / search.load_range)
+        return search, {name: number * units.get(name, 1.0) for name, number in numbers.items()}
+
+    def scaled(self, curves: Curves, result: Minimum, factor: float) -> dict[str, float]:
         """Return the numbers that a result becomes if all loads of the model are larger by a factor."""
-        return numbers_of(self.minimised(replace(curves, factor=factor), numbers_of(result.params), _STEPS[1]).params)
+        return self.minimised(replace(curves, factor=factor), result.numbers, _FINE).numbers
 
-    def machine(self, values: dict[str, float], curves: Curves) -> Machine:
+    def machine(self, values: Mapping[str, float], curves: Curves) -> Machine:
         """Return the stable sections of the problem of fitted numbers."""
-        # The load to which they reach changes in steps: two thirds of the numbers of a search move only the record.
-        largest = 1.2 * self.largest(values)
-        end = _REACHES ** math.ceil(math.log(largest, _REACHES)) if largest > 0.0 else largest
+        end = self._end(values)
         asked = curves, end, *(values[key.name] for key in self.keys)
         if asked not in self._machines:
             if len(self._machines) >= _KEPT:
@@ -207,71 +247,94 @@ class Search:
             self._machines[asked] = Machine.of(equilibria, self.observed.record.stiffness)
         return self._machines[asked]
 
-    def largest(self, values: dict[str, float]) -> float:
-        """The largest load of the record from its zero."""
-        return float((self.observed.record.load - self.baseline.loads(self.baseline.start | values)).max())
+    def _end(self, values: Mapping[str, float]) -> float:
+        """The load to which equilibria reach.
 
-    def zeros(self, values: dict[str, float]) -> tuple[Array, Array]:
+        It changes in steps: two thirds of the numbers of a search move only the record.
+        """
+        largest = 1.2 * self.largest(values)
+        return _REACHES ** math.ceil(math.log(largest, _REACHES)) if largest > 0.0 else largest
+
+    def largest(self, values: Mapping[str, float]) -> float:
+        """The largest load of the record from its zero."""
+        return float((self.observed.record.load - self.baseline.loads({**self.baseline.start, **values})).max())
+
+    def zeros(self, values: Mapping[str, float]) -> tuple[Array, Array]:
         """Return the positions of the record from their zero, and its loads without contact."""
         shift = values["displacement"] + values.get("drift", 0.0) * (self.baseline.time - 0.5)
         compliance = values["load"] * self.load_range / self.observed.record.stiffness
         return self._position - compliance - shift * self.range, self.baseline.loads(values)
 
-    def minimised(self, curves: Curves, start: dict[str, float], step: float, reach: float = math.inf) -> Any:
-        """Return the result of lmfit from given numbers, of keys within a reach of them.
+    def minimised(
+        self, curves: Curves, start: Mapping[str, float], precision: _Precision, reach: float = math.inf
+    ) -> Minimum:
+        """Return the least squares from given numbers, of keys within a reach of them.
 
         Raises
         ------
         comparisons.model.ComputationFailed
             If none near them describe the record.
         """
-        parameters = lmfit.Parameters()
+        numbers = {key.name: start.get(key.name, 0.0) for key in self.keys}
+        limits = {}
         for key in self.keys:
             low, high = (key.number(limit) for limit in key.limits)
-            value = start.get(key.name, 0.0)
-            low, high = max(low, value - reach), min(high, value + reach)
-            room = {} if math.isinf(low) and math.isinf(high) else {"min": low, "max": high}
-            parameters.add(plain(key.name), value=value, **room)
-        for name, number in self.baseline.start.items():
-            parameters.add(name, value=start.get(name, number))
+            limits[key.name] = Limits(max(low, numbers[key.name] - reach), min(high, numbers[key.name] + reach))
+        numbers |= {name: start.get(name, number) for name, number in self.baseline.start.items()}
         if "displacement" in start:
-            displacement = start["displacement"]
+            numbers["displacement"] = start["displacement"]
         else:
-            values = numbers_of(parameters)
-            machine = self.machine(values, curves)
-            displacement = self._aligned(machine, values) / self.range
-        parameters.add("displacement", value=displacement)
+            numbers["displacement"] = self._aligned(self.machine(numbers, curves), numbers) / self.range
         if self.baseline.has_both:
-            parameters.add("drift", value=start.get("drift", 0.0))
-
+            numbers["drift"] = start.get("drift", 0.0)
         worst = np.full(int(self.observed.used.sum()) + len(self.keys) + 2, _REFUSED)
 
-        def residuals(parameters: lmfit.Parameters) -> Array:
+        def residuals(values: Mapping[str, float], curves: Curves) -> Array:
             try:
-                errors = self._residuals(numbers_of(parameters), curves)
+                errors = self._residuals(values, curves)
             except (ComputationFailed, NotApplicable, ValueError):
                 return worst
             return np.concatenate([errors, np.zeros(len(worst) - len(errors))])
 
-        def jacobian(parameters: lmfit.Parameters) -> Array:
-            return derivatives(residuals, parameters, step)
-
-        result = lmfit.minimize(residuals, parameters, method="leastsq", Dfun=jacobian, max_nfev=40 * len(parameters))
-        if not result.chisqr < _REFUSED**2:
+        result = minimised(
+            lambda values: residuals(values, curves),
+            lambda values: self.derivatives(residuals, values, curves, precision.step),
+            numbers,
+            limits,
+            precision.tolerance,
+        )
+        if not result.squares < _REFUSED**2:
             raise ComputationFailed("no values of the free keys describe the curve")
         return result
 
-    def _aligned(self, machine: Machine, values: dict[str, float]) -> float:
+    def derivatives(
+        self,
+        function: Callable[[Mapping[str, float], Curves], Array],
+        values: Mapping[str, float],
+        curves: Curves,
+        step: float,
+    ) -> Array:
+        """Return derivatives of a function of the numbers and the curves, as `differences`.
+
+        The curves of the neighbours are those of the given numbers with their own derivatives, where these are known.
+        """
+        try:
+            near = curves.expanded(self._problem_of(values), self._end(values))
+        except (ComputationFailed, NotApplicable, ValueError):
+            near = curves
+        return differences(lambda numbers: function(numbers, near), values, step)
+
+    def _aligned(self, machine: Machine, values: Mapping[str, float]) -> float:
         """The zero of the position at which the record has the load of the model: the best of those along it."""
         states = machine.contact[0, :: max(machine.contact.shape[1] // 40, 1)]
         tried = np.linspace(self._position.min() - states.max(), self._position.max() - states.min(), 400)
         every = slice(None, None, max(len(self._position) // 400, 1))
         observed, position = self.observed.thinned(every), self._position[every]
         loads = observed.record.load - self.baseline.loads(values)[every]
-        errors = [float(np.sum((machine.load(position - shift, observed) - loads) ** 2)) for shift in tried]
+        errors = np.sum((machine.load(position - tried[:, None], observed) - loads) ** 2, axis=1)
         return float(tried[int(np.argmin(errors))])
 
-    def _residuals(self, values: dict[str, float], curves: Curves) -> Array:
+    def _residuals(self, values: Mapping[str, float], curves: Curves) -> Array:
         machine = self.machine(values, curves)
         position, zero = self.zeros(values)
         observed = self.observed
@@ -296,44 +359,22 @@ class Search:
         return distances
 
 
-def numbers_of(parameters: lmfit.Parameters) -> dict[str, float]:
-    """Return the numbers of parameters, by the names of keys and zeros."""
-    return {dotted(name): float(parameter.value) for name, parameter in parameters.items()}
+def _best(results: Iterable[Minimum]) -> Minimum:
+    """Return the least one."""
+    return min(results, key=lambda result: result.squares)
 
 
-def _best(results: Iterable[Any]) -> Any:
-    """Return the result of lmfit with the smallest sum of squares."""
-    return min(results, key=lambda result: float(result.chisqr))
-
-
-def derivatives(residuals: Callable[[lmfit.Parameters], Array], parameters: lmfit.Parameters, step: float) -> Array:
-    """Return derivatives of residuals by differences over a step, shape (m, number of parameters).
+def differences(function: Callable[[Mapping[str, float]], Array], values: Mapping[str, float], step: float) -> Array:
+    """Return derivatives of a function of numbers by differences over a step, shape (m, count of numbers).
 
     A step over the fold of a branch changes some residuals at once.  Only one of the steps to both sides goes over
     it, so the smaller of both derivatives is that of the residual.
     """
-    central, columns = residuals(parameters), []
-    for parameter in parameters.values():
-        value, slopes = float(parameter.value), []
-        for signed in (step, -step):
-            parameter.value = value + signed
-            # A value at its limit moves to one side alone.
-            if moved := float(parameter.value) - value:
-                slopes.append((residuals(parameters) - central) / moved)
-        parameter.value = value
-        if not slopes:
-            raise ComputationFailed(
-                f"{dotted(parameter.name)} has no room for a change: begin nearer to the true values"
-            )
-        columns.append(np.where(np.abs(slopes[0]) < np.abs(slopes[-1]), slopes[0], slopes[-1]))
+    central, columns = function(values), []
+    for name, value in values.items():
+        moved = [value + signed for signed in (step, -step)]
+        if value in moved:
+            raise ComputationFailed(f"{name} has no room for a change: begin nearer to the true values")
+        slopes = [(function({**values, name: other}) - central) / (other - value) for other in moved]
+        columns.append(np.where(np.abs(slopes[0]) < np.abs(slopes[1]), slopes[0], slopes[1]))
     return np.column_stack(columns)
-
-
-def plain(name: str) -> str:
-    """Return the name of a key as lmfit takes it."""
-    return name.replace(".", "__")
-
-
-def dotted(name: str) -> str:
-    """Return the name of a key from that of lmfit."""
-    return name.replace("__", ".")

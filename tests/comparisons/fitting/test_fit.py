@@ -6,7 +6,6 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-import lmfit
 import numpy as np
 import pandas as pd
 import pytest
@@ -24,7 +23,7 @@ from comparisons.fitting.fit import Fit, FittedValue, fit_record
 from comparisons.fitting.folder import _pictures
 from comparisons.fitting.machine import Machine, Observations
 from comparisons.fitting.parameters import free_keys
-from comparisons.fitting.search import derivatives
+from comparisons.fitting.search import differences
 from comparisons.model import ComputationFailed
 from comparisons.problem import Problem, Section
 from comparisons.problem.uncertain import Uncertainty
@@ -193,6 +192,55 @@ def test_numbers_that_move_the_record_alone_need_no_new_equilibria(monkeypatch):
     assert len(computed) < 0.6 * len(compared)
 
 
+def test_curves_near_a_series_are_those_of_their_own_series_to_first_order():
+    problem = of_tabor_number(2.0, 0.4)
+    key = free_keys(problem, ["solid.E0"])[0]
+    near = Curves("fscm", 1.1).expanded(problem, 1e-8)
+    errors = []
+    for number in (0.02, 0.01):
+        beside = problem.with_value("solid.E0", key.value(number))
+        linear, own = (curves.equilibria(beside, {}, 1e-8) for curves in (near, Curves("fscm", 1.1)))
+        errors.append(max(float(np.abs(a - b).max() / np.ptp(b)) for a, b in zip(linear, own, strict=True)))
+    assert errors[1] < 0.3 * errors[0] < 1e-3
+
+
+def test_a_sphere_on_a_power_law_is_fitted_without_a_path_of_the_fscm(monkeypatch):
+    problem, record = recorded(6.0, drift=0.02)
+    for name in ("trace", "solve"):
+        monkeypatch.setattr(fscm, name, None)
+    result = fitted(problem, record)
+    assert max(map(abs, deviations(problem, result))) < 3.5
+    assert set(result.by_branch) == {"approach", "retreat"}
+
+
+@pytest.mark.parametrize("kind", ["constant", "linear"])
+def test_each_branch_begins_where_both_together_end(kind):
+    """The ranges of a branch, in which its zeros count, are others than those of the record; drift is a shift of it."""
+    problem, whole = recorded(3.0, drift=0.02)
+    shorter = np.flatnonzero(~whole.approach)[:200]
+    kept = np.concatenate([np.flatnonzero(whole.approach), shorter])
+    cut = replace(whole, **{name: getattr(whole, name)[kept] for name in ("displacement", "load", "approach")})
+    both = search.Search(Observations.of(cut), problem, free_keys(problem, FREE), kind)
+    result, _ = both.best(Curves("fscm"), [{}], False)
+    for branch in ("approach", "retreat"):
+        alone, start = both.of_branch(branch, result)
+        points = cut.approach == (branch == "approach")
+        zeros = zip(both.zeros(result.numbers), alone.zeros(start), (both.range, both.load_range), strict=True)
+        for of_both, of_branch, size in zeros:
+            assert of_branch.mean() == pytest.approx(of_both[points].mean(), abs=1e-3 * size)
+
+
+def test_a_fit_expands_a_few_series(monkeypatch):
+    """The derivatives of a series serve all numbers, and no expansion is made twice at one point."""
+    expanded, made = [], Curves.expanded
+    monkeypatch.setattr(
+        Curves, "expanded", lambda self, problem, *given: expanded.append(problem) or made(self, problem, *given)
+    )
+    problem, record = recorded(3.0, seed=3)
+    fitted(problem, record)
+    assert 3 < len(expanded) < 60
+
+
 def test_what_the_file_knows_counts_like_a_measurement():
     """An uncertain radius widens the work of adhesion by as much, and a prior that is tight holds its key."""
     problem, record = recorded(3.0, seed=2)
@@ -213,15 +261,11 @@ def test_what_a_curve_cannot_tell_is_said():
 
 
 def test_a_jump_of_a_residual_on_one_side_is_no_derivative():
-    parameters = lmfit.Parameters()
-    parameters.add("a", value=1.0)
-
-    def residuals(parameters):
-        a = float(parameters["a"])
+    def residuals(values):
+        a = values["a"]
         return np.array([2.0 * a + (a > 1.0), 3.0 * a - (a < 1.0)])
 
-    assert derivatives(residuals, parameters, 1e-3)[:, 0] == pytest.approx([2.0, 3.0])
-    assert float(parameters["a"]) == 1.0
+    assert differences(residuals, {"a": 1.0}, 1e-3)[:, 0] == pytest.approx([2.0, 3.0])
 
 
 def test_the_error_of_jkr_is_in_its_uncertainty():
@@ -388,10 +432,8 @@ def test_a_branch_without_points_is_wrong_input():
 
 
 def test_a_number_too_large_for_a_step_has_no_derivative():
-    parameters = lmfit.Parameters()
-    parameters.add("a", value=1e30)
     with pytest.raises(ComputationFailed):
-        derivatives(lambda parameters: np.ones(3), parameters, 1e-3)
+        differences(lambda values: np.ones(3), {"a": 1e30}, 1e-3)
 
 
 #: Cells that are no number of a curve.
