@@ -33,7 +33,7 @@ MODELS = {
     "pietrement-troyon": "comparisons.models.transition_formulas:PietrementTroyon",
     "schwarz": "comparisons.models.transition_formulas:Schwarz",
     "jump-asymptotes": "comparisons.models.jump_asymptotes:JumpAsymptotes",
-    "atlas": "comparisons.models.fscm_model:Atlas",
+    "atlas": "comparisons.models.atlas:Atlas",
     "jkr-sphere": "comparisons.models.jkr_sphere:JKRSphere",
     "jkr-sphere-projected": "comparisons.models.jkr_sphere:JKRSphereProjected",
     "jkr-surface-tension": "comparisons.models.jkr_surface_tension:JKRSurfaceTension",

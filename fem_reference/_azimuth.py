@@ -17,8 +17,8 @@ import math
 from functools import lru_cache
 
 import numpy as np
+import scipy
 from numpy.polynomial import chebyshev
-from scipy.special import hyp2f1
 
 from fem_reference._typing import Array
 
@@ -76,7 +76,10 @@ class Azimuth:
         transform = np.cos(np.outer(np.arange(_SAMPLES), angle)) * 2.0 / _SAMPLES
         transform[0] *= 0.5
         for s in orders:
-            for samples in (hyp2f1(1.0 - s, 0.5, 1.0, 1.0 - t), 0.25 * s * hyp2f1(2.0 - s, 1.5, 3.0, 1.0 - t)):
+            for samples in (
+                scipy.special.hyp2f1(1.0 - s, 0.5, 1.0, 1.0 - t),
+                0.25 * s * scipy.special.hyp2f1(2.0 - s, 1.5, 3.0, 1.0 - t),
+            ):
                 column = transform @ samples
                 large = np.flatnonzero(np.abs(column) > _LEFT_OUT * np.abs(column).max())
                 columns.append(column[: large[-1] + 1])

@@ -11,8 +11,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
-from scipy.optimize import least_squares
+import scipy
 
 from fem_reference._typing import Array
 
@@ -69,7 +68,7 @@ def _fit(x: Array, p: Array) -> _TwoPowers:
     first = _TwoPowers(wall, math.log(zero - wall), math.log(2.6 * tension), math.log(START[1]), math.log(START[0]))
     highest = [x[0], np.inf, np.inf, math.log(LARGEST), math.log(LARGEST)]
     scale = np.abs(p) + SHARE * tension
-    result = least_squares(
+    result = scipy.optimize.least_squares(
         lambda v: (_TwoPowers(*v).net(x) - p) / scale,
         first,
         bounds=(-np.inf, highest),
@@ -100,7 +99,7 @@ def denser_points(x: Array, p: Array) -> tuple[Array, Array]:
     """
     powers = _fit(x, p)
     log_distance = np.log(x - powers.wall)
-    rest = make_interp_spline(log_distance, (p - powers.net(x)) / powers.scale(x), k=5)
+    rest = scipy.interpolate.make_interp_spline(log_distance, (p - powers.net(x)) / powers.scale(x), k=5)
     parts = math.ceil(DENSE / (len(x) - 1))
     # Equal steps of the logarithm in each interval.
     steps = np.arange(parts * (len(x) - 1) + 1) / parts

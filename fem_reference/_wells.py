@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from fem_reference._typing import Array
 from fem_reference.laws import LennardJones, Mie, SurfaceLaw
@@ -30,7 +30,10 @@ def stable_gaps(traction: Callable[[Array], Array], gaps: Array) -> list[float]:
     """
     p = traction(gaps)
     falls = np.flatnonzero((p[:-1] > 0) & (p[1:] <= 0))
-    return [float(brentq(traction, gaps[i], gaps[i + 1], xtol=1e-15 * abs(gaps[i]), rtol=1e-15)) for i in falls]
+    return [
+        float(scipy.optimize.brentq(traction, gaps[i], gaps[i + 1], xtol=1e-15 * abs(gaps[i]), rtol=1e-15))
+        for i in falls
+    ]
 
 
 def work_of_tension(law: SurfaceLaw) -> float:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from fem_reference._typing import Array
 from fem_reference._validation import check_positive
@@ -187,7 +187,7 @@ class TabulatedProfile(_Settling):
     values: Sequence[float]
     column: str = "values"
     steep: float = math.inf
-    _curve: PchipInterpolator = field(init=False, compare=False, repr=False)
+    _curve: scipy.interpolate.PchipInterpolator = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         name = self.column
@@ -211,7 +211,7 @@ class TabulatedProfile(_Settling):
             raise ValueError(
                 f"the depth {z[row]:g} in row {row} is not above {z[row - 1]:g}, the one before it: they must rise"
             )
-        checked = (tuple(z.tolist()), tuple(y.tolist()), PchipInterpolator(z, y))
+        checked = (tuple(z.tolist()), tuple(y.tolist()), scipy.interpolate.PchipInterpolator(z, y))
         for attribute, value in zip(("depths", "values", "_curve"), checked, strict=True):
             object.__setattr__(self, attribute, value)
 

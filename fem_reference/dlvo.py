@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from fem_reference._typing import Array
 from fem_reference._validation import check_positive
@@ -73,7 +73,7 @@ class Dlvo:
         deepest = min(wells, key=self._stored)
         slope = partial(self._pressure, order=1)
         rising = np.flatnonzero((slope(D[:-1]) < 0) & (slope(D[1:]) >= 0))
-        peaks = [float(brentq(slope, D[i], D[i + 1], xtol=1e-15 * D[i])) for i in rising]
+        peaks = [float(scipy.optimize.brentq(slope, D[i], D[i + 1], xtol=1e-15 * D[i])) for i in rising]
         peak = min(peaks, key=lambda at: float(self._pressure(np.array(at), 0)))
         object.__setattr__(self, "distance", deepest)
         object.__setattr__(self, "work_of_adhesion", -self._stored(deepest))

@@ -30,7 +30,7 @@ from functools import lru_cache
 from typing import Literal, Protocol
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from fem_reference._ball_under_law import face_gap, rate_of_ball, traction_of_ball
 from fem_reference._body_of_revolution import BodyOfRevolution
@@ -296,7 +296,7 @@ def _peak_distance(body: Body) -> float:
         d = np.array(length * np.exp(log_d))
         return float(body._rate(R + d, d)) * float(d)
 
-    return R + length * float(np.exp(brentq(rate, -np.log(_WIDEST), np.log(_WIDEST), xtol=1e-14)))
+    return R + length * float(np.exp(scipy.optimize.brentq(rate, -np.log(_WIDEST), np.log(_WIDEST), xtol=1e-14)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.interpolate import BSpline, PPoly, make_interp_spline
+import scipy
 
 from fem_reference._law_between_points import denser_points
 from fem_reference._typing import Array, Index
@@ -110,8 +110,8 @@ class TabulatedLaw:
     tail_exponent: float | None = None
     work: float | None = None
     smoothing: float = 0.0
-    _spline: PPoly = field(init=False, compare=False)
-    _primitive: PPoly = field(init=False, compare=False)
+    _spline: scipy.interpolate.PPoly = field(init=False, compare=False)
+    _primitive: scipy.interpolate.PPoly = field(init=False, compare=False)
     _wall: _Power = field(init=False, compare=False)
     _tail: _Power | None = field(init=False, compare=False)
     _peak: float = field(init=False, compare=False)
@@ -143,7 +143,7 @@ class TabulatedLaw:
                 f"the work of adhesion of the points is {work:g}, outside (0, infinity): it cannot be scaled to "
                 f"work = {self.work:g}; leave that out"
             )
-        pieces = PPoly(spline.c, spline.x - zero)
+        pieces = scipy.interpolate.PPoly(spline.c, spline.x - zero)
         for name, new in (
             ("gaps", tuple(columns[0].tolist())),
             ("tractions", tuple(columns[1].tolist())),
@@ -259,7 +259,7 @@ def _columns(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, 
     return x, p
 
 
-def _law(x: Array, p: Array, exponent: float | None) -> tuple[PPoly, _Power, _Power | None, float]:
+def _law(x: Array, p: Array, exponent: float | None) -> tuple[scipy.interpolate.PPoly, _Power, _Power | None, float]:
     """Spline, wall and tail, and gap of the largest tension."""
     if len(x) < SPARSE:
         with suppress(ValueError):
@@ -267,8 +267,10 @@ def _law(x: Array, p: Array, exponent: float | None) -> tuple[PPoly, _Power, _Po
     return _through(x, p, exponent, _turns(p))
 
 
-def _through(x: Array, p: Array, exponent: float | None, turns: int) -> tuple[PPoly, _Power, _Power | None, float]:
-    free = make_interp_spline(x, p, k=5)
+def _through(
+    x: Array, p: Array, exponent: float | None, turns: int
+) -> tuple[scipy.interpolate.PPoly, _Power, _Power | None, float]:
+    free = scipy.interpolate.make_interp_spline(x, p, k=5)
     wall = _wall_of(x[0], p[0], float(free(x[0], 1)), float(free(x[0], 2)))
     tail = _tail_of(x, p, wall.origin, exponent)
     spline = _joined_spline(x, p, wall, tail)
@@ -320,17 +322,17 @@ def _tail_of(x: Array, p: Array, origin: float, exponent: float | None) -> _Powe
     return _Power(0.0, float(p[-1] * (x[-1] - origin) ** m), origin, m)
 
 
-def _joined_spline(x: Array, p: Array, wall: _Power, tail: _Power | None) -> PPoly:
+def _joined_spline(x: Array, p: Array, wall: _Power, tail: _Power | None) -> scipy.interpolate.PPoly:
     """The spline with the slopes and curvatures of wall and tail at its ends."""
     left = [(1, float(wall.slope(x[0]))), (2, float(wall.curvature(x[0])))]
     right = [(1, 0.0), (2, 0.0)]
     if tail is not None:
         right = [(1, float(tail.slope(x[-1]))), (2, float(tail.curvature(x[-1])))]
-    spline: BSpline = make_interp_spline(x, p, k=5, bc_type=(left, right))
-    return PPoly.from_spline(spline)
+    spline: scipy.interpolate.BSpline = scipy.interpolate.make_interp_spline(x, p, k=5, bc_type=(left, right))
+    return scipy.interpolate.PPoly.from_spline(spline)
 
 
-def _largest_tension(spline: PPoly, x: Array, turns: int) -> float:
+def _largest_tension(spline: scipy.interpolate.PPoly, x: Array, turns: int) -> float:
     """Gap of the largest tension; the spline must turn as often as the points."""
     roots = spline.derivative().roots(discontinuity=False, extrapolate=False)
     inside = [r for r in roots if x[0] < r < x[-1] - END_SHARE * (x[-1] - x[-2])]

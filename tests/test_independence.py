@@ -44,6 +44,7 @@ ALLOWED = {
     # The Stieltjes scheme from an accurate surface on.
     "comparisons.paper.scheme_forces": ("fscm",),
     # Only the adapters know the solvers.
+    "comparisons.models.atlas": ("fscm",),
     "comparisons.models.fscm_model": ("fscm",),
     "comparisons.models.gibson_limit": ("fscm",),
     "comparisons.models.fem_model": ("fem_reference", "fscm.problem", "fscm.punch", "fscm.laws"),

@@ -24,7 +24,7 @@ import re
 import sys
 import textwrap
 from collections.abc import Collection, Sequence
-from contextlib import nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from importlib import import_module
 from inspect import getdoc
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -56,10 +56,10 @@ _COMMANDS = {
         "fem",
         "write fields of the finite elements (vtu, picture); print their verification and the study of the solvers",
     ),
-    "list": ("models", "list the models, quantities, cases, gates, or the kinds of a problem file"),
+    "list": ("listing", "list the models, quantities, cases, gates, or the kinds of a problem file"),
     "check-model": ("models", "check that an external model keeps the contract"),
     "new-model": ("models", "write a template for your own model: a package with a test and a CI workflow"),
-    "cite": ("pages", "print how to cite fscm-bench and what a run used, as text or BibTeX"),
+    "cite": ("citing", "print how to cite fscm-bench and what a run used, as text or BibTeX"),
     "bench": ("evidence", "measure error, time and memory of the solvers on this machine, as ratios"),
 }
 
@@ -144,18 +144,29 @@ def _call(arguments: Sequence[str], program: str) -> int:
     called = [text for text in arguments if not text.startswith("-")][:1]
     args = _parser(called, program).parse_args(arguments)
     # Not needed for the help.
-    from threadpoolctl import threadpool_limits
-
     from comparisons.console.progress import log, quiet
-    from comparisons.model import ComputationFailed
 
     # Embedding a font in a PDF, it remarks on the date in the font's file.
     logging.getLogger("fontTools").setLevel(logging.ERROR)
-    # One thread for BLAS: processes share the work, and sums come in the same order every time.
-    with threadpool_limits(1), quiet() if getattr(args, "quiet", False) else nullcontext():
+    with _one_thread(), quiet() if getattr(args, "quiet", False) else nullcontext():
         try:
             status: int = args.call(args)
-        except ComputationFailed as failure:
+        except Exception as failure:
+            # Imported here: a command that computes nothing does not need it.
+            from comparisons.model import ComputationFailed
+
+            if not isinstance(failure, ComputationFailed):
+                raise
             log(str(failure))
             return FAILED
     return status
+
+
+def _one_thread() -> AbstractContextManager[Any]:
+    """One thread for BLAS: processes share the work, and sums come in the same order every time."""
+    if "numpy" not in sys.modules:
+        # A command that computes has loaded it with its module.
+        return nullcontext()
+    from threadpoolctl import threadpool_limits
+
+    return threadpool_limits(1)

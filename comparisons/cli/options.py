@@ -7,12 +7,13 @@ from collections.abc import Callable
 from functools import partial
 from itertools import chain
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from comparisons.data.plain_numbers import plain_float, plain_int
-from comparisons.problem import PARAMETERS, Problem
-from comparisons.problem.variation import RANGE, spaced
-from comparisons.runs.workers import usable_cores
+from comparisons.runs.cores import usable_cores
+
+if TYPE_CHECKING:
+    from comparisons.problem import Problem
 
 #: An option of a command: names and settings as of `argparse.ArgumentParser.add_argument`.
 Option = tuple[tuple[str, ...], dict[str, Any]]
@@ -60,6 +61,9 @@ def numbers(*names: str, logarithmic: bool = False, **settings: Any) -> Option:
 
 def _numbers(text: str, logarithmic: bool) -> list[float]:
     """Return the numbers that a word of an option means."""
+    # Imported here, as in `problem_of`: a command without a problem needs no solver.
+    from comparisons.problem.variation import RANGE, spaced
+
     words = RANGE.fullmatch(text)
     try:
         texts = spaced(words[1], words[2], words[3], logarithmic) if words and not words[4] else [text]
@@ -132,6 +136,8 @@ VERBOSE = option("--verbose", action="store_true", help="print every gate, not o
 
 def problem_of(args: argparse.Namespace) -> Problem:
     """Return the problem of the arguments; `ValueError` if it is inadmissible, not complete or stated twice."""
+    from comparisons.problem import PARAMETERS, Problem
+
     numbers: dict[str, Any] = {name: getattr(args, name, None) for name in PARAMETERS}
     if getattr(args, "problem", None) is not None:
         if twice := [f"--{name}" for name, number in numbers.items() if number is not None]:

@@ -5,13 +5,15 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from comparisons.console.exit_status import FAILED, OK, writing_stdout
 from comparisons.console.printable import printable
 from comparisons.console.progress import log, note
 from comparisons.console.safe_console import SafeConsole
-from comparisons.runs.rows import Row
+
+if TYPE_CHECKING:
+    from comparisons.runs.rows import Row
 
 #: Columns of a table when stdout is not a terminal: the same text in every log and file.
 _WIDTH = 80

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from contextvars import ContextVar
+from typing import TYPE_CHECKING
 
-from rich import progress
-
-from comparisons.console.safe_console import SafeConsole
+if TYPE_CHECKING:
+    from rich import progress
 
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 
@@ -18,6 +18,9 @@ def log(text: str) -> None:
 
     A message that cannot be written is lost and stops no computation.
     """
+    # Imported here, as rich below: most commands write no message and show no bar.
+    from comparisons.console.safe_console import SafeConsole
+
     with suppress(OSError):
         SafeConsole(stderr=True, highlight=False, markup=False).print(text, soft_wrap=True)
 
@@ -47,6 +50,8 @@ def quiet() -> Iterator[None]:
 @contextmanager
 def waiting(description: str) -> Iterator[None]:
     """Show that one computation of unknown length is under way."""
+    from rich import progress
+
     with _bar(progress.TimeElapsedColumn()) as bar:
         bar.add_task(description, total=None)
         yield
@@ -55,6 +60,8 @@ def waiting(description: str) -> Iterator[None]:
 @contextmanager
 def counting(description: str, count: int) -> Iterator[Callable[[], None]]:
     """Show how many computations are done, and the time left; the yielded function counts one more."""
+    from rich import progress
+
     with _bar(progress.MofNCompleteColumn(), progress.TimeElapsedColumn(), progress.TimeRemainingColumn()) as bar:
         task = bar.add_task(description, total=count)
         yield lambda: bar.advance(task)
@@ -62,6 +69,10 @@ def counting(description: str, count: int) -> Iterator[Callable[[], None]]:
 
 @contextmanager
 def _bar(*columns: progress.ProgressColumn) -> Iterator[progress.Progress]:
+    from rich import progress
+
+    from comparisons.console.safe_console import SafeConsole
+
     console = SafeConsole(stderr=True)
     text = progress.TextColumn("{task.description}", markup=False)
     bar = progress.Progress(text, progress.BarColumn(), *columns, console=console, transient=True)

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from comparisons.model import Array
 
@@ -53,7 +53,7 @@ def between(points: Array, nodes: Sequence[Change], point: float) -> Change:
     (1.5, 0.12)
     """
     values, bounds = np.array([node.value for node in nodes]), np.array([node.uncertainty for node in nodes])
-    value = float(PchipInterpolator(points, values)(point))
+    value = float(scipy.interpolate.PchipInterpolator(points, values)(point))
     right = int(np.clip(np.searchsorted(points, point), 1, points.size - 1))
     share = (point - points[right - 1]) / (points[right] - points[right - 1])
     form = BETWEEN * 4.0 * share * (1.0 - share) * float(np.abs(values[right - 1 : right + 1]).max())

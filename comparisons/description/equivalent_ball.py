@@ -10,7 +10,6 @@ import numpy as np
 from comparisons.model import Array, NotApplicable
 from comparisons.models.jkr_sphere import LARGEST_CONTACT
 from comparisons.problem import Problem
-from comparisons.problem.equivalent_solid import modulus_at, surface_ratio
 
 #: Kinds of punches that are spheres: the paraboloid of the tip, and the exact one.
 PARABOLOID, BALL = "sphere", "ball"
@@ -69,6 +68,9 @@ def equivalent_ball(problem: Problem, contact_radius: float | None = None) -> Eq
     if problem.is_of_the_paper("solid") and problem.posed.k == 0.0:
         mu = problem.posed.mu
         return EquivalentBall((mu * z0 / radius) ** 1.5, mu, problem.solid["nu"], True)
+    # Imported here: a power law needs no compliance of its surface.
+    from comparisons.problem.equivalent_solid import surface_ratio
+
     share = (_radius_of_jkr(problem) if contact_radius is None else contact_radius) / radius
     softness = 8.0 / (9.0 * math.pi) * share**3
     return EquivalentBall(softness, float(np.cbrt(softness)) ** 2 * radius / z0, surface_ratio(problem), False)
@@ -76,6 +78,8 @@ def equivalent_ball(problem: Problem, contact_radius: float | None = None) -> Eq
 
 def _radius_of_jkr(problem: Problem) -> float:
     """The contact radius at pull-off, in m."""
+    from comparisons.problem.equivalent_solid import modulus_at
+
     radius, w = problem.punch["R"], problem.law["work_of_adhesion"]
     radii: Array = radius * _RADII
     moduli = modulus_at(problem, _AT_CONTACT / radii)

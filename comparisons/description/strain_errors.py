@@ -26,7 +26,7 @@ from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+import scipy
 
 from comparisons.description.changes import Change, Nodes, at_tabor_number, between, relative, towards
 from comparisons.description.third_order import strain_limit
@@ -232,7 +232,9 @@ def rigid_changes(range_over_radius: float) -> tuple[float, float]:
         def load(height: float, traction: Callable[[Array, Array], Array] = traction) -> float:
             return float(np.sum(measure * traction(rho, ball.height(rho) + height * range_over_radius)))
 
-        forces.append(-minimize_scalar(load, bounds=_HEIGHTS, method="bounded", options={"xatol": 1e-9}).fun)
+        forces.append(
+            -scipy.optimize.minimize_scalar(load, bounds=_HEIGHTS, method="bounded", options={"xatol": 1e-9}).fun
+        )
     # That of the paraboloid is 2 pi w R (Bradley).
     return float(forces[0] - 1.0), float(forces[1] / forces[0] - 1.0)
 

@@ -19,28 +19,17 @@ from typing import Any
 
 from comparisons.external.data_model import MANIFEST, DataModel
 from comparisons.external.inherited import hidden_folders
+from comparisons.external.installed import GROUP
 from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import one_line
 
 #: A model of the user: a class or program, or a table of data.
 AnyExternalModel = ExternalModel | DataModel
 
-#: Group of the entry points by which an installed package offers models.
-GROUP = "fscm_bench.models"
 
 _SPECS = f"an installed model, FILE.py:CLASS, a program (./PROGRAM) or a folder with a {MANIFEST}"
 
 _loaded: dict[str, AnyExternalModel] = {}
-
-
-def installed() -> list[tuple[str, str, str]]:
-    """Return name, package and version of the installed models, sorted; none of their code is run."""
-    entries = {(entry.name, entry.dist) for entry in entry_points(group=GROUP)}
-    return sorted(
-        (one_line(name, 60), one_line(package.name, 60), one_line(package.version, 60))
-        for name, package in entries
-        if package is not None
-    )
 
 
 def source_of(spec: str) -> dict[str, Any]:

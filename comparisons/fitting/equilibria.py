@@ -20,7 +20,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import CubicSpline, PchipInterpolator
+import scipy
 
 import fscm
 from comparisons.model import Array, ComputationFailed
@@ -237,7 +237,13 @@ def _with_points_between(length: Array, path: Array) -> Array:
     """
     steps = np.arange(_BETWEEN) / _BETWEEN
     points = length[:-1, None] + np.diff(length)[:, None] * steps
-    splines, others = (curve(points) for curve in (CubicSpline(length, path.T), PchipInterpolator(length, path.T)))
+    splines, others = (
+        curve(points)
+        for curve in (
+            scipy.interpolate.CubicSpline(length, path.T),
+            scipy.interpolate.PchipInterpolator(length, path.T),
+        )
+    )
     ends = np.concatenate([splines[:, :, 0], path[0, 1:, None]], axis=1)
     turns = np.any(np.diff(ends, axis=1) * np.diff(path[0])[:, None] <= 0.0, axis=1)
     splines[turns] = others[turns]
@@ -256,7 +262,7 @@ def _resampled(problem: fscm.Problem, end: float, count: int) -> Array:
     shares = np.linspace(0.0, 1.0, _POINTS)
     pieces = pairwise([length[0], *marks, length[-1]])
     points = np.concatenate([(a + (b - a) * shares)[int(a > 0.0) :] for a, b in pieces])
-    return np.asarray(CubicSpline(length, path.T)(points).T)
+    return np.asarray(scipy.interpolate.CubicSpline(length, path.T)(points).T)
 
 
 def _length(path: Array, mu: float) -> Array:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from scipy.spatial import KDTree
+import scipy
 
 from comparisons.model import Array
 from comparisons.output.style import new_figure, styled
@@ -119,7 +119,7 @@ def _cell(items: Sequence[Mapping[str, Any]], positions: Array) -> Array:
             sizes[axis] = spans[axis] / count
     if not sizes.any():
         apart = np.unique(positions, axis=0)
-        sizes[:] = np.median(KDTree(apart).query(apart, k=2)[0][:, 1])
+        sizes[:] = np.median(scipy.spatial.KDTree(apart).query(apart, k=2)[0][:, 1])
     # A line has cells as high as they are wide.
     return np.where(sizes > 0.0, sizes, sizes.max())
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from comparisons.fitting.fit import Fit
 from comparisons.numerics.number_text import short
 from comparisons.output.style import COLOURS, new_figure, styled
 from comparisons.problem.units import prefixed_unit, si_text
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = ["draw"]
 

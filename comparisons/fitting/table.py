@@ -4,21 +4,35 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
+import lazy_loader
 import numpy as np
-import pandas as pd
 
 from comparisons.output.table import Column, Record, Table
 from comparisons.problem.units import si_text
 
-__all__ = ["fit_table"]
+if TYPE_CHECKING:
+    import pandas as pd
+else:
+    pd = lazy_loader.load("pandas")
+
+__all__ = ["CAPTION", "fit_columns", "fit_rows", "fit_table"]
+
+CAPTION = "Fitted values, and changes by the errors of model and assumptions (%)"
 
 #: A smaller change in percent is that of rounding.
 _NOTHING = 1e-3
 
 
 def fit_table(items: Sequence[Mapping[str, Any]]) -> Table:
+    """Return the rows of fits as a table."""
+    rows = fit_rows(items)
+    return Table("fits", CAPTION, fit_columns(rows), pd.DataFrame(rows))
+
+
+def fit_rows(items: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     """Return one row for each value of each curve, or one with the reason why a curve has none.
 
     Rows of a map have its positions ``x`` and ``y`` in m, and ``column`` and ``row`` of its grid.
@@ -34,26 +48,28 @@ def fit_table(items: Sequence[Mapping[str, Any]]) -> Table:
                 rows.append(head | of_fit | {"key": key} | _filled(row) | quality)
         if item["failure"]:
             rows.append(head | _NO_FIT | {"reason": item["failure"]})
+    return rows
 
-    def shift(name: str, row: Record) -> str:
-        if row["reason"]:
-            return ""
-        size = row[f"shift_by_{name}"]
-        share = math.nan if size is None else 100.0 * size / row["value"]
-        return "unknown" if math.isnan(share) else f"{share:+.2g}" if abs(share) > _NOTHING else "+0"
 
-    columns = [
+def fit_columns(rows: Sequence[Record]) -> list[Column]:
+    """Return the columns of such rows."""
+    return [
         *([Column("curve", lambda row: str(row["curve"]))] if len({row["curve"] for row in rows}) > 1 else []),
         Column("model", lambda row: str(row["model"])),
         Column("mu", lambda row: "" if row["mu"] is None or np.isnan(row["mu"]) else f"{row['mu']:.3g}", "mu"),
         Column("key", lambda row: str(row["key"])),
         Column("value", _value_text, "value"),
-        Column("by model", lambda row: shift("model", row), "shift_by_model"),
-        Column("assumed", lambda row: shift("assumptions", row), "shift_by_assumptions"),
+        Column("by model", partial(_shift_text, "model"), "shift_by_model"),
+        Column("assumed", partial(_shift_text, "assumptions"), "shift_by_assumptions"),
     ]
-    return Table(
-        "fits", "Fitted values, and changes by the errors of model and assumptions (%)", columns, pd.DataFrame(rows)
-    )
+
+
+def _shift_text(name: str, row: Record) -> str:
+    if row["reason"]:
+        return ""
+    size = row[f"shift_by_{name}"]
+    share = math.nan if size is None else 100.0 * size / row["value"]
+    return "unknown" if math.isnan(share) else f"{share:+.2g}" if abs(share) > _NOTHING else "+0"
 
 
 def _filled(row: Mapping[str, Any]) -> dict[str, Any]:

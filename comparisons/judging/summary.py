@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import lazy_loader
 import numpy as np
-import pandas as pd
 
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.runs.frames import with_problem
+
+if TYPE_CHECKING:
+    import pandas as pd
+else:
+    pd = lazy_loader.load("pandas")
 
 #: Numbers of cases in which a candidate was evaluated, has a value (or there is none), is not applicable, has failed or
 #: has no row, and was not evaluated since they are outside its domain.

@@ -13,8 +13,8 @@ import math
 from typing import ClassVar
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import beta
 
 from comparisons.model import FARTHEST_GAP, Curve, Result
 from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, POINTS, STIFF, ClosedForm, monomial
@@ -35,7 +35,7 @@ def rigid_load(n: float, central_gap: NDArray[np.float64]) -> NDArray[np.float64
     b = 2.0 / n
     q = 1.0 / (np.asarray(central_gap, float) + 1.0)
     factor = 16.0 / 3.0 * n ** (b - 1.0)
-    return factor * q ** (3.0 - b) * (beta(9.0 - b, b) * q**6 - beta(3.0 - b, b))
+    return factor * q ** (3.0 - b) * (scipy.special.beta(9.0 - b, b) * q**6 - scipy.special.beta(3.0 - b, b))
 
 
 def _gap_base(n: float) -> float:
@@ -53,7 +53,10 @@ def rigid_pull_off(n: float) -> Result:
     """
     b = 2.0 / n
     return monomial(
-        (32.0 / (9.0 * n - 2.0), 1.0), (n, b), (float(beta(3.0 - b, b)), 1.0), (_gap_base(n), (3.0 - b) / 6.0)
+        (32.0 / (9.0 * n - 2.0), 1.0),
+        (n, b),
+        (float(scipy.special.beta(3.0 - b, b)), 1.0),
+        (_gap_base(n), (3.0 - b) / 6.0),
     )
 
 
@@ -95,7 +98,7 @@ class Bradley(ClosedForm):
 def _zero_load_gap(n: float) -> Result:
     """H0 + 1 where P = 0: the sixth root of B_9 / B_3."""
     b = 2.0 / n
-    return monomial((float(beta(9.0 - b, b) / beta(3.0 - b, b)), 1.0 / 6.0))
+    return monomial((float(scipy.special.beta(9.0 - b, b) / scipy.special.beta(3.0 - b, b)), 1.0 / 6.0))
 
 
 def _shifted(gap_plus_one: Result) -> Result:

@@ -21,11 +21,13 @@ standing ones, so that the two differ by less than one part in a thousand of u_k
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
-import pandas as pd
+if TYPE_CHECKING:
+    import pandas as pd
 
-_Numbers = TypeVar("_Numbers", float, pd.Series)
+
+_Numbers = TypeVar("_Numbers", float, "pd.Series")
 
 
 def combined(*bounds: _Numbers) -> _Numbers:

@@ -8,11 +8,16 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-import pandas as pd
+import lazy_loader
 
 from comparisons.numerics.number_text import aligned, number_parts
+
+if TYPE_CHECKING:
+    import pandas as pd
+else:
+    pd = lazy_loader.load("pandas")
 
 _PACKAGES = r"% The document needs \usepackage{array,booktabs,longtable,pdflscape,siunitx}"
 

@@ -12,15 +12,20 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from importlib.resources import files
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import pandas as pd
+import lazy_loader
 
 from comparisons.judging.summary import coverage_text
 from comparisons.numerics.number_text import error_text, exact, limits_text, percent_text, value_text
 from comparisons.problem.units import si_text
 from comparisons.quantities import title_of
 from comparisons.runs.frames import unit_in
+
+if TYPE_CHECKING:
+    import pandas as pd
+else:
+    pd = lazy_loader.load("pandas")
 
 #: A stored row.
 Record = Mapping[str, Any]
@@ -95,9 +100,7 @@ class Table:
     @cached_property
     def texts(self) -> pd.DataFrame:
         """The texts by the headings, without columns in which no row has one."""
-        texts = {column.heading: [column.text(row) for row in self.records] for column in self.columns}
-        table = pd.DataFrame(texts, dtype=object)
-        return table.loc[:, (table != "").any()] if len(table) else table
+        return pd.DataFrame(cells(self.columns, self.records), dtype=object)
 
     @property
     def filled(self) -> list[Column]:
@@ -108,6 +111,18 @@ class Table:
     def on_paper(self) -> pd.DataFrame:
         """The texts without commands."""
         return self.texts[[column.heading for column in self.filled if column.kind != "code"]]
+
+
+def cells(columns: Sequence[Column], rows: Sequence[Record]) -> dict[str, list[str]]:
+    """Return the texts of rows by the headings, without columns in which no row has one.
+
+    Examples
+    --------
+    >>> cells([column("model"), column("note")], [{"model": "jkr"}, {"model": "dmt"}])
+    {'model': ['jkr', 'dmt']}
+    """
+    texts = {column.heading: [column.text(row) for row in rows] for column in columns}
+    return {heading: column for heading, column in texts.items() if any(column) or not rows}
 
 
 def _missing(stored: object) -> bool:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-import pandas as pd
 from rich.box import SIMPLE_HEAD
 from rich.console import Group, RenderableType
 from rich.table import Table
@@ -14,13 +14,19 @@ from rich.text import Text
 from comparisons.console.printable import printable
 from comparisons.numerics.number_text import aligned
 
+if TYPE_CHECKING:
+    import pandas as pd
 
-def rich_table(table: pd.DataFrame, title: str, formats: Mapping[str, str] | None = None) -> RenderableType:
+
+def rich_table(
+    table: pd.DataFrame | Mapping[str, Sequence[object]], title: str, formats: Mapping[str, str] | None = None
+) -> RenderableType:
     """Return a table for the terminal: numbers on the right, texts folded between words, blank where missing.
 
     Parameters
     ----------
-    table : DataFrame
+    table : DataFrame or mapping of str to sequence
+        By the headings.
     title : str
     formats : mapping of str to str, optional
         Formats of columns of numbers.
@@ -28,7 +34,7 @@ def rich_table(table: pd.DataFrame, title: str, formats: Mapping[str, str] | Non
     Examples
     --------
     >>> from rich import print
-    >>> print(rich_table(pd.DataFrame({"model": ["jkr"], "kappa": [0.5]}), "errors", {"kappa": "+.2f"}))
+    >>> print(rich_table({"model": ["jkr"], "kappa": [0.5]}, "errors", {"kappa": "+.2f"}))
     errors
     model  kappa
     ────────────
@@ -42,18 +48,18 @@ def rich_table(table: pd.DataFrame, title: str, formats: Mapping[str, str] | Non
         unbroken = number or not any(" " in cell for cell in cells)
         width = max(map(len, "\n".join(cells).split("\n"))) if unbroken else None
         lines.add_column(Text(str(name)), justify="right" if number else "left", min_width=width, overflow="fold")
-    for row in texts.itertuples(index=False):
+    for row in zip(*texts.values(), strict=True):
         lines.add_row(*map(Text, row))
     return Group(Text(title, style="bold"), lines)
 
 
-def records(table: pd.DataFrame, title: str) -> RenderableType:
+def records(table: pd.DataFrame | Mapping[str, Sequence[object]], title: str) -> RenderableType:
     """Return a table as a block for each row: its first cell and, indented, the others that are not empty.
 
     Examples
     --------
     >>> from rich import print
-    >>> print(records(pd.DataFrame({"model": ["jkr"], "domain": ["soft solids"]}), "models"))
+    >>> print(records({"model": ["jkr"], "domain": ["soft solids"]}, "models"))
     models
     jkr
       domain  soft solids
@@ -61,7 +67,8 @@ def records(table: pd.DataFrame, title: str) -> RenderableType:
     texts = _texts(table, {})
     heading, *names = texts
     blocks: list[RenderableType] = [Text(title, style="bold")]
-    for row in texts.to_dict("records"):
+    for cells in zip(*texts.values(), strict=True):
+        row = dict(zip(texts, cells, strict=True))
         block = Table.grid(padding=(0, 2, 0, 0))
         block.add_column(no_wrap=True, min_width=2 + max(map(len, names), default=0))
         block.add_column(overflow="fold")
@@ -71,14 +78,15 @@ def records(table: pd.DataFrame, title: str) -> RenderableType:
     return Group(*blocks)
 
 
-def _texts(table: pd.DataFrame, formats: Mapping[str, str]) -> pd.DataFrame:
-    texts = {str(name): [printable(_text(cell, formats.get(str(name), "g"))) for cell in table[name]] for name in table}
-    return pd.DataFrame(texts, dtype=object)
+def _texts(table: pd.DataFrame | Mapping[str, Sequence[object]], formats: Mapping[str, str]) -> dict[str, list[str]]:
+    return {str(name): [printable(_text(cell, formats.get(str(name), "g"))) for cell in table[name]] for name in table}
 
 
-def _text(cell: object, form: str) -> str:
-    if isinstance(cell, bool | np.bool_):
+def _text(cell: Any, form: str) -> str:
+    # A number of NumPy is one of Python.
+    cell = cell.item() if hasattr(cell, "item") else cell
+    if isinstance(cell, bool):
         return "yes" if cell else ""
-    if isinstance(cell, float | np.floating):
-        return "" if np.isnan(cell) else format(cell, form)
+    if isinstance(cell, float):
+        return "" if math.isnan(cell) else format(cell, form)
     return str(cell)

@@ -22,6 +22,14 @@ _VALUE = re.compile(rf"\s*({NUMBER})\s*(.*?)\s*")
 #: Prefixes by which text shows a number, and their powers of ten: moduli of 1e9 Pa, energies of contacts of 1e-18 J.
 _PREFIXES = tuple(zip(range(9, -24, -3), ("G", "M", "k", "", "m", "µ", "n", "p", "f", "a", "z"), strict=True))
 
+#: A usual unit is one in SI with a prefix of this table.  Any other is read by pint, whose import and registry take
+#: half a second.
+_POWERS = {"": 0, "G": 9, "M": 6, "k": 3, "c": -2, "m": -3, "n": -9, "p": -12, "f": -15, "a": -18} | dict.fromkeys(
+    ("u", "µ", "μ"), -6
+)
+#: Units in SI before which a prefix is one of the first factor.
+_IN_SI = frozenset({"m", "Pa", "N", "J", "J/m^2", "N/m", "m/V", "V", "A", "s"})
+
 #: Largest value in SI of a length, a modulus, a pressure or an energy per area, and the inverse of the smallest: none
 #: of a contact is near them (z0 > 1e-11 m, E < 1e13 Pa), and cubes of their products stay in the range of a double.
 LARGEST_SIZE = 1e20
@@ -63,6 +71,9 @@ def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
     plain = unit.translate(_SIGNS)
     if not _UNIT.fullmatch(plain):
         raise NotAValue(f"has the unit {shown(unit)}, which is no product of units")
+    prefix = plain.removesuffix(target)
+    if power == 1.0 and target in _IN_SI and plain.endswith(target) and prefix in _POWERS:
+        return float(f"1e{_POWERS[prefix]}")
     registry = _registry()
     # Not 0.19999999999999996, which n - 1 may be.
     aim = registry.Unit(target) ** round(power, _DIGITS)

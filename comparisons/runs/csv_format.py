@@ -5,15 +5,20 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import pandas as pd
+import lazy_loader
 
 from comparisons.data.columns import column
 from comparisons.data.csv_rows import csv_rows
 from comparisons.data.input_files import LARGEST_ROWS, read_bytes, utf8_text
 from comparisons.problem import PARAMETERS
 from comparisons.runs.atomic_files import write_file
+
+if TYPE_CHECKING:
+    import pandas as pd
+else:
+    pd = lazy_loader.load("pandas")
 
 #: Start of a text that a spreadsheet evaluates, or that `csv_text` has marked already: both get an apostrophe, so that
 #: a reader can take away one.

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import asdict, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import pandas as pd
+import lazy_loader
 
 from comparisons.data.columns import column
 from comparisons.data.file_names import CURVES, RESULTS
@@ -15,6 +15,11 @@ from comparisons.problem import PARAMETERS
 from comparisons.problem.kinds import KINDS
 from comparisons.problem.problem import split_name
 from comparisons.runs.rows import CASE, DIMENSIONLESS, Key, Row, none_if_nan
+
+if TYPE_CHECKING:
+    import pandas as pd
+else:
+    pd = lazy_loader.load("pandas")
 
 
 def keys_in(table: pd.DataFrame) -> list[Key]:

@@ -29,11 +29,6 @@ LOST = "its worker process ended twice before it was finished, perhaps for lack 
 _DEATHS_IN_SEQUENCE = 10
 
 
-def usable_cores() -> int:
-    """Return the number of cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def processes(
     function: Callable[[Item], Output], items: Sequence[Item], jobs: int
 ) -> Generator[tuple[Item, Output | None]]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import count, pairwise
 
-from scipy.optimize import brentq
+import scipy
 
 from fem_reference._contact.completeness import complete_path
 from fem_reference._contact.contact import Contact
@@ -389,7 +389,9 @@ class PathEvents:
 
         scale = max(abs(pair[0].parameter), abs(pair[1].parameter))
         root = float(
-            brentq(value, pair[0].parameter, pair[1].parameter, xtol=ROOT_TOLERANCE * scale, rtol=4 * ROOT_TOLERANCE)
+            scipy.optimize.brentq(
+                value, pair[0].parameter, pair[1].parameter, xtol=ROOT_TOLERANCE * scale, rtol=4 * ROOT_TOLERANCE
+            )
         )
         value(root)
         return solved[root]
@@ -398,7 +400,7 @@ class PathEvents:
         def value(x: float) -> float:
             return function(interpolated(a, b, x))
 
-        x = float(brentq(value, math.log(a.parameter), math.log(b.parameter)))
+        x = float(scipy.optimize.brentq(value, math.log(a.parameter), math.log(b.parameter)))
         point = self.between(a, b, math.exp(x))
         slope = (value(x + LOG_SLOPE_STEP) - value(x - LOG_SLOPE_STEP)) / (2.0 * LOG_SLOPE_STEP)
         self._slopes[point] = slope / point.parameter

@@ -20,7 +20,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from fem_reference._contact.completeness import complete_branch, displacement_range, load_scale
 from fem_reference._contact.contact import Contact
@@ -131,7 +131,7 @@ def first_edge_radius(point: Point) -> float:
         r = np.array(y[-1] * s)
         return -float(y[-2]) + float(contact.punch.height(r)) + w - float(force.peak_gap(r))
 
-    return float(y[-1]) * float(brentq(excess, trace.s[above[0] - 1], trace.s[above[0]], xtol=1e-14))
+    return float(y[-1]) * float(scipy.optimize.brentq(excess, trace.s[above[0] - 1], trace.s[above[0]], xtol=1e-14))
 
 
 def approach(contact: Contact) -> tuple[list[Point], Point]:

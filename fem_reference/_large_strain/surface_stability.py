@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 __all__ = ["largest_tension"]
 
@@ -38,7 +38,7 @@ def largest_tension(nu: float) -> float:
     if not change.size:
         return math.inf
     i = int(change[0])
-    F = float(brentq(lambda F: _determinant(F, nu)[0], STRETCHES[i], STRETCHES[i + 1]))
+    F = float(scipy.optimize.brentq(lambda F: _determinant(F, nu)[0], STRETCHES[i], STRETCHES[i + 1]))
     return _determinant(F, nu)[1] * (1.0 - nu**2)
 
 

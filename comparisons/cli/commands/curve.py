@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
+import lazy_loader
 import numpy as np
-import pandas as pd
 
 from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, command, file, option, problem_of, several
 from comparisons.console.exit_status import FAILED, OK
@@ -23,6 +23,11 @@ from comparisons.quantities import CURVES, Points
 from comparisons.registry import create, identify
 from comparisons.runs.atomic_files import writable_file, write_file
 from comparisons.runs.csv_format import csv_text
+
+if TYPE_CHECKING:
+    import pandas as pd
+else:
+    pd = lazy_loader.load("pandas")
 
 #: Share of the pull-off force at the beginning of a curve from which on it begins in contact.
 _FAR = 0.1

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import asdict
+from typing import TYPE_CHECKING
 
-import pandas as pd
+import lazy_loader
 
 import fem_reference
 from comparisons.cli.options import CASE, NUMBER, command, file, option, problem_of
@@ -19,6 +20,11 @@ from comparisons.output.terminal import rich_table
 from comparisons.runs.atomic_files import writable_file, writing
 from fem_reference import export
 from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, solver_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+else:
+    pd = lazy_loader.load("pandas")
 
 _EVENT = f"the event whose state is shown: {', '.join(fem_reference.EVENTS)} (default: %(default)s)"
 

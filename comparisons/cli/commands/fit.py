@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from comparisons.cli.options import JOBS, command, file, option, output_format, several
@@ -14,10 +16,17 @@ from comparisons.description.budget import budget_line
 from comparisons.fitting.baseline import BASELINES
 from comparisons.fitting.folder import MOST_PICTURES, fit_files
 from comparisons.fitting.reading import SIGNALS, Sensitivity
-from comparisons.fitting.table import fit_table
+from comparisons.fitting.table import CAPTION, fit_columns, fit_rows
+from comparisons.output.table import cells
 from comparisons.output.terminal import rich_table
 from comparisons.problem import Problem
 from comparisons.problem.units import NotAValue, in_si, si_text
+
+#: A curve with its fit or failure, as of `fit_files`.
+_Item = Mapping[str, Any]
+
+#: Most curves that are all printed, and how many of more are printed at either end.
+_MOST_SHOWN, _AT_AN_END = 50, 5
 
 
 @command(
@@ -68,15 +77,44 @@ def fit_command(args: argparse.Namespace) -> int:
         ]
         print(json.dumps(fits[0] if len(fits) == 1 and not failures else {"fits": fits, "failures": failures}))
     elif fits:
-        table = fit_table(items)
-        output().print(rich_table(table.texts, table.caption))
-        print_lines(line for fitted in fits for line in _lines(fitted, len(fits) > 1))
-    for item in items:
-        if item["failure"]:
-            log(f"{item['curve']}: {item['failure']}")
+        shown, left_out = _ends(items)
+        output().print(rich_table(_cells(shown, left_out), CAPTION))
+        print_lines(_left_out(left_out, args.out))
+        print_lines(line for item in shown for fitted in item["fits"] for line in _lines(fitted, len(items) > 1))
+    failed, left_out = _ends([item for item in items if item["failure"]])
+    for item in failed:
+        log(f"{item['curve']}: {item['failure']}")
+    if left_out:
+        log(f"{left_out} more curves have no fit")
     if args.out is not None:
         note(f"fits.csv, fits.json, fits.tex and {_pictures(len(items), args.pictures)} are in {args.out}")
     return FAILED if any(item["failure"] for item in items) else OK
+
+
+def _ends(items: Sequence[_Item]) -> tuple[list[_Item], int]:
+    """Return the first and the last of many curves, or all of a few, and how many are between them."""
+    left_out = len(items) - 2 * _AT_AN_END
+    if len(items) <= _MOST_SHOWN:
+        return [*items], 0
+    return [*items[:_AT_AN_END], *items[-_AT_AN_END:]], left_out
+
+
+def _cells(shown: Sequence[_Item], left_out: int) -> dict[str, list[str]]:
+    """Return the texts of the table, with a row of dots where curves are left out."""
+    texts = cells(fit_columns(rows := fit_rows(shown)), rows)
+    if left_out:
+        gap = len(fit_rows(shown[:_AT_AN_END]))
+        for column in texts.values():
+            column.insert(gap, "...")
+    return texts
+
+
+def _left_out(count: int, folder: Path | None) -> list[str]:
+    """Say where the curves are that the table leaves out."""
+    if not count:
+        return []
+    where = "--out DIR writes all of them" if folder is None else f"all of them are in {folder / 'fits.csv'}"
+    return [f"{count} more curves: {where}"]
 
 
 def _pictures(count: int, of_each: bool) -> str:

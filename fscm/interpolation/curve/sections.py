@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline
 
 from fscm._typing import Array
 from fscm.interpolation.curve.pieces import States
@@ -60,7 +60,7 @@ class Sections:
         Exponent of the load over the gap beyond the far end, and the gap there.
     """
 
-    curve: CubicSpline
+    curve: scipy.interpolate.CubicSpline
     far: _Section
     contact: _Section
     jump_in: float | None
@@ -85,7 +85,7 @@ class Sections:
         displacement, load = columns[:2]
         scaled = np.arcsinh([displacement / scale, load / -load.min()])
         length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(scaled)))])
-        curve = CubicSpline(length, np.column_stack(columns))
+        curve = scipy.interpolate.CubicSpline(length, np.column_stack(columns))
         points = np.arange((len(length) - 1) * _BETWEEN + 1) / _BETWEEN
         place = np.interp(points, np.arange(len(length)), length)
         at_place = curve(place)[:, 0]
@@ -137,7 +137,7 @@ class Sections:
     def _moved(self, section: _Section, x: Array, derivative: States) -> Array:
         """Derivatives of loads at fixed displacement."""
         place = self._places(section, x)
-        moved = CubicSpline(self.curve.x, np.column_stack(derivative[:2]))(place)
+        moved = scipy.interpolate.CubicSpline(self.curve.x, np.column_stack(derivative[:2]))(place)
         slope = self.curve(place, 1)
         return (moved[:, 1] - slope[:, 1] / slope[:, 0] * moved[:, 0]) * self._decayed(x)
 
