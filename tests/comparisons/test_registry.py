@@ -2,6 +2,7 @@
 
 import pytest
 
+from comparisons.data.toml_text import shipped
 from comparisons.model import HasCurve, Model
 from comparisons.problem import Problem
 from comparisons.quantities import CURVES, QUANTITIES
@@ -28,6 +29,15 @@ def test_a_model_has_its_texts_and_a_pull_off_force_or_the_reason_why_not(name):
     elif row:
         assert row.status == "not-applicable"
         assert row.reason
+
+
+def test_the_texts_that_a_list_prints_are_those_of_the_models():
+    texts = {
+        name: {text: getattr(create(name), text) for text in ("version", "domain", "citation")} for name in MODELS
+    }
+    listed = shipped("models.toml")
+    assert listed == texts
+    assert [*listed] == [*MODELS]
 
 
 def test_poissons_ratio_reaches_the_model_that_needs_it():

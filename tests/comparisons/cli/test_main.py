@@ -202,8 +202,10 @@ def test_a_model_without_a_curve_does_not_stop_the_others(toys, capsys, model, s
 #: Commands, each of which imports more than those before, and libraries that it does not need.
 UNNEEDED = [
     (["--help"], {"numpy", "rich"}),
-    (["--version"], {"numpy"}),
-    ([*SOLVE_JKR, *CASE], {"pandas", "pyarrow", "matplotlib", "scipy.optimize", "fem_reference"}),
+    (["--version"], {"numpy", "rich"}),
+    (["cite"], {"numpy", "rich"}),
+    (["list", "models"], {"numpy", "jsonschema", "rich.progress"}),
+    ([*SOLVE_JKR, *CASE], {"pandas.core", "pyarrow", "matplotlib", "scipy.optimize", "fem_reference"}),
     (["run", "--help"], {"matplotlib", "scipy.interpolate", "fem_reference"}),
 ]
 

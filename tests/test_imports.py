@@ -1,0 +1,54 @@
+"""Libraries that a fit and the imports of the packages do not load: they would be most of the time."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+_EXAMPLES = ROOT / "docs" / "examples"
+_FIT = [
+    "fit",
+    str(_EXAMPLES / "measured_curve.csv"),
+    "--problem",
+    str(_EXAMPLES / "problems" / "probe.toml"),
+    "--free",
+    "solid.E",
+    "law.work_of_adhesion",
+]
+
+#: Large libraries of tables, pictures and units.  A module that loads pandas with its first use has its name from the
+#: beginning, not its parts.
+_LARGE = {"pandas.core", "matplotlib", "pint", "jsonschema", "scipy.stats"}
+
+
+def loaded(code):
+    """The modules that a new interpreter has loaded after a piece of code."""
+    ended = subprocess.run(
+        [sys.executable, "-c", f"import sys, json; {code}; print(json.dumps([*sys.modules]), file=sys.stderr)"],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=ROOT,
+    )
+    return {*json.loads(ended.stderr.splitlines()[-1])}
+
+
+@pytest.mark.parametrize(
+    ("code", "unused"),
+    [
+        (f"from comparisons.cli.main import main; main({_FIT})", _LARGE | {"lmfit", "mpmath", "fscm.analysis", "skfem"}),
+        ("import fscm", _LARGE | {"scipy.linalg", "scipy.optimize", "scipy.interpolate", "fscm.analysis", "mpmath"}),
+        ("import fscm; fscm.force_curve(2, 0, 1)", _LARGE | {"scipy.linalg", "scipy.optimize", "scipy.interpolate"}),
+        (
+            "import fem_reference",
+            _LARGE | {"scipy.linalg", "scipy.optimize", "scipy.interpolate", "skfem", "pyamg", "mpmath"},
+        ),
+    ],
+    ids=["fit", "fscm", "force_curve", "fem_reference"],
+)
+def test_what_is_not_used_is_not_loaded(code, unused):
+    assert not unused & loaded(code)
