@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 
 _EXAMPLES = ROOT / "docs" / "examples"
-_FIT = [
+_ARGUMENTS = [
     "fit",
     str(_EXAMPLES / "measured_curve.csv"),
     "--problem",
@@ -19,6 +19,7 @@ _FIT = [
     "solid.E",
     "law.work_of_adhesion",
 ]
+_FIT = f"from comparisons.cli.main import main; main({_ARGUMENTS})"
 
 #: Large libraries of tables, pictures and units.  A module that loads pandas with its first use has its name from the
 #: beginning, not its parts.
@@ -40,7 +41,10 @@ def loaded(code):
 @pytest.mark.parametrize(
     ("code", "unused"),
     [
-        (f"from comparisons.cli.main import main; main({_FIT})", _LARGE | {"lmfit", "mpmath", "fscm.analysis", "skfem"}),
+        (
+            f"from comparisons.cli.main import main; main({_FIT})",
+            _LARGE | {"lmfit", "mpmath", "fscm.analysis", "skfem"},
+        ),
         ("import fscm", _LARGE | {"scipy.linalg", "scipy.optimize", "scipy.interpolate", "fscm.analysis", "mpmath"}),
         ("import fscm; fscm.force_curve(2, 0, 1)", _LARGE | {"scipy.linalg", "scipy.optimize", "scipy.interpolate"}),
         (

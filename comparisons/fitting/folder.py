@@ -300,9 +300,25 @@ def _write(folder: Path, items: Sequence[Mapping[str, Any]], free: Sequence[str]
     }
     for name, text in texts.items():
         write_file(folder / name, text)
-    for file, picture in pictures.items():
-        of_file = [item for item in items if item["file"] == file]
-        if (figure := draw_map(of_file, free)) is not None:
-            path = Path(f"{picture}-map.png")
+    for path, of_map in _maps(folder, items, pictures).items():
+        if (figure := draw_map(of_map, free)) is not None:
             path.parent.mkdir(parents=True, exist_ok=True)
             save(figure, path)
+
+
+def _maps(
+    folder: Path, items: Sequence[Mapping[str, Any]], pictures: Mapping[str, Path]
+) -> dict[Path, list[Mapping[str, Any]]]:
+    """Return the curves of each file of several, and those of the files of one with a position, by the picture."""
+    counts = Counter(item["file"] for item in items)
+    alone = [item for item in items if counts[item["file"]] == 1 and any(_known(item["position"]))]
+    maps = {
+        Path(f"{picture}-map.png"): [item for item in items if item["file"] == file]
+        for file, picture in pictures.items()
+        if counts[file] > 1
+    }
+    return {folder / "fits-map.png": alone} | maps
+
+
+def _known(position: Mapping[str, Any]) -> list[bool]:
+    return [number is not None for number in position.values()]

@@ -32,9 +32,7 @@ def test_a_model_has_its_texts_and_a_pull_off_force_or_the_reason_why_not(name):
 
 
 def test_the_texts_that_a_list_prints_are_those_of_the_models():
-    texts = {
-        name: {text: getattr(create(name), text) for text in ("version", "domain", "citation")} for name in MODELS
-    }
+    texts = {name: {text: getattr(create(name), text) for text in ("version", "domain", "citation")} for name in MODELS}
     listed = shipped("models.toml")
     assert listed == texts
     assert [*listed] == [*MODELS]

@@ -25,18 +25,18 @@ pytest.importorskip("afmformats")
 STIFFNESS = 0.5
 
 
-def write_map(path, loads, columns, positions=True, lengths=None):
+def write_map(path, loads, columns, positions=True, lengths=None, first=0):
     """A file of afmformats: one curve for each lowest load in nN, in rows of a grid of 2 µm by 1 µm."""
     with h5py.File(path, "w") as file:
         file.attrs.update({"software": "afmformats", "software version": "0.18"})
-        for number, lowest in enumerate(loads):
+        for number, lowest in enumerate(loads, start=first):
             row, column = divmod(number, columns)
-            group = file.create_group(str(number))
+            group = file.create_group(str(number - first))
             group.attrs.update({"imaging mode": "force-distance", "spring constant": STIFFNESS, "enum": number})
             if positions:
                 group.attrs.update({"position x": 2e-6 * column, "position y": 1e-6 * row})
                 group.attrs.update({"grid index x": column, "grid index y": row})
-            points = 60 if lengths is None else lengths[number]
+            points = 60 if lengths is None else lengths[number - first]
             z = np.concatenate([np.linspace(0.0, 100e-9, points), np.linspace(100e-9, 0.0, points)])
             contact_load = np.where(z > 50e-9, 0.2 * (z - 50e-9) - lowest * 1e-9, 0.0)
             group["height (measured)"] = -z
@@ -64,7 +64,8 @@ def fit_map(tmp_path, monkeypatch):
     def run(path, *options):
         out = tmp_path / "fits"
         arguments = ["--problem", str(tmp_path / "probe.toml"), "--free", "law.work_of_adhesion", "--out", str(out)]
-        status = main(["fit", str(path), *arguments, "--jobs", "1", *options])
+        paths = path if isinstance(path, list) else [path]
+        status = main(["fit", *map(str, paths), *arguments, "--jobs", "1", *options])
         if not (out / "fits.csv").exists():
             return status, None, None, set()
         table = pd.read_csv(out / "fits.csv", keep_default_na=False, na_values={"value": [""], "x": [""]})
@@ -87,6 +88,46 @@ def test_each_curve_of_a_map_has_a_row_a_position_and_a_picture(fit_map, tmp_pat
     assert table["residual_over_noise"].tolist() == [2.0] * 4
     assert items[3]["position"] == {"x": 2e-6, "y": 1e-6, "column": 1, "row": 1}
     assert pictures == {"map-1.png", "map-2.png", "map-3.png", "map-4.png", "map-map.png"}
+
+
+def test_files_of_one_curve_each_make_a_map_where_they_have_positions(fit_map, tmp_path):
+    paths = [write_map(tmp_path / f"{number}.h5", [1.0 + number], columns=2, first=number) for number in range(4)]
+    plain = tmp_path / "plain.csv"
+    x = np.linspace(-50.0, 50.0, 60)
+    rows = "".join(f"{a:.3f},{max(a, 0.0) + 1e-3 * math.cos(7.0 * a):.6f}\n" for a in x)
+    plain.write_text("displacement [nm],load [nN]\n" + rows)
+    status, table, _, pictures = fit_map([*paths, plain])
+    assert status == 0
+    assert len(table) == 5
+    assert pictures == {"0.png", "1.png", "2.png", "3.png", "plain.png", "fits-map.png"}
+
+
+def test_files_of_one_curve_without_positions_make_no_map(fit_map, tmp_path):
+    paths = [write_map(tmp_path / f"{number}.h5", [1.0 + number], columns=2, positions=False) for number in range(2)]
+    assert fit_map(paths)[3] == {"0.png", "1.png"}
+
+
+def test_a_terminal_shows_both_ends_of_many_curves(fit_map, tmp_path, capsys):
+    loads = np.linspace(1.0, 2.0, 60)
+    path = write_map(
+        tmp_path / "map.h5", loads, columns=10, lengths=[60 - 57 * (number in (1, 30)) for number in range(60)]
+    )
+    status, table, _, _ = fit_map(path)
+    captured = capsys.readouterr()
+    shown = {number for number in range(1, 61) if f"map.h5#{number} " in captured.out}
+    assert shown == {*range(1, 6), *range(56, 61)}
+    assert "50" in captured.out
+    assert str(tmp_path / "fits" / "fits.csv") in captured.out.replace("\n", "")
+    assert len(table) == 60
+    assert status == 4
+    assert "map.h5#31:" in captured.err
+
+
+def test_a_terminal_shows_all_of_a_few_curves(fit_map, tmp_path, capsys):
+    fit_map(write_map(tmp_path / "map.h5", np.linspace(1.0, 2.0, 40), columns=10))
+    out = capsys.readouterr().out
+    assert all(f"map.h5#{number} " in out for number in range(1, 41))
+    assert "..." not in out
 
 
 def test_bad_curves_of_a_map_are_rows_with_their_own_reason(fit_map, tmp_path, capsys):
