@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-import scipy
 
 from comparisons.model import Array
+from comparisons.numerics.monotone_cubic import monotone_cubic
 
 #: Share of the change that the uncertainty has in the middle between two nodes (measured: a node from its neighbours,
 #: twice as far apart, misses by up to 1 % beside the difference from a straight line).
@@ -53,7 +53,7 @@ def between(points: Array, nodes: Sequence[Change], point: float) -> Change:
     (1.5, 0.12)
     """
     values, bounds = np.array([node.value for node in nodes]), np.array([node.uncertainty for node in nodes])
-    value = float(scipy.interpolate.PchipInterpolator(points, values)(point))
+    value = monotone_cubic(points.tolist(), values.tolist(), point)
     right = int(np.clip(np.searchsorted(points, point), 1, points.size - 1))
     share = (point - points[right - 1]) / (points[right] - points[right - 1])
     form = BETWEEN * 4.0 * share * (1.0 - share) * float(np.abs(values[right - 1 : right + 1]).max())
