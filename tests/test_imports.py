@@ -42,8 +42,8 @@ def loaded(code):
     ("code", "unused"),
     [
         (
-            f"from comparisons.cli.main import main; main({_FIT})",
-            _LARGE | {"lmfit", "mpmath", "fscm.analysis", "skfem"},
+            _FIT,
+            _LARGE | {"lmfit", "scipy.interpolate", "mpmath", "fscm.analysis", "skfem"},
         ),
         ("import fscm", _LARGE | {"scipy.linalg", "scipy.optimize", "scipy.interpolate", "fscm.analysis", "mpmath"}),
         ("import fscm; fscm.force_curve(2, 0, 1)", _LARGE | {"scipy.linalg", "scipy.optimize", "scipy.interpolate"}),
