@@ -30,19 +30,21 @@ from typing import TYPE_CHECKING
 
 import lazy_loader
 
-from fem_reference import dlvo, laws, profiles, punch, solids, tabulated_law
+from fem_reference import custom_solid, dlvo, laws, profiles, punch, solids, tabulated_law, tabulated_modulus
+from fem_reference.custom_solid import *
 from fem_reference.dlvo import *
 from fem_reference.laws import *
 from fem_reference.profiles import *
 from fem_reference.punch import *
 from fem_reference.solids import *
 from fem_reference.tabulated_law import *
+from fem_reference.tabulated_modulus import *
 
 if TYPE_CHECKING:
     from fem_reference._lazy import *
 
 __getattr__, _, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
-_STATED = (dlvo, laws, profiles, punch, solids, tabulated_law)
+_STATED = (custom_solid, dlvo, laws, profiles, punch, solids, tabulated_law, tabulated_modulus)
 __all__ += [name for module in _STATED for name in module.__all__]
 
 

@@ -15,11 +15,11 @@ from .large_strain import (
     solve_large_strain as solve_large_strain,
     trace_large_strain as trace_large_strain,
 )
-from .modulus import Interface as Interface
 from .neo_hookean import NeoHookean as NeoHookean
 from .problem import Problem as Problem
 from .quantities import CRITICAL_MODULUS as CRITICAL_MODULUS, LOSSES as LOSSES, QUANTITIES as QUANTITIES
 from .result import Solution as Solution
+from .solid import Interface as Interface
 from .solution import solve as solve, solve_together as solve_together
 from .states import (
     EVENTS as EVENTS,

@@ -18,18 +18,15 @@ from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 from skfem import Basis, ElementQuadP
 
-from fem_reference._contact.bodies import condition_of
 from fem_reference._contact.friction import FrictionName
 from fem_reference._contact.states import Point
 from fem_reference._elastic.assembly import assemble_half_space
-from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
 from fem_reference._elastic.mapping import ChartMapping
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference._elastic.surface_condition import SurfaceCondition
 from fem_reference._linear.linear_solver import solve_cg
 from fem_reference._threads import one_thread
 from fem_reference._typing import Array, Index
-from fem_reference.poisson import poisson_at
+from fem_reference.solid import ScaledSolid
 
 __all__ = ["Field", "contact_field", "draw", "write_vtu"]
 
@@ -140,12 +137,9 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point, friction: FrictionNa
     with one_thread:
         contact, y = point.branch.contact, point.state.y
         c = float(y[-1])
-        scaled = scaled_modulus(solid.modulus, c)
         # Lengths scale by c: stiffness by c, load by c^2; the forces of the surface tension stay.
-        condition = SurfaceCondition(condition_of(solid).tension / c, friction == "bonded")
-        half_space = assemble_half_space(
-            spec.grid(), scaled, scaled_poisson(solid.poisson, c), spec.order, condition=condition
-        )
+        scaled = ScaledSolid(solid, c, friction == "bonded")
+        half_space = assemble_half_space(spec.grid(), scaled, spec.order)
         trace = contact.compliance.trace
         pressure = contact.pressure(y)
         load = np.zeros(half_space.elements.size)
@@ -167,8 +161,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point, friction: FrictionNa
         ur, uz = np.asarray(radial), np.asarray(axial)
         strain = [radial.grad[0] / c, ur / (c * s), axial.grad[1] / c]
         shear = (radial.grad[1] + axial.grad[0]) / c
-        E = scaled(zeta)
-        nu = poisson_at(body.nu, zeta)
+        E, nu = scaled.modulus(zeta), scaled.poisson(zeta)
         lame = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
         twice = E / (1.0 + nu)
         volume = lame * (strain[0] + strain[1] + strain[2])

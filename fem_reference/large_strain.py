@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
-from fem_reference._contact.bodies import condition_of
 from fem_reference._contact.friction import FrictionName
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent, linear_event
 from fem_reference._large_strain.error_parts import estimate
@@ -19,8 +19,6 @@ from fem_reference._threads import one_thread
 from fem_reference._typing import Array
 from fem_reference.accuracy import relative_error
 from fem_reference.interaction import InteractionName, interaction_of
-from fem_reference.modulus import PowerLawModulus
-from fem_reference.poisson import PoissonRatio, poisson_at
 from fem_reference.problem import Problem
 from fem_reference.punch import radius_at_height
 from fem_reference.quantities import quantity_named
@@ -77,7 +75,7 @@ def _check(problem: Problem, friction: FrictionName, form: Form, interaction: In
             f"punch_solid = {problem.punch_solid!r} cannot be had at finite strain, where displacements do not add and "
             "the punch is rigid; take `solve`, or leave it out"
         )
-    if problem.solid.modulus.surface_exponent > 0.0:
+    if problem.solid.surface_exponent > 0.0:
         raise ValueError(
             "the modulus vanishes at the surface, where any tension makes short waves of a compressible surface "
             "unstable at finite strain; take a modulus that does not vanish, such as one with an offset z_s"
@@ -88,7 +86,7 @@ def _discretisation(
     problem: Problem, event: LinearEvent, friction: FrictionName, form: Form, interaction: InteractionName = "auto"
 ) -> Discretisation:
     """Elements for an event."""
-    largest = float(np.max(poisson_at(problem.solid.poisson, event.radius * np.geomspace(1e-6, 1e6, 200))))
+    largest = float(np.max(problem.solid.poisson(event.radius * np.geomspace(1e-6, 1e6, 200))))
     if form == "displacement" and largest >= 0.5:
         raise ValueError("form 'displacement' has no incompressible solid; choose 'mixed' or 'auto'")
     mixed = form == "mixed" or (form == "auto" and largest > NEARLY_INCOMPRESSIBLE)
@@ -96,13 +94,11 @@ def _discretisation(
     # The first layer is as deep for its width as that of small strain.
     depth = event.spec.surface_depth * width / event.spec.edge_width
     spec = replace(event.spec, edge_width=width, surface_depth=depth)
-    solid = problem.solid
-    scaling = isinstance(solid.modulus, PowerLawModulus) and not isinstance(solid.poisson, PoissonRatio)
     attracting, reach = (radius_at_height(problem.punch, height * problem.law.z0) for height in (1.0, CORE_HEIGHT))
     stiffness = float(problem.solid.modulus(np.array(event.radius))) / (1.0 - largest**2)
-    tense = TENSION_EXTENT * 2.0 * condition_of(problem.solid).tension / stiffness
+    tense = TENSION_EXTENT * 2.0 * problem.solid.surface_tension / stiffness
     extent = max(CORE_EXTENT * max(event.radius, attracting), reach, tense) / event.radius
-    if not scaling:
+    if math.isfinite(problem.solid.surface_depth):
         extent = max(extent, spec.extent)
     force = interaction_of(problem.punch, problem.law, interaction)
     return Discretisation(problem, spec, event.size, extent, mixed, friction, force).at(event.radius)
@@ -171,7 +167,7 @@ def solve_large_strain(
         raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(TABLE)}")
     relative_error(accuracy)
     _check(problem, friction, form, interaction)
-    if quantity == "hysteresis_energy" and condition_of(problem.solid).tension:
+    if quantity == "hysteresis_energy" and problem.solid.surface_tension:
         raise ValueError(
             "hysteresis_energy of finite strain has no bound with a surface_tension, whose energy differs by up to "
             "1e-3 between the meshes of two events; take a force or a displacement, or leave the tension out"

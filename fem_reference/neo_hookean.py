@@ -5,14 +5,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from fem_reference._validation import check_tension
-from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
+import numpy as np
+
+from fem_reference._typing import Array
+from fem_reference._validation import check_positive, check_tension
+from fem_reference.solid import OneRatio, PowerLaw, check_exponent
 
 __all__ = ["NeoHookean"]
 
 
 @dataclass(frozen=True, slots=True)
-class NeoHookean:
+class NeoHookean(OneRatio):
     """A neo-Hookean half-space of the modulus E = E0 ((z + z_s)/c0)^k at small strain.
 
     Its energy per reference volume is psi = G/2 (I1 - 3 - 2 ln J) + lambda/2 (ln J)^2 with G = E/(2 (1 + nu)) and
@@ -38,7 +41,7 @@ class NeoHookean:
     Examples
     --------
     >>> gel = NeoHookean(E0=3.0, nu=0.5)
-    >>> float(gel.modulus(1.0)), gel.poisson
+    >>> float(gel.modulus(1.0)), float(gel.poisson(1.0))
     (3.0, 0.5)
     >>> NeoHookean(E0=3.0, nu=0.6)
     Traceback (most recent call last):
@@ -58,16 +61,32 @@ class NeoHookean:
         if not (math.isfinite(self.z_s) and self.z_s >= 0.0):
             raise ValueError(f"offset z_s = {self.z_s} is outside [0, infinity): it is added to the depth")
         check_tension(self.surface_tension)
-        self.modulus  # noqa: B018  # validates the rest
+        check_positive("reference modulus E0", self.E0)
+        check_positive("characteristic depth c0", self.c0)
+        check_exponent(self.k)
 
     @property
-    def modulus(self) -> PowerLawModulus | OffsetPowerLawModulus:
+    def surface_exponent(self) -> float:
+        """The gradient exponent without an offset."""
+        return 0.0 if self.z_s else self.k
+
+    @property
+    def depth_exponent(self) -> float:
+        """The gradient exponent."""
+        return self.k
+
+    @property
+    def surface_depth(self) -> float:
+        """The offset; infinite for a power law."""
+        return self.z_s if self.k and self.z_s else math.inf
+
+    @property
+    def as_power_law(self) -> PowerLaw | None:
+        """The solid at small strain, if it has no offset or one modulus."""
+        if math.isfinite(self.surface_depth):
+            return None
+        return PowerLaw(self.E0, self.c0, self.k, self.nu, self.surface_tension)
+
+    def modulus(self, z: Array) -> Array:
         """E(z)."""
-        if self.k > 0.0 and self.z_s > 0.0:
-            return OffsetPowerLawModulus(self.E0, self.c0, self.k, self.z_s)
-        return PowerLawModulus(self.E0, self.c0, self.k)
-
-    @property
-    def poisson(self) -> float:
-        """The ratio."""
-        return self.nu
+        return self.E0 * ((np.asarray(z, float) + self.z_s) / self.c0) ** self.k

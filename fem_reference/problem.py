@@ -9,9 +9,8 @@ import numpy as np
 from fem_reference._validation import check_tension
 from fem_reference.interaction import Interaction, InteractionName, interaction_of
 from fem_reference.laws import SurfaceLaw
-from fem_reference.modulus import Modulus
 from fem_reference.punch import CustomPunch, Punch, radius_at_height
-from fem_reference.solids import Solid
+from fem_reference.solid import Solid
 
 __all__ = ["Problem"]
 
@@ -68,18 +67,15 @@ class Problem:
 
     def __post_init__(self) -> None:
         if not isinstance(self.solid, Solid):
-            raise ValueError(f"solid = {self.solid!r} is not a solid: it needs modulus and poisson")
+            raise ValueError(
+                f"solid = {self.solid!r} is not a solid of this package: give its functions to CustomSolid(E, nu, "
+                "length, interfaces)"
+            )
         if self.punch_solid is not None and not isinstance(self.punch_solid, Solid):
             raise ValueError(
-                f"punch_solid = {self.punch_solid!r} is not a solid, which needs modulus and poisson; leave it out for "
-                "a rigid punch"
+                f"punch_solid = {self.punch_solid!r} is not a solid of this package: leave it out for a rigid punch, "
+                "or give its functions to CustomSolid(E, nu, length, interfaces)"
             )
-        for solid in self.solids:
-            if not isinstance(solid.modulus, Modulus):
-                raise ValueError(
-                    f"solid = {solid!r} states no exponents of its modulus at the surface and at depth: give its "
-                    "functions to CustomSolid(E, nu, length, interfaces)"
-                )
         if not isinstance(self.punch, Punch):
             raise ValueError(f"punch = {self.punch!r} is not a punch shape: it needs height(r) and slope(r)")
         if not isinstance(self.law, SurfaceLaw):
@@ -88,7 +84,7 @@ class Problem:
                 "work_of_adhesion, z0, peak_gap, singular_gap and decay"
             )
         for solid in self.solids:
-            check_tension(getattr(solid, "surface_tension", 0.0))
+            check_tension(solid.surface_tension)
         try:
             hash((self.solid, self.punch, self.law, self.punch_solid))
         except TypeError as error:

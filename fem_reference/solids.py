@@ -1,136 +1,23 @@
-"""Solids: half-spaces with a modulus E(z) and a Poisson ratio nu(z), in any consistent units."""
+"""Solids of few constants: homogeneous, a power law with an offset, an exponential, a coating, layers."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import accumulate
-from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
 from fem_reference._typing import Array
 from fem_reference._validation import check_positive, check_tension
-from fem_reference.depth_profiles import (
-    CustomProfile,
-    ExponentialProfile,
-    StepProfile,
-    TabulatedProfile,
-    TransitionProfile,
-)
-from fem_reference.modulus import Interface, Modulus, OffsetPowerLawModulus, PowerLawModulus
-from fem_reference.modulus_checks import check_exponents
-from fem_reference.poisson import PoissonRatio, check_poisson
+from fem_reference.solid import Interface, OneRatio, PowerLaw, Solid, check_exponent, check_ratio
 
-__all__ = [
-    "Coating",
-    "CustomSolid",
-    "Exponential",
-    "Homogeneous",
-    "Layers",
-    "OffsetPowerLaw",
-    "PowerLaw",
-    "Solid",
-    "TabulatedModulus",
-]
-
-#: Ratio of neighbouring moduli of a table from which on elements are as short as the distance of the two rows.
-STEEP = 1.25
-
-
-@runtime_checkable
-class Solid(Protocol):
-    """A half-space; hashable.
-
-    It may have a `surface_tension` too, a force per length; without one there is none.
-
-    Examples
-    --------
-    >>> isinstance(Homogeneous(E=1.0, nu=0.3), Solid)
-    True
-    """
-
-    @property
-    def modulus(self) -> Modulus:
-        """E(z), with its exponents at the surface and at depth."""
-        ...
-
-    @property
-    def poisson(self) -> float | PoissonRatio:
-        """Poisson's ratio in [0, 0.5), or one of depth."""
-        ...
-
-
-def _check_one_ratio(nu: Any) -> None:
-    if callable(nu):
-        raise ValueError(f"nu = {nu!r} depends on depth; take CustomSolid(E, nu, length) for such a solid")
-    check_poisson(nu, 1.0)
-
-
-class _OneRatio:
-    """A solid with one Poisson ratio `nu` at every depth."""
-
-    __slots__ = ()
-    nu: float
-    surface_tension: float
-
-    def __post_init__(self) -> None:
-        _check_one_ratio(self.nu)
-        check_tension(self.surface_tension)
-        self.modulus  # noqa: B018  # validates the rest
-
-    @property
-    def modulus(self) -> Modulus:
-        """E(z)."""
-        raise NotImplementedError
-
-    @property
-    def poisson(self) -> float:
-        """The ratio."""
-        return self.nu
+__all__ = ["Coating", "Exponential", "Homogeneous", "Layers", "OffsetPowerLaw", "PowerLaw", "Solid"]
 
 
 @dataclass(frozen=True, slots=True)
-class PowerLaw(_OneRatio):
-    """E = E0 (z / c0)^k (Eq. 3 of the paper).
-
-    Parameters
-    ----------
-    E0, c0 : float
-        Modulus, and the depth at which it is reached, > 0.
-    k : float
-        Gradient exponent, 0 <= k < 1.
-    nu : float
-        Poisson's ratio in [0, 0.5).
-    surface_tension : float
-        Surface tension Y, a force per length, >= 0: the surface bears a pressure less Y times its mean curvature.
-
-    Raises
-    ------
-    ValueError
-        If a parameter is outside its range.
-
-    Examples
-    --------
-    >>> PowerLaw(E0=1.0, c0=1.0, k=0.4, nu=0.5)
-    Traceback (most recent call last):
-    ValueError: Poisson ratio nu = 0.5 is outside [0, 0.5): ...
-    """
-
-    E0: float
-    c0: float
-    k: float
-    nu: float
-    surface_tension: float = 0.0
-
-    @property
-    def modulus(self) -> PowerLawModulus:
-        """E(z)."""
-        return PowerLawModulus(self.E0, self.c0, self.k)
-
-
-@dataclass(frozen=True, slots=True)
-class Homogeneous(_OneRatio):
+class Homogeneous(OneRatio):
     """One modulus E and one Poisson ratio at every depth; `surface_tension` as for `PowerLaw`.
 
     Examples
@@ -145,17 +32,25 @@ class Homogeneous(_OneRatio):
 
     def __post_init__(self) -> None:
         check_positive("modulus E", self.E)
-        _check_one_ratio(self.nu)
-        check_tension(self.surface_tension)
+        OneRatio.__post_init__(self)
 
     @property
-    def modulus(self) -> PowerLawModulus:
-        """E, as a power law with k = 0, whose c0 has no effect."""
-        return PowerLawModulus(self.E, 1.0, 0.0)
+    def surface_depth(self) -> float:
+        """Infinite: one modulus throughout."""
+        return math.inf
+
+    @property
+    def as_power_law(self) -> PowerLaw:
+        """The solid with k = 0, for which c0 has no effect."""
+        return PowerLaw(self.E, 1.0, 0.0, self.nu, self.surface_tension)
+
+    def modulus(self, z: Array) -> Array:
+        """E, shape of `z`."""
+        return np.full(np.shape(z), self.E, float)
 
 
 @dataclass(frozen=True, slots=True)
-class OffsetPowerLaw(_OneRatio):
+class OffsetPowerLaw(OneRatio):
     """E = E0 ((z + z_s) / c0)^k: a graded solid whose surface modulus does not vanish.
 
     Parameters
@@ -178,14 +73,30 @@ class OffsetPowerLaw(_OneRatio):
     nu: float
     surface_tension: float = 0.0
 
+    def __post_init__(self) -> None:
+        OneRatio.__post_init__(self)
+        check_positive("reference modulus E0", self.E0)
+        check_positive("characteristic depth c0", self.c0)
+        check_positive("surface offset z_s", self.z_s)
+        check_exponent(self.k)
+
     @property
-    def modulus(self) -> OffsetPowerLawModulus:
+    def depth_exponent(self) -> float:
+        """The gradient exponent."""
+        return self.k
+
+    @property
+    def surface_depth(self) -> float:
+        """The offset z_s."""
+        return self.z_s
+
+    def modulus(self, z: Array) -> Array:
         """E(z)."""
-        return OffsetPowerLawModulus(self.E0, self.c0, self.k, self.z_s)
+        return self.E0 * ((np.asarray(z, float) + self.z_s) / self.c0) ** self.k
 
 
 @dataclass(frozen=True, slots=True)
-class Exponential(_OneRatio):
+class Exponential(OneRatio):
     """E = E_depth + (E_surface - E_depth) exp(-z / length).
 
     Parameters
@@ -214,17 +125,20 @@ class Exponential(_OneRatio):
     def __post_init__(self) -> None:
         for name in ("E_surface", "E_depth", "length"):
             check_positive(name, getattr(self, name))
-        _check_one_ratio(self.nu)
-        check_tension(self.surface_tension)
+        OneRatio.__post_init__(self)
 
     @property
-    def modulus(self) -> ExponentialProfile:
+    def surface_depth(self) -> float:
+        """The length."""
+        return self.length
+
+    def modulus(self, z: Array) -> Array:
         """E(z)."""
-        return ExponentialProfile(self.E_surface, self.E_depth, self.length)
+        return self.E_depth + (self.E_surface - self.E_depth) * np.exp(-np.asarray(z, float) / self.length)
 
 
 @dataclass(frozen=True, slots=True)
-class Coating:
+class Coating(Solid):
     """A coating on a substrate: E_s + (E_c - E_s) (1 - tanh((z - thickness) / transition)) / 2.
 
     Parameters
@@ -259,28 +173,42 @@ class Coating:
 
     def __post_init__(self) -> None:
         check_tension(self.surface_tension)
-        _check_one_ratio(self.nu_coating)
-        if self.nu_substrate is not None:
-            _check_one_ratio(self.nu_substrate)
-        for name in ("E_coating", "E_substrate"):
+        for ratio in (self.nu_coating, self.nu_substrate):
+            if ratio is not None:
+                check_ratio(ratio)
+        for name in ("E_coating", "E_substrate", "thickness"):
             check_positive(name, getattr(self, name))
-        self.modulus  # noqa: B018  # validates the rest
+        if not (math.isfinite(self.transition) and self.transition >= 0):
+            raise ValueError(f"transition = {self.transition} is outside [0, infinity): it is a length; 0 is sharp")
 
     @property
-    def modulus(self) -> TransitionProfile:
-        """E(z)."""
-        return TransitionProfile(self.E_coating, self.E_substrate, self.thickness, self.transition)
+    def surface_depth(self) -> float:
+        """The thickness, or the length of the transition where that reaches the surface."""
+        return max(self.thickness, self.transition)
 
     @property
-    def poisson(self) -> float | TransitionProfile:
-        """The one ratio, or that of depth."""
-        if self.nu_substrate in (None, self.nu_coating):
-            return self.nu_coating
-        return TransitionProfile(self.nu_coating, float(self.nu_substrate or 0.0), self.thickness, self.transition)
+    def interfaces(self) -> tuple[Interface, ...]:
+        """The one interface."""
+        return (Interface(self.thickness, self.transition),)
+
+    def modulus(self, z: Array) -> Array:
+        """E(z); at a sharp interface that of the substrate."""
+        return self._joined(self.E_coating, self.E_substrate, z)
+
+    def poisson(self, z: Array) -> Array:
+        """nu(z); at a sharp interface that of the substrate."""
+        below = self.nu_coating if self.nu_substrate is None else self.nu_substrate
+        return self._joined(self.nu_coating, below, z)
+
+    def _joined(self, above: float, below: float, z: Array) -> Array:
+        deeper = np.asarray(z, float) - self.thickness
+        if self.transition == 0:
+            return np.where(deeper < 0, above, below)
+        return below + (above - below) * (0.5 * (1.0 - np.tanh(deeper / self.transition)))
 
 
 @dataclass(frozen=True, slots=True)
-class Layers:
+class Layers(Solid):
     """Any number of sharp layers on a substrate, each with its own constants.
 
     Parameters
@@ -327,140 +255,26 @@ class Layers:
             for i, value in enumerate(getattr(self, name)):
                 check_positive(f"{name}[{i}]", value)
         for ratio in self.nu:
-            _check_one_ratio(ratio)
+            check_ratio(ratio)
 
     @property
-    def _depths(self) -> tuple[float, ...]:
-        return tuple(accumulate(self.thickness))
+    def surface_depth(self) -> float:
+        """The thickness of the first layer."""
+        return self.thickness[0]
 
     @property
-    def modulus(self) -> StepProfile:
-        """E(z)."""
-        return StepProfile(self._depths, tuple(self.E))
+    def interfaces(self) -> tuple[Interface, ...]:
+        """The interfaces of the layers."""
+        return tuple(Interface(depth) for depth in accumulate(self.thickness))
 
-    @property
-    def poisson(self) -> float | StepProfile:
-        """The one ratio, or that of depth."""
-        return self.nu[0] if len(set(self.nu)) == 1 else StepProfile(self._depths, tuple(self.nu))
+    def modulus(self, z: Array) -> Array:
+        """E(z); at an interface that of the layer below."""
+        return self._of_layers(self.E, z)
 
+    def poisson(self, z: Array) -> Array:
+        """nu(z); at an interface that of the layer below."""
+        return self._of_layers(self.nu, z)
 
-@dataclass(frozen=True, slots=True, repr=False)
-class TabulatedModulus:
-    """E(z), and nu(z), through the rows of a table: monotone cubic interpolation, constant beyond its ends.
-
-    Parameters
-    ----------
-    depths : sequence of float, shape (N,), N >= 2
-        Rising, the first at least 0.
-    moduli : sequence of float, shape (N,)
-        Positive.
-    nu : float or sequence of float, shape (N,)
-        Poisson's ratio in [0, 0.5), one number or one for each depth.
-    surface_tension : float
-        As for `PowerLaw`.
-
-    Raises
-    ------
-    ValueError
-        If the columns do not form a table, or a value is outside its range.
-
-    Examples
-    --------
-    >>> solid = TabulatedModulus(depths=(0.0, 1.0, 3.0), moduli=(1.0, 2.0, 4.0), nu=(0.45, 0.3, 0.2))
-    >>> solid.modulus(np.array([1.0, 9.0])), solid.poisson(np.array([0.0, 3.0]))
-    (array([2., 4.]), array([0.45, 0.2 ]))
-    """
-
-    depths: Sequence[float]
-    moduli: Sequence[float]
-    nu: float | Sequence[float]
-    surface_tension: float = 0.0
-    modulus: TabulatedProfile = field(init=False, compare=False)
-    poisson: float | TabulatedProfile = field(init=False, compare=False)
-
-    def __post_init__(self) -> None:
-        check_tension(self.surface_tension)
-        modulus = TabulatedProfile(self.depths, self.moduli, "moduli", STEEP)
-        for row, E in enumerate(modulus.values):
-            if not E > 0:
-                raise ValueError(f"the modulus {E:g} in row {row} is outside (0, infinity)")
-        nu: float | tuple[float, ...]
-        poisson: float | TabulatedProfile
-        if isinstance(self.nu, Sequence | np.ndarray):
-            poisson = TabulatedProfile(modulus.depths, self.nu, "ratios")
-            nu = tuple(poisson.values)
-            for ratio in nu:
-                check_poisson(ratio, 1.0)
-        else:
-            _check_one_ratio(self.nu)
-            poisson = nu = self.nu
-        columns = (modulus.depths, modulus.values, nu, modulus, poisson)
-        for name, value in zip(("depths", "moduli", "nu", "modulus", "poisson"), columns, strict=True):
-            object.__setattr__(self, name, value)
-
-    def __repr__(self) -> str:
-        return f"TabulatedModulus({len(self.depths)} rows, depths {self.depths[0]:g} to {self.depths[-1]:g})"
-
-
-@dataclass(frozen=True, slots=True)
-class CustomSolid:
-    """Any E(z) and nu(z).
-
-    Parameters
-    ----------
-    E : callable
-        E(z): array of depths -> array of moduli, > 0.
-    nu : float or callable
-        Poisson's ratio in [0, 0.5), or nu(z) like `E`, constant at great depth.
-    length : float
-        A depth over which they change, > 0.
-    interfaces : sequence of float or Interface
-        Depths where E or nu changes at once, or `Interface(depth, transition)` where it does within a short length.
-        Those that are not declared are searched for by sampling, which can miss a layer thinner than 1/30 of its depth.
-    surface_exponent, depth_exponent : float
-        Exponents of E ~ z^m as z -> 0 and z -> infinity, in [0, 1).
-    surface_tension : float
-        As for `PowerLaw`.
-
-    Raises
-    ------
-    ValueError
-        If a value is outside its range, or E does not have the exponents that are declared.
-
-    Examples
-    --------
-    >>> stiffening = CustomSolid(lambda z: 1.0 + z**0.5, 0.3, length=1.0, depth_exponent=0.5)
-    >>> stiffening.modulus(4.0)
-    array(3.)
-    """
-
-    E: Callable[[Array], Array]
-    nu: float | Callable[[Array], Array]
-    length: float
-    interfaces: Sequence[float | Interface] = ()
-    surface_exponent: float = 0.0
-    depth_exponent: float = 0.0
-    surface_tension: float = 0.0
-
-    def __post_init__(self) -> None:
-        check_tension(self.surface_tension)
-        ends = (
-            interface if isinstance(interface, Interface) else Interface(float(interface))
-            for interface in self.interfaces
-        )
-        object.__setattr__(self, "interfaces", tuple(ends))
-        check_exponents(self.modulus)
-        check_poisson(self.poisson, self.length)
-
-    @property
-    def modulus(self) -> CustomProfile:
-        """E(z)."""
-        exponents = self.surface_exponent, self.depth_exponent
-        return CustomProfile(self.E, *exponents, self.length, tuple(self.interfaces))  # type: ignore[arg-type]  # checked
-
-    @property
-    def poisson(self) -> float | CustomProfile:
-        """The one ratio, or that of depth."""
-        if callable(self.nu):
-            return CustomProfile(self.nu, interfaces=tuple(self.interfaces))  # type: ignore[arg-type]  # checked
-        return self.nu
+    def _of_layers(self, values: Sequence[float], z: Array) -> Array:
+        depths = tuple(accumulate(self.thickness))
+        return np.array(values, float)[np.searchsorted(depths, np.asarray(z, float), side="right")]

@@ -72,7 +72,7 @@ LAYERS = {
     ),
     "fem_reference": (
         ("_typing", "_threads", "_validation", "_presentation", "_numbers", "errors", "_law_between_points"),
-        ("modulus", "poisson", "depth_profiles", "modulus_checks", "solids", "neo_hookean"),
+        ("solid", "solids", "tabulated_modulus", "custom_solid", "neo_hookean"),
         ("punch", "profiles", "laws", "_wells", "tabulated_law", "dlvo"),
         ("_azimuth", "_face", "_vertical_line", "_ball_under_law", "_curved_face", "_body_of_revolution"),
         ("interaction", "problem", "accuracy"),

@@ -14,12 +14,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fem_reference._contact.bodies import condition_of
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import cusp_from, slowest
 from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.events import CUSP
-from fem_reference._contact.friction import BondedSolid
 from fem_reference._contact.path import traced
 from fem_reference._contact.states import Point
 from fem_reference._elastic.mesh import MeshSpec
@@ -27,7 +25,8 @@ from fem_reference._wells import scale_of_energy
 from fem_reference.errors import Failure, NoSuchEvent, NotConverged
 from fem_reference.problem import Problem
 from fem_reference.punch import radius_at_height
-from fem_reference.solids import OffsetPowerLaw, PowerLaw
+from fem_reference.solid import PowerLaw, ScaledSolid
+from fem_reference.solids import OffsetPowerLaw
 
 __all__ = ["NearCritical", "stiffer_than_critical"]
 
@@ -102,13 +101,13 @@ def stiffer_than_critical(problem: Problem, accuracy: float | str) -> NearCritic
     NotConverged
         If a path cannot be traced, or the cusp is not found.
     """
-    bonded = problem.solid if isinstance(problem.solid, BondedSolid) else None
+    bonded = problem.solid if isinstance(problem.solid, ScaledSolid) else None
     solid = problem.solid if bonded is None else bonded.solid
     if not isinstance(solid, PowerLaw | OffsetPowerLaw):
         raise ValueError(
             f"solid = {solid!r} has no reference modulus E0, which the critical modulus is a value of; take a PowerLaw"
         )
-    if len(problem.solids) > 1 or condition_of(solid).tension:
+    if len(problem.solids) > 1 or solid.surface_tension:
         raise ValueError(
             "the critical modulus is known for one solid without surface tension, whose whole stiffness is in "
             "proportion to E0; leave out punch_solid and surface_tension"
@@ -116,7 +115,7 @@ def stiffer_than_critical(problem: Problem, accuracy: float | str) -> NearCritic
 
     def with_modulus(E0: float) -> Problem:
         changed = replace(solid, E0=E0)
-        return replace(problem, solid=changed if bonded is None else BondedSolid(changed))
+        return replace(problem, solid=changed if bonded is None else replace(bonded, solid=changed))
 
     E0 = _estimate(problem, solid)
     estimate = with_modulus(E0)

@@ -7,40 +7,15 @@ one.  In this order the elastic energy at a given displacement of the surface fa
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import ClassVar, Literal
+from dataclasses import replace
+from typing import Literal
 
-from fem_reference.modulus import Modulus
-from fem_reference.poisson import PoissonRatio
 from fem_reference.problem import Problem
-from fem_reference.solids import Solid
+from fem_reference.solid import ScaledSolid
 
-__all__ = ["BondedSolid", "FrictionName", "with_friction"]
+__all__ = ["FrictionName", "with_friction"]
 
 FrictionName = Literal["none", "bonded"]
-
-
-@dataclass(frozen=True, slots=True)
-class BondedSolid:
-    """A solid whose surface keeps its radii."""
-
-    solid: Solid
-    bonded: ClassVar[bool] = True
-
-    @property
-    def modulus(self) -> Modulus:
-        """E(z)."""
-        return self.solid.modulus
-
-    @property
-    def poisson(self) -> float | PoissonRatio:
-        """Poisson's ratio."""
-        return self.solid.poisson
-
-    @property
-    def surface_tension(self) -> float:
-        """Force per length."""
-        return float(getattr(self.solid, "surface_tension", 0.0))
 
 
 def with_friction(problem: Problem, friction: FrictionName) -> Problem:
@@ -61,4 +36,4 @@ def with_friction(problem: Problem, friction: FrictionName) -> Problem:
             "friction 'bonded' needs a rigid punch: points of two elastic bodies move together along the surface and "
             "do not keep their radius; leave out punch_solid, or take friction 'none'"
         )
-    return replace(problem, solid=BondedSolid(problem.solid))
+    return replace(problem, solid=ScaledSolid(problem.solid, bonded=True))

@@ -7,14 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from fem_reference._contact.bodies import (
-    all_power_laws,
-    are_one_power_law,
-    condition_of,
-    plane_strain_modulus,
-    stiffness_at,
-)
-from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
+from fem_reference._contact.bodies import are_one_power_law, plane_strain_modulus, stiffness_at
 from fem_reference._elastic.depth_scales import depth_scales
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mesh import MeshSpec
@@ -23,7 +16,7 @@ from fem_reference.accuracy import Level
 from fem_reference.errors import Failure, NotConverged
 from fem_reference.problem import Problem
 from fem_reference.punch import Punch, kinks_of, radius_at_height
-from fem_reference.solids import Solid
+from fem_reference.solid import Solid
 
 __all__ = [
     "EDGE_PER_BALANCE",
@@ -147,13 +140,12 @@ def mesh_spec(
     while max(_far_error(solid, extent, size) for solid in solids) > EXTERIOR_ERROR and extent < LARGEST_EXTENT:
         extent *= 2.0
     scales, *of_punch = [
-        depth_scales(solid.modulus, FINEST_SCALE * depth * size, extent * size, solid.poisson).scaled(size)
-        for solid in solids
+        depth_scales(solid, FINEST_SCALE * depth * size, extent * size).scaled(size) for solid in solids
     ]
     density, order = level.density, level.order
     kinks = tuple(r / size for r in kinks_within(problem))
     apex = max(apex / size, SMALLEST_APEX)
-    if all_power_laws(problem) and math.isfinite(apex):
+    if all(solid.as_power_law for solid in solids) and math.isfinite(apex):
         # Meshes at neighbouring radii share a compliance.
         apex = 2.0 ** math.floor(math.log2(apex))
     apex_width = min(_apex_width(problem.punch, size), apex)
@@ -163,9 +155,9 @@ def mesh_spec(
 
 def _layer_depth(solid: Solid, width: float, size: float) -> float:
     """Depth to resolve under the surface of a solid."""
-    modulus, k = solid.modulus, solid.modulus.surface_exponent
+    k = solid.surface_exponent
     depth = LAYER_DEPTH * width * min(1.0, 5.0 * k) if k > 0 else 0.3 * width
-    return min(depth, 0.2 * modulus.surface_depth / size) if math.isfinite(modulus.surface_depth) else depth
+    return min(depth, 0.2 * solid.surface_depth / size)
 
 
 def _far_error(solid: Solid, extent: float, size: float) -> float:
@@ -174,14 +166,14 @@ def _far_error(solid: Solid, extent: float, size: float) -> float:
     The tension there is that of the field of a load in the centre.  It moves the contact by P l / R^2, and what is left
     out is smaller by the length l of the tension over the extent R; the displacement itself is P / a or P / l.
     """
-    error = exterior_error(scaled_modulus(solid.modulus, size), extent, scaled_poisson(solid.poisson, size))
+    error = exterior_error(solid.in_lengths(size), extent)
     reach = _tension_length(solid, extent * size) / (extent * size)
     return error + TENSION_SHARE * reach**2 * max(reach, 1.0 / extent)
 
 
 def _tension_length(solid: Solid, longest: float) -> float:
     """Longest wave length, up to one, whose stiffness by the surface tension exceeds that of the solid."""
-    tension = condition_of(solid).tension
+    tension = solid.surface_tension
     if not tension:
         return 0.0
     lengths = longest * 2.0 ** -np.arange(0.0, OCTAVES_OF_TENSION, 0.25)

@@ -212,5 +212,5 @@ def events_on_meshes(mesh: EventMesh) -> EventsOnMeshes:
 def _with_tail(contact: Contact, problem: Problem) -> Contact:
     """The contact with the displacement beyond the mesh."""
     # Far away the body moves most whose displacement falls most slowly.
-    depth_exponent = min(solid.modulus.depth_exponent for solid in problem.solids)
+    depth_exponent = min(solid.depth_exponent for solid in problem.solids)
     return TailContact(contact.force, contact.compliance, depth_exponent)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import Any, cast
 
 import numpy as np
 from scipy import sparse
@@ -19,12 +17,10 @@ from fem_reference._elastic.element_forces import ElementForces
 from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import Grid, MeshSpec
-from fem_reference._elastic.surface_condition import FREE, SurfaceCondition
 from fem_reference._elastic.surface_tension import SurfaceTension
 from fem_reference._elastic.tensor_elements import tensor_stiffness
 from fem_reference._typing import Array, Index
-from fem_reference.modulus import Modulus
-from fem_reference.poisson import PoissonRatio
+from fem_reference.solid import Solid
 
 __all__ = ["HalfSpace", "assemble_half_space", "assembled", "half_space_of", "square_boundary"]
 
@@ -88,7 +84,7 @@ class HalfSpace:
     @cached_property
     def skin(self) -> SurfaceTension:
         """The work of a surface tension of 1."""
-        return SurfaceTension(self.grid.r, self.body.order, self.body.modulus.depth_exponent)
+        return SurfaceTension(self.grid.r, self.body.order, self.body.solid.depth_exponent)
 
     def under_tension(self, tension: float) -> HalfSpace:
         """Return the half-space with a surface tension, and with the same elements, exterior and eliminations."""
@@ -96,7 +92,7 @@ class HalfSpace:
 
     @cached_property
     def _forces(self) -> ElementForces:
-        return ElementForces(self.grid, self.dofs, self.body.modulus, self.body.nu)
+        return ElementForces(self.grid, self.dofs, self.body.solid)
 
     def recovered(self, w: Array) -> Array:
         """Return the displacement of the mesh, shape (2 N, q), without that inside the elements, from its surface."""
@@ -148,30 +144,19 @@ class HalfSpace:
         return free
 
 
-def assemble_half_space(
-    grid: Grid,
-    modulus: Modulus,
-    nu: float | PoissonRatio,
-    order: int = 4,
-    recoverable: bool = True,
-    condition: SurfaceCondition = FREE,
-) -> HalfSpace:
+def assemble_half_space(grid: Grid, solid: Solid, order: int = 4, recoverable: bool = True) -> HalfSpace:
     """Assemble interior and exterior.
 
     Parameters
     ----------
     grid : Grid
         Interior grid.
-    modulus : Modulus
-        E(z).
-    nu : float or PoissonRatio
-        Poisson ratio in [0, 0.5), or one of depth.
+    solid : Solid
+        In units of the grid.
     order : int
         Element order, at least 2.
     recoverable : bool
         Whether the displacement inside the elements is recovered later.
-    condition : SurfaceCondition
-        Of the surface.
 
     Returns
     -------
@@ -179,17 +164,17 @@ def assemble_half_space(
     """
     mesh = grid.quads()
     layer = float(grid.z[1])
-    body = Body(mesh, InteriorChart(layer, modulus.surface_exponent), modulus, nu, order)
+    body = Body(mesh, InteriorChart(layer, solid.surface_exponent), solid, order)
     dofs = Dofs(mesh, ElementQuadP(order))
-    elements = condensed_elements(tensor_stiffness(grid, dofs, modulus, nu), dofs, recoverable)
+    elements = condensed_elements(tensor_stiffness(grid, dofs, solid), dofs, recoverable)
     boundary, weight = square_boundary(grid, dofs, order)
-    outer = weight[:, None] * exterior_stiffness(grid, modulus, nu, order, bonded=condition.bonded) * weight
+    outer = weight[:, None] * exterior_stiffness(grid, solid, order) * weight
     fixed = 2 * line_unknowns(dofs, 0, 0.0)
-    if condition.bonded:
+    if solid.bonded:
         fixed = np.concatenate([fixed, 2 * line_unknowns(dofs, 1, 0.0)])
     free = np.setdiff1d(elements.sides, fixed)
     surface = 2 * line_unknowns(dofs, 1, 0.0) + 1
-    return HalfSpace(body, grid, dofs, elements, outer, free, surface, boundary, tension=condition.tension)
+    return HalfSpace(body, grid, dofs, elements, outer, free, surface, boundary, tension=solid.surface_tension)
 
 
 def square_boundary(grid: Grid, dofs: Dofs, order: int) -> tuple[Index, Array]:
@@ -203,34 +188,17 @@ def square_boundary(grid: Grid, dofs: Dofs, order: int) -> tuple[Index, Array]:
     return both_components(square), np.repeat(signs, 2)
 
 
-def assembled(
-    modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec, condition: SurfaceCondition = FREE
-) -> HalfSpace:
-    """Return the half-space on a mesh, whose surface alone is wanted.
-
-    Parameters
-    ----------
-    modulus : Modulus
-        E(z).
-    nu : float or PoissonRatio
-        Poisson ratio, or one of depth.
-    spec : MeshSpec
-        The mesh.
-    condition : SurfaceCondition
-        Of the surface.
-    """
-    return assemble_half_space(spec.grid(), modulus, nu, spec.order, recoverable=False, condition=condition)
+def assembled(solid: Solid, spec: MeshSpec) -> HalfSpace:
+    """Return the half-space on a mesh, whose surface alone is wanted."""
+    return assemble_half_space(spec.grid(), solid, spec.order, recoverable=False)
 
 
-def half_space_of(
-    modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec, condition: SurfaceCondition = FREE
-) -> HalfSpace:
-    """Return the half-space on a mesh, kept for its whole system; modulus and Poisson ratio must be hashable."""
-    kept = _kept_half_space(cast(Hashable, modulus), cast(Hashable, nu), spec, condition.bonded)
-    return kept.under_tension(condition.tension)
+def half_space_of(solid: Solid, spec: MeshSpec) -> HalfSpace:
+    """Return the half-space on a mesh, kept for its whole system."""
+    return _kept_half_space(solid.without_tension(), spec).under_tension(solid.surface_tension)
 
 
 # Two: the mesh of the last path, whose events are solved next, and one before it; each holds some 50 MB.
 @lru_cache(maxsize=2)
-def _kept_half_space(modulus: Any, nu: Any, spec: MeshSpec, bonded: bool) -> HalfSpace:
-    return assemble_half_space(spec.grid(), modulus, nu, spec.order, condition=SurfaceCondition(bonded=bonded))
+def _kept_half_space(solid: Solid, spec: MeshSpec) -> HalfSpace:
+    return assemble_half_space(spec.grid(), solid, spec.order)

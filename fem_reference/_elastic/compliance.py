@@ -11,10 +11,8 @@ u' v' s ds.  The compliances of two bodies that touch add.
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, cast
 
 import numpy as np
 from scipy import linalg
@@ -22,24 +20,18 @@ from scipy import linalg
 from fem_reference._elastic.assembly import HalfSpace, assembled, half_space_of
 from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import Grid, MeshSpec
-from fem_reference._elastic.surface_condition import FREE, SurfaceCondition
 from fem_reference._elastic.surface_tension import SurfaceTension
 from fem_reference._elastic.trace import Trace, trace_of
 from fem_reference._typing import Array
 from fem_reference.errors import Failure, NotConverged
-from fem_reference.modulus import Interface, Modulus, PowerLawModulus, interfaces_of
-from fem_reference.poisson import PoissonRatio
+from fem_reference.solid import PowerLaw, ScaledSolid, Solid
 
 __all__ = [
     "Addend",
     "Compliance",
+    "checked_inverse",
     "compliance_for",
-    "is_power_law",
-    "is_scaling",
-    "scaled_modulus",
-    "scaled_poisson",
     "sum_of",
-    "surface_compliance",
     "unit_of",
 ]
 
@@ -76,7 +68,7 @@ class Compliance:
         Of the mesh; immaterial with a law.
     unit : float
         Factor at that size.
-    law : PowerLawModulus, optional
+    law : PowerLaw, optional
         E = E0 (z/c0)^k of a solid whose matrix serves every size.
     stiffness : float
         Modulus relative to that of the solid that was condensed.
@@ -89,7 +81,7 @@ class Compliance:
     unknowns: int
     size: float
     unit: float
-    law: PowerLawModulus | None = None
+    law: PowerLaw | None = None
     stiffness: float = 1.0
     second: Addend | None = None
 
@@ -134,7 +126,7 @@ def sum_of(first: Compliance, second: Compliance, size: float) -> Compliance:
     Examples
     --------
     >>> spec = MeshSpec(0.25, 0.1, 50.0, 1.3, 4)
-    >>> alone = compliance_for(PowerLawModulus(1.0, 1.0, 0.0), 0.3, spec, 1.0)
+    >>> alone = compliance_for(PowerLaw(1.0, 1.0, 0.0, 0.3), spec, 1.0)
     >>> bool(np.all(sum_of(alone, alone, 1.0).matrix == 2.0 * alone.matrix))
     True
     """
@@ -145,44 +137,28 @@ def sum_of(first: Compliance, second: Compliance, size: float) -> Compliance:
     return Compliance(first.trace, matrix, unknowns, size, first.factor(size), law, second=added)
 
 
+# The path of a solid that does not scale has a compliance for each radius; one is some 1 MB.
 @lru_cache(maxsize=24)
-def _unit_compliance(k: float, nu: float, spec: MeshSpec, recoverable: bool, bonded: bool) -> tuple[Trace, Array, int]:
-    stiffness, unknowns = _unit_stiffness(k, nu, spec, recoverable, bonded)
-    half_space = _unit_half_space(k, nu, spec, SurfaceCondition(bonded=bonded)) if recoverable else None
-    return trace_of(spec.grid(), spec.order), _inverse(stiffness, half_space), unknowns
+def _unit_compliance(unit: Solid, spec: MeshSpec, recoverable: bool) -> tuple[Trace, Array, int]:
+    """Surface functions, compliance and number of unknowns of a solid in units of the mesh."""
+    stiffness, unknowns = _stiffness(unit.without_tension(), spec, recoverable)
+    if unit.surface_tension:
+        skin = SurfaceTension(spec.grid().r, spec.order, unit.depth_exponent)
+        stiffness = stiffness + unit.surface_tension * skin.matrix.toarray()
+    half_space = half_space_of(unit, spec) if recoverable else None
+    if half_space is not None and not half_space.eliminations:
+        surface_stiffness(half_space)
+    return trace_of(spec.grid(), spec.order), checked_inverse(stiffness, half_space), unknowns
 
 
-# Without surface tension: it adds to one stiffness at every size.
-@lru_cache(maxsize=24)
-def _unit_stiffness(k: float, nu: float, spec: MeshSpec, recoverable: bool, bonded: bool) -> tuple[Array, int]:
-    condition = SurfaceCondition(bonded=bonded)
-    assembly = half_space_of if recoverable else assembled
-    half_space = assembly(PowerLawModulus(1.0, 1.0, k), nu, spec, condition)
+# A power law under surface tension has one stiffness for every size.
+@lru_cache(maxsize=8)
+def _stiffness(unit: Solid, spec: MeshSpec, recoverable: bool) -> tuple[Array, int]:
+    half_space = (half_space_of if recoverable else assembled)(unit, spec)
     return surface_stiffness(half_space, recoverable), half_space.unknowns
 
 
-def _unit_half_space(k: float, nu: float, spec: MeshSpec, condition: SurfaceCondition) -> HalfSpace:
-    """The half-space of a power law, kept for its whole system."""
-    half_space = half_space_of(PowerLawModulus(1.0, 1.0, k), nu, spec, condition)
-    if not half_space.eliminations:
-        surface_stiffness(half_space)
-    return half_space
-
-
-# The path of a solid that does not scale has a compliance for each radius; one is some 1 MB.
-@lru_cache(maxsize=8)
-def _tense_compliance(
-    law: PowerLawModulus, nu: float, spec: MeshSpec, size: float, recoverable: bool, condition: SurfaceCondition
-) -> Compliance:
-    """Compliance of a power law under surface tension, which is in units of the mesh."""
-    stiffness, unknowns = _unit_stiffness(law.k, nu, spec, recoverable, condition.bonded)
-    skin = SurfaceTension(spec.grid().r, spec.order, law.k)
-    half_space = _unit_half_space(law.k, nu, spec, condition) if recoverable else None
-    matrix = _inverse(stiffness + condition.tension * skin.matrix.toarray(), half_space)
-    return Compliance(trace_of(spec.grid(), spec.order), matrix, unknowns, size, _factor(law, size))
-
-
-def _factor(law: PowerLawModulus, c: float, stiffness: float = 1.0) -> float:
+def _factor(law: PowerLaw, c: float, stiffness: float = 1.0) -> float:
     """Displacement under a unit load vector, relative to that of E = z^k at the size 1."""
     return float(c ** (1.0 - law.k) * law.c0**law.k / (law.E0 * stiffness))
 
@@ -198,26 +174,14 @@ LARGEST_ROUNDING = 1e-6
 SAFE_THICKNESS = 1e-5
 
 
-def surface_compliance(half_space: HalfSpace, recoverable: bool = True) -> Array:
-    """Inverse of the surface stiffness of a half-space.
-
-    Parameters
-    ----------
-    half_space, recoverable
-        As for `fem_reference._elastic.condensation.surface_stiffness`.
+def checked_inverse(S: Array, half_space: HalfSpace | None) -> Array:
+    """Inverse of a surface stiffness, checked on the half-space that it is of, which has been condensed.
 
     Raises
     ------
     NotConverged
-        If the stiffness is not positive definite, or if rounding changes the compliance under a load in the centre or
-        at the edge, where the elements are smallest.
+        If rounding changes the compliance under a load in the centre or at the edge, where the elements are smallest.
     """
-    S = surface_stiffness(half_space, recoverable)
-    return _inverse(S, half_space if recoverable else None)
-
-
-def _inverse(S: Array, half_space: HalfSpace | None) -> Array:
-    """Inverse of a surface stiffness, checked on the half-space that it is of, which has been condensed."""
     X = linalg.cho_solve(linalg.cho_factor(S), np.eye(S.shape[0]))
     X = 0.5 * (X + X.T)
     if half_space is not None:
@@ -235,96 +199,22 @@ def _inverse(S: Array, half_space: HalfSpace | None) -> Array:
     return X
 
 
-def _divided(interfaces: tuple[Interface, ...], c: float) -> tuple[Interface, ...]:
-    """Interfaces in lengths of c."""
-    return tuple(Interface(i.depth / c, i.transition / c) for i in interfaces)
-
-
-@dataclass(frozen=True, slots=True)
-class _ScaledPoisson:
-    """nu(c s) of a ratio nu(z)."""
-
-    base: PoissonRatio
-    c: float
-
-    @property
-    def interfaces(self) -> tuple[Interface, ...]:
-        return _divided(interfaces_of(self.base), self.c)
-
-    def __call__(self, z: Array) -> Array:
-        return self.base(np.asarray(z, float) * self.c)
-
-
-@dataclass(frozen=True, slots=True)
-class _Scaled:
-    """E(c s) of a modulus E(z)."""
-
-    base: Modulus
-    c: float
-
-    @property
-    def surface_exponent(self) -> float:
-        return self.base.surface_exponent
-
-    @property
-    def depth_exponent(self) -> float:
-        return self.base.depth_exponent
-
-    @property
-    def surface_depth(self) -> float:
-        return self.base.surface_depth / self.c
-
-    @property
-    def interfaces(self) -> tuple[Interface, ...]:
-        return _divided(interfaces_of(self.base), self.c)
-
-    def __call__(self, z: Array) -> Array:
-        return self.base(np.asarray(z, float) * self.c)
-
-
-def is_scaling(modulus: Modulus, nu: float | PoissonRatio, kinks: tuple[float, ...]) -> bool:
-    """Whether one mesh serves every size of the contact: a power law with one Poisson ratio, and no lines of the punch.
-
-    Examples
-    --------
-    >>> is_scaling(PowerLawModulus(1.0, 1.0, 0.5), 0.3, kinks=())
-    True
-    """
-    return is_power_law(modulus, nu) and not kinks
-
-
-def is_power_law(modulus: Modulus, nu: float | PoissonRatio) -> bool:
-    """Whether the compliance on a mesh is the same at every size of it, but for a factor."""
-    return isinstance(modulus, PowerLawModulus) and not isinstance(nu, PoissonRatio)
-
-
 def compliance_for(
-    modulus: Modulus,
-    nu: float | PoissonRatio,
-    spec: MeshSpec,
-    size: float,
-    scaling: bool = True,
-    recoverable: bool = False,
-    condition: SurfaceCondition = FREE,
+    solid: Solid, spec: MeshSpec, size: float, scaling: bool = True, recoverable: bool = False
 ) -> Compliance:
     """Return the surface compliance of a solid on a mesh whose edge is at the radius `size`.
 
     Parameters
     ----------
-    modulus : Modulus
-        E(z).
-    nu : float or PoissonRatio
-        Poisson ratio, or one of depth.
+    solid : Solid
     spec : MeshSpec
         Mesh in units of `size`.
     size : float
-        Edge radius; immaterial if the problem scales (`is_scaling`): one compliance then serves every size.
+        Edge radius; immaterial for a power law without surface tension: one compliance then serves every size.
     scaling : bool
         Whether that is made use of.
     recoverable : bool
         Whether the whole system of the mesh is solved later: the half-space is kept for it.
-    condition : SurfaceCondition
-        Of the surface; under tension no compliance serves two sizes.
 
     Returns
     -------
@@ -335,30 +225,16 @@ def compliance_for(
     NotConverged
         If the stiffness of the mesh is not positive definite.
     """
-    if not is_power_law(modulus, nu):
-        return _fixed_compliance(cast(Hashable, modulus), cast(Hashable, nu), spec, size, recoverable, condition)
-    law, ratio = cast(PowerLawModulus, modulus), cast(float, nu)
-    if condition.tension:
-        return _tense_compliance(law, ratio, spec, size, recoverable, unit_of(law, ratio, size, condition)[2])
-    trace, matrix, unknowns = _unit_compliance(law.k, ratio, spec, recoverable, condition.bonded)
-    of_every_size = law if scaling and is_scaling(modulus, nu, spec.kinks) else None
-    return Compliance(trace, matrix, unknowns, size, _factor(law, size), of_every_size)
-
-
-# The search for the width of the edge, and the mesh of it that the bounds need again; a few MB each.
-@lru_cache(maxsize=8)
-def _fixed_compliance(
-    modulus: Any, nu: Any, spec: MeshSpec, size: float, recoverable: bool, condition: SurfaceCondition
-) -> Compliance:
-    grid, assembly = spec.grid(), half_space_of if recoverable else assembled
     try:
-        scaled, ratio, in_units = unit_of(modulus, nu, size, condition)
-        half_space = assembly(scaled, ratio, spec, in_units)
-        matrix = surface_compliance(half_space, recoverable)
+        trace, matrix, unknowns = _unit_compliance(unit_of(solid, size), spec, recoverable)
     except NotConverged as error:
-        _refuse_thin_elements(grid, size, error)
+        _refuse_thin_elements(spec.grid(), size, error)
         raise
-    return Compliance(trace_of(grid, spec.order), matrix, half_space.unknowns, size, size)
+    law = solid.as_power_law
+    if law is None:
+        return Compliance(trace, matrix, unknowns, size, size)
+    serves_all = scaling and not law.surface_tension and not spec.kinks
+    return Compliance(trace, matrix, unknowns, size, _factor(law, size), law if serves_all else None)
 
 
 def _refuse_thin_elements(grid: Grid, size: float, error: NotConverged) -> None:
@@ -374,44 +250,20 @@ def _refuse_thin_elements(grid: Grid, size: float, error: NotConverged) -> None:
         ) from error
 
 
-def unit_of(
-    modulus: Modulus, nu: float | PoissonRatio, size: float, condition: SurfaceCondition = FREE
-) -> tuple[Modulus, float | PoissonRatio, SurfaceCondition]:
-    """Return modulus, Poisson ratio and condition of the half-space on a mesh in units of the size.
+def unit_of(solid: Solid, size: float) -> Solid:
+    """Return the solid on a mesh in units of the size.
 
     `factor` of the compliance is the rest: the modulus of a power law is z^k.
 
     Examples
     --------
-    >>> unit_of(PowerLawModulus(8.0, 1.0, 0.0), 0.3, 2.0, SurfaceCondition(tension=4.0))[2].tension
-    0.25
+    >>> unit_of(PowerLaw(8.0, 1.0, 0.0, 0.3, surface_tension=4.0), 2.0)
+    PowerLaw(E0=1.0, c0=1.0, k=0.0, nu=0.3, surface_tension=0.25)
     """
-    if is_power_law(modulus, nu):
-        law = cast(PowerLawModulus, modulus)
-        # Elastic forces are those of the unit times c^2 / factor, and those of the tension do not change with c.
-        return PowerLawModulus(1.0, 1.0, law.k), nu, condition.scaled(_factor(law, size) / size**2)
-    return scaled_modulus(modulus, size), scaled_poisson(nu, size), condition.scaled(1.0 / size)
-
-
-def scaled_modulus(modulus: Modulus, size: float) -> Modulus:
-    """Return the modulus in lengths of `size`: E(size s) as a function of s.
-
-    Examples
-    --------
-    >>> float(scaled_modulus(PowerLawModulus(1.0, 1.0, 0.5), 4.0)(np.array(1.0)))
-    2.0
-    """
-    if isinstance(modulus, PowerLawModulus):
-        return PowerLawModulus(modulus.E0, modulus.c0 / size, modulus.k)
-    return _Scaled(modulus, size)
-
-
-def scaled_poisson(nu: float | PoissonRatio, size: float) -> float | PoissonRatio:
-    """Return the Poisson ratio in lengths of `size`.
-
-    Examples
-    --------
-    >>> scaled_poisson(0.3, 4.0)
-    0.3
-    """
-    return _ScaledPoisson(nu, size) if isinstance(nu, PoissonRatio) else nu
+    law = solid.as_power_law
+    if law is None:
+        return solid.in_lengths(size)
+    # Elastic forces are those of the unit times c^2 / factor, and those of the tension do not change with c.
+    tension = law.surface_tension * _factor(law, size) / size**2
+    unit = PowerLaw(1.0, 1.0, law.k, law.nu, tension)
+    return ScaledSolid(unit, bonded=True) if solid.bonded else unit

@@ -1,4 +1,4 @@
-"""Depths and lengths of a modulus that a mesh has to follow: its jumps, and where it changes within a short length.
+"""Depths and lengths of a solid that a mesh has to follow: its jumps, and where it changes within a short length.
 
 Every octave of depth, cut at the declared interfaces, is halved until polynomials of low degree represent E and 1/E on
 each part.  The strain under a given stress follows 1/E: where a modulus falls to a small value it may be a cubic, but
@@ -11,18 +11,14 @@ is thicker than 1/30 of its depth, or declared.
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import cast
 
 import numpy as np
 
 from fem_reference._typing import Array
-from fem_reference.modulus import Interface, Modulus, PowerLawModulus, interfaces_of
-from fem_reference.modulus_checks import positive_modulus
-from fem_reference.poisson import PoissonRatio, poisson_at
+from fem_reference.solid import Interface, Solid, positive_modulus
 
 __all__ = ["DepthScales", "depth_scales"]
 
@@ -74,17 +70,15 @@ class DepthScales:
         return DepthScales(tuple(z / size for z in self.lines), tuple((a / size, b / size) for a, b in self.parts))
 
 
-def depth_scales(modulus: Modulus, low: float, high: float, nu: float | PoissonRatio = 0.0) -> DepthScales:
+def depth_scales(solid: Solid, low: float, high: float) -> DepthScales:
     """Return what a mesh has to follow between two depths.
 
     Parameters
     ----------
-    modulus : Modulus
-        Hashable; nothing is searched in a power law.
+    solid : Solid
+        Nothing is searched in a power law.
     low, high : float
         Range of depth, positive.
-    nu : float or PoissonRatio
-        One of depth is followed as well, hashable.
 
     Returns
     -------
@@ -97,47 +91,17 @@ def depth_scales(modulus: Modulus, low: float, high: float, nu: float | PoissonR
 
     Examples
     --------
-    >>> from fem_reference.depth_profiles import TransitionProfile
-    >>> depth_scales(TransitionProfile(10.0, 1.0, thickness=3.0), 0.01, 100.0)
+    >>> from fem_reference import Coating
+    >>> depth_scales(Coating(10.0, 1.0, thickness=3.0, transition=0.0, nu_coating=0.3), 0.01, 100.0)
     DepthScales(lines=(3.0,), parts=())
     """
-    lines: set[float] = set()
-    parts: set[tuple[float, float]] = set()
-    profiles: list[Modulus] = [] if isinstance(modulus, PowerLawModulus) else [modulus]
-    if isinstance(nu, PoissonRatio):
-        profiles.append(_UniaxialModulus(nu))
-    for profile in profiles:
-        scales = _scales_of(profile, low, high)
-        lines.update(scales.lines)
-        parts.update(scales.parts)
-    return DepthScales(tuple(sorted(lines)), tuple(sorted(parts)))
-
-
-@dataclass(frozen=True, slots=True)
-class _UniaxialModulus:
-    """Modulus of a layer that cannot widen, relative to Young's modulus: what a Poisson ratio of depth changes."""
-
-    nu: PoissonRatio
-    surface_exponent: float = 0.0
-    depth_exponent: float = 0.0
-    surface_depth: float = 1.0
-
-    @property
-    def interfaces(self) -> tuple[Interface, ...]:
-        return interfaces_of(self.nu)
-
-    def __call__(self, z: Array) -> Array:
-        nu = poisson_at(self.nu, z)
-        return (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))
-
-
-def _scales_of(modulus: Modulus, low: float, high: float) -> DepthScales:
-    """What a mesh has to follow of one function of depth."""
-    declared = [i for i in interfaces_of(modulus) if low < i.depth < high]
+    if solid.as_power_law is not None:
+        return DepthScales()
+    declared = [i for i in solid.interfaces if low < i.depth < high]
     lines = {i.depth for i in declared}
     parts = {_around(i) for i in declared if i.transition > 0}
     for octave in range(math.floor(math.log2(low / FIRST_END)), math.ceil(math.log2(high / FIRST_END))):
-        scales = _octave(cast(Hashable, modulus), octave)
+        scales = _octave(solid, octave)
         lines.update(z for z in scales.lines if low < z < high)
         parts.update(interval for interval in scales.parts if interval[1] > low and interval[0] < high)
     return DepthScales(tuple(sorted(lines)), tuple(sorted(parts)))
@@ -150,17 +114,17 @@ def _around(interface: Interface) -> tuple[float, float]:
 
 
 @lru_cache(maxsize=512)
-def _octave(modulus: Modulus, octave: int) -> DepthScales:
+def _octave(solid: Solid, octave: int) -> DepthScales:
     """Jumps and short parts in an octave."""
     low, high = FIRST_END * 2.0**octave, FIRST_END * 2.0 ** (octave + 1)
-    lines = [i.depth for i in interfaces_of(modulus) if low < i.depth < high]
+    lines = sorted(i.depth for i in solid.interfaces if low < i.depth < high)
     jumps: list[float] = []
     parts: list[tuple[float, float]] = []
     ends = [low, *lines, high]
     pending = list(pairwise(ends))
     while pending:
         a, b = pending.pop()
-        resolved = _resolve(modulus, a, b)
+        resolved = _resolve(solid, a, b)
         if isinstance(resolved, float):
             jumps.append(resolved)
             if len(jumps) > MOST_JUMPS:
@@ -174,16 +138,16 @@ def _octave(modulus: Modulus, octave: int) -> DepthScales:
     return DepthScales(tuple(jumps), tuple(parts))
 
 
-def _resolve(modulus: Modulus, a: float, b: float) -> list[tuple[float, float]] | float:
-    """Parts of [a, b] on each of which polynomials represent E and 1/E, or the depth of a jump."""
+def _resolve(solid: Solid, a: float, b: float) -> list[tuple[float, float]] | float:
+    """Parts of [a, b] on each of which polynomials represent the moduli, or the depth of a jump."""
     resolved = []
     pending = [(a, b)]
     while pending:
         left, right = pending.pop()
-        if _is_polynomial(modulus, left, right):
+        if _is_polynomial(solid, left, right):
             resolved.append((left, right))
         elif right - left <= JUMP * right:
-            return _jump(modulus, left, right)
+            return _jump(solid, left, right)
         else:
             middle = 0.5 * (left + right)
             pending += [(left, middle), (middle, right)]
@@ -196,22 +160,28 @@ _BASIS = np.polynomial.chebyshev.chebvander(_X, DEGREE)
 _REMAINDER = np.eye(SAMPLES) - _BASIS @ np.linalg.pinv(_BASIS)
 
 
-def _is_polynomial(modulus: Modulus, a: float, b: float) -> bool:
-    """Whether polynomials represent E and 1/E between two depths, neither of which is sampled."""
-    z = 0.5 * (a + b) + 0.5 * (b - a) * _X
-    E = positive_modulus(modulus, z)
-    return all(float(np.abs(_REMAINDER @ f).max()) <= RESOLVED * float(f.max()) for f in (E, E.min() / E))
+def _is_polynomial(solid: Solid, a: float, b: float) -> bool:
+    """Whether polynomials represent the moduli and their inverse between two depths, neither of which is sampled."""
+    moduli = _moduli(solid, 0.5 * (a + b) + 0.5 * (b - a) * _X)
+    functions = [*moduli, *(moduli.min(axis=1, keepdims=True) / moduli)]
+    return all(float(np.abs(_REMAINDER @ f).max()) <= RESOLVED * float(f.max()) for f in functions)
 
 
-def _jump(modulus: Modulus, a: float, b: float) -> float:
-    """Depth of the largest change of E in a very short interval, by bisection to rounding."""
-    E_a, E_b = (float(modulus(np.array(z))) for z in (a, b))
+def _moduli(solid: Solid, z: Array) -> Array:
+    """E, and the modulus of a layer that cannot widen relative to it, which Poisson's ratio changes: shape (2, n)."""
+    nu = solid.poisson(z)
+    return np.array([positive_modulus(solid, z), (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))])
+
+
+def _jump(solid: Solid, a: float, b: float) -> float:
+    """Depth of the largest change of the moduli in a very short interval, by bisection to rounding."""
+    at_a, at_b = (_moduli(solid, np.array([z])) for z in (a, b))
     while True:
         middle = 0.5 * (a + b)
         if not a < middle < b:
             return b
-        E = float(modulus(np.array(middle)))
-        if abs(E - E_a) > abs(E - E_b):
-            b, E_b = middle, E
+        at_middle = _moduli(solid, np.array([middle]))
+        if np.abs(np.log(at_middle / at_a)).sum() > np.abs(np.log(at_middle / at_b)).sum():
+            b, at_b = middle, at_middle
         else:
-            a, E_a = middle, E
+            a, at_a = middle, at_middle

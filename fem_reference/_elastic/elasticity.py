@@ -24,8 +24,7 @@ from fem_reference._elastic.dof_ordering import both_components
 from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._elastic.mapping import Chart, ChartMapping
 from fem_reference._typing import Array, Index
-from fem_reference.modulus import Modulus
-from fem_reference.poisson import PoissonRatio, check_poisson, poisson_at
+from fem_reference.solid import Solid
 
 __all__ = ["Body", "contracted", "element_places", "gauss_product", "lame_parameters", "stiffness"]
 
@@ -42,7 +41,7 @@ FIRST_LAYER_POINTS = 14
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Body:
-    """A meshed piece of solid: mesh, chart to the (r, z) plane, modulus, Poisson ratio and element order.
+    """A meshed piece of solid: mesh, chart to the (r, z) plane, material and element order.
 
     Attributes
     ----------
@@ -50,28 +49,23 @@ class Body:
         Quadrilaterals in the coordinates of the chart.
     chart : Chart
         From those to (r, z).
-    modulus : Modulus
-        E(z).
-    nu : float or PoissonRatio
-        Poisson ratio in [0, 0.5), or one of depth.
+    solid : Solid
+        In units of the mesh.
     order : int
         Degree of the elements, at least 2.
 
     Raises
     ------
     ValueError
-        If the Poisson ratio or the order is outside its range.
+        If the order is outside its range.
     """
 
     mesh: MeshQuad
     chart: Chart
-    modulus: Modulus
-    nu: float | PoissonRatio
+    solid: Solid
     order: int = 4
 
     def __post_init__(self) -> None:
-        if not isinstance(self.nu, PoissonRatio):
-            check_poisson(self.nu, 1.0)
         if self.order < 2:
             raise ValueError(f"element order {self.order} is below 2: the hierarchical element starts there")
 
@@ -98,7 +92,7 @@ def gauss_product(count: int, depth_count: int, power: int = 1) -> tuple[Array, 
     return np.array([np.tile(x, depth_count), np.repeat(y, count)]), np.outer(wy, wx).ravel()
 
 
-def lame_parameters(modulus: Modulus, nu: float | PoissonRatio, z: Array) -> tuple[Array, Array]:
+def lame_parameters(solid: Solid, z: Array) -> tuple[Array, Array]:
     """Lame's constants lambda and mu at depths.
 
     Raises
@@ -106,7 +100,7 @@ def lame_parameters(modulus: Modulus, nu: float | PoissonRatio, z: Array) -> tup
     ValueError
         If the modulus is not positive, or Poisson's ratio outside its range.
     """
-    E, ratio = modulus(z), poisson_at(nu, z)
+    E, ratio = solid.modulus(z), solid.poisson(z)
     if not np.all(E > 0):
         raise ValueError("the modulus is not positive everywhere: a soft layer of zero stiffness has no solution")
     if not np.all((ratio >= 0) & (ratio < 0.5)):
@@ -118,7 +112,7 @@ def _element_matrices(body: Body, basis: Basis, chunk: slice) -> Array:
     """Stiffness of some elements, shape (elements, 2 n, 2 n) with n functions and interleaved components."""
     r, z = np.asarray(basis.global_coordinates())[:, chunk]
     measure = r * basis.dx[chunk]
-    lame, shear = (constant * measure for constant in lame_parameters(body.modulus, body.nu, z))
+    lame, shear = (constant * measure for constant in lame_parameters(body.solid, z))
     radial = np.stack([f[0].grad[0][chunk] for f in basis.basis], axis=-1)
     axial = np.stack([f[0].grad[1][chunk] for f in basis.basis], axis=-1)
     hoop = np.stack([np.asarray(f[0])[chunk] for f in basis.basis], axis=-1) / r[..., None]

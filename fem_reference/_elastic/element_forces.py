@@ -16,8 +16,7 @@ from fem_reference._elastic.elasticity import element_places
 from fem_reference._elastic.mesh import Grid
 from fem_reference._elastic.tensor_elements import BLOCKS, along_from_start, depth_integrals, factors, radial_integrals
 from fem_reference._typing import Array
-from fem_reference.modulus import Modulus
-from fem_reference.poisson import PoissonRatio
+from fem_reference.solid import Solid
 
 __all__ = ["ElementForces"]
 
@@ -31,15 +30,15 @@ class ElementForces:
         The mesh; its first layer has a chart.
     dofs : skfem.Dofs
         Numbering of its functions of `ElementQuadP`.
-    modulus, nu
-        E(z), and the Poisson ratio.
+    solid : Solid
+        In units of the grid.
     """
 
-    def __init__(self, grid: Grid, dofs: Dofs, modulus: Modulus, nu: float | PoissonRatio) -> None:
+    def __init__(self, grid: Grid, dofs: Dofs, solid: Solid) -> None:
         mesh, self._order = dofs.topo, int(dofs.element.p)
         self._along_r, self._along_z = factors(mesh, self._order)
         self._radial = radial_integrals(grid.r, self._order, along_from_start)
-        self._depth = depth_integrals(grid.z, modulus, nu, self._order, along_from_start)
+        self._depth = depth_integrals(grid.z, solid, self._order, along_from_start)
         self._rows = both_components(np.asarray(dofs.element_dofs)).T
         self._columns, self._layers = element_places(mesh)
 

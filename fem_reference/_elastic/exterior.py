@@ -27,11 +27,9 @@ from fem_reference._elastic.mesh import Grid
 from fem_reference._elastic.tensor_elements import charted_stiffness
 from fem_reference._typing import Array
 from fem_reference.errors import Failure, NotConverged
-from fem_reference.modulus import Modulus, PowerLawModulus
-from fem_reference.modulus_checks import positive_modulus
-from fem_reference.poisson import PoissonRatio, poisson_at
+from fem_reference.solid import PowerLaw, Solid, positive_modulus
 
-__all__ = ["exterior_error", "exterior_stiffness"]
+__all__ = ["EXTERIOR_RATIO", "exterior_error", "exterior_stiffness"]
 
 
 #: Scale ratio of one shell; at order 4 its radial error is below 1e-9 of the far field, itself 1/extent.
@@ -44,6 +42,9 @@ SHELL_RATIO = 1.3
 #: k = 0.05), and falls like the compliance at the end of the mesh.
 COARSE_RATIO = 8.0
 
+#: Largest Poisson ratio of the exterior, whose stiffness needs a finite lambda: it changes by about 1 - 2 nu.
+EXTERIOR_RATIO = 0.5 - 2.5e-8
+
 #: Ratio 1.3^4096 at most: the remaining coupling is zero in double precision long before.
 DOUBLINGS = 12
 
@@ -51,31 +52,20 @@ DOUBLINGS = 12
 COUPLING_TOLERANCE = 1e-15
 
 
-def exterior_stiffness(
-    grid: Grid,
-    modulus: Modulus,
-    nu: float | PoissonRatio,
-    order: int,
-    pressure_degree: int | None = None,
-    bonded: bool = False,
-) -> Array:
+def exterior_stiffness(grid: Grid, solid: Solid, order: int, pressure_degree: int | None = None) -> Array:
     """Stiffness of the exterior of the square [0, a]^2 on its boundary.
 
     Parameters
     ----------
     grid : Grid
         Grid of the interior; the exterior has the nodes of its boundary, but those next to the surface and the axis.
-    modulus : Modulus
-        Its depth exponent and its value at depth a define the power law of the exterior.  For a modulus
+    solid : Solid
+        Its depth exponent, and its modulus and Poisson ratio at the depth a, are those of the exterior.  For a solid
         that is not a power law the square must be so large that this does not matter (see `exterior_error`).
-    nu : float or PoissonRatio
-        Poisson ratio; that at the depth a is the one of the exterior.
     order : int
         Element order.
     pressure_degree : int, optional
         As for `charted_stiffness`.
-    bonded : bool
-        Whether u_r = 0 along the surface.
 
     Returns
     -------
@@ -90,9 +80,8 @@ def exterior_stiffness(
         If the doubling of shells does not end.
     """
     a = grid.extent
-    k = modulus.depth_exponent
-    value = float(modulus(np.array(a)))
-    law = modulus if isinstance(modulus, PowerLawModulus) else PowerLawModulus(value, a, k)
+    k = solid.depth_exponent
+    law = PowerLaw(float(solid.modulus(np.array(a))), a, k, min(float(solid.poisson(np.array(a))), EXTERIOR_RATIO))
     # Along the side down, then along the bottom to the axis.
     fine, keep = (
         np.concatenate([down, along])
@@ -101,14 +90,15 @@ def exterior_stiffness(
     t = fine[keep.astype(bool)]
     mesh = MeshQuad.init_tensor(t, np.array([1.0, SHELL_RATIO]))
     layer = float(t[1])
-    body = Body(mesh, ShellChart(a, layer, k), law, float(poisson_at(nu, np.array(a))), order)
+    body = Body(mesh, ShellChart(a, layer, k), law, order)
     touching = np.flatnonzero(mesh.p[0][mesh.t].max(axis=0) <= layer * (1 + 1e-12))
     dofs = Dofs(mesh, ElementQuadP(order))
     elements = condensed_elements(charted_stiffness(body, dofs, touching, pressure_degree), dofs)
     inner = both_components(line_unknowns(dofs, 1, 1.0))
     outer = both_components(line_unknowns(dofs, 1, SHELL_RATIO))
     # u_r on the axis, and at a bonded surface.
-    fixed = 2 * np.concatenate([line_unknowns(dofs, 0, end) for end in (float(t[-1]), *([0.0] if bonded else []))])
+    ends = (float(t[-1]), 0.0) if solid.bonded else (float(t[-1]),)
+    fixed = 2 * np.concatenate([line_unknowns(dofs, 0, end) for end in ends])
     free = np.setdiff1d(elements.sides, fixed)
     present = ~np.isin(inner, fixed)
     condensed = condensed_on(np.concatenate([inner, outer])[np.tile(present, 2)], elements, element_places(mesh), free)
@@ -118,7 +108,7 @@ def exterior_stiffness(
 
     def coordinate(y: Array) -> Array:
         """From the first layer of the interior to that of the exterior."""
-        z = first_layer_depth(y, float(grid.z[1]), modulus.surface_exponent)[0]
+        z = first_layer_depth(y, float(grid.z[1]), solid.surface_exponent)[0]
         return np.where(z < layer, layer * (z / layer) ** (1.0 - k), z)
 
     projection = np.kron(line_projection(fine, np.searchsorted(fine, t), order, coordinate), np.eye(2))[present]
@@ -162,7 +152,7 @@ POINTS = 16
 SKIN_SHARE = 0.4
 
 
-def exterior_error(modulus: Modulus, extent: float, nu: float | PoissonRatio = 0.0) -> float:
+def exterior_error(solid: Solid, extent: float) -> float:
     """Estimate the relative error of the surface displacement from the power law that the exterior takes.
 
     Beyond the mesh the modulus is taken for E_x(z) = E(a) (z/a)^k, also above the depth a.  By reciprocity the
@@ -174,29 +164,28 @@ def exterior_error(modulus: Modulus, extent: float, nu: float | PoissonRatio = 0
 
     Parameters
     ----------
-    modulus : Modulus
-        E(z) in lengths of the contact radius.
+    solid : Solid
+        In lengths of the contact radius.  A Poisson ratio of depth changes the moduli E/(1 - nu^2) and E/(1 + nu) of a
+        skin; the larger difference counts.
     extent : float
         Side a of the meshed square in the same lengths.
-    nu : float or PoissonRatio
-        One of depth changes the moduli E/(1 - nu^2) and E/(1 + nu) of a skin; the larger difference counts.
 
     Examples
     --------
-    >>> exterior_error(PowerLawModulus(1.0, 1.0, 0.4), 64.0)
+    >>> exterior_error(PowerLaw(1.0, 1.0, 0.4, 0.3), 64.0)
     0.0
     """
-    if isinstance(modulus, PowerLawModulus) and not isinstance(nu, PoissonRatio):
+    if solid.as_power_law is not None:
         return 0.0
     x, w = unit_gauss(POINTS)
     octaves = extent * 2.0 ** np.arange(-OCTAVES_UP, OCTAVES_UP)
     z = octaves[:, None] * (1.0 + x)
     weight = octaves[:, None] * w
-    at_end = float(modulus(np.array(extent)))
-    law = at_end * (z / extent) ** modulus.depth_exponent
-    E = positive_modulus(modulus, z)
+    at_end = float(solid.modulus(np.array(extent)))
+    law = at_end * (z / extent) ** solid.depth_exponent
+    E = positive_modulus(solid, z)
     # Relative to those of the power law; both are E/law where Poisson's ratio is one number.
-    ratio, ratio_at_end = poisson_at(nu, z), poisson_at(nu, np.array(extent))
+    ratio, ratio_at_end = solid.poisson(z), solid.poisson(np.array(extent))
     ratios = (
         E
         / law

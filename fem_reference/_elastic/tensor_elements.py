@@ -26,8 +26,7 @@ from fem_reference._elastic.line_functions import line_functions, line_slopes
 from fem_reference._elastic.mapping import first_layer_depth
 from fem_reference._elastic.mesh import Grid
 from fem_reference._typing import Array, Index
-from fem_reference.modulus import Modulus
-from fem_reference.poisson import PoissonRatio
+from fem_reference.solid import Solid
 
 __all__ = [
     "BLOCKS",
@@ -118,9 +117,7 @@ def radial_integrals(nodes: Array, order: int, along: Along = _along) -> dict[st
     }
 
 
-def depth_integrals(
-    nodes: Array, modulus: Modulus, nu: float | PoissonRatio, order: int, along: Along = _along
-) -> dict[str, Array]:
+def depth_integrals(nodes: Array, solid: Solid, order: int, along: Along = _along) -> dict[str, Array]:
     """Matrices along z of every row, weighted with lambda, mu or stiff = lambda + 2 mu; d marks a derivative."""
     rows: list[dict[str, Array]] = []
     x, w = unit_gauss(order + EXTRA_POINTS)
@@ -128,9 +125,9 @@ def depth_integrals(
     for ends, points, weights in ((nodes[:2], u**3, 3.0 * u**2 * wu), (nodes[1:], x, w)):
         Z, slope = along(points, order)
         h = np.diff(ends)[:, None]
-        z, stretch = first_layer_depth(ends[:-1, None] + h * points, float(nodes[1]), modulus.surface_exponent)
+        z, stretch = first_layer_depth(ends[:-1, None] + h * points, float(nodes[1]), solid.surface_exponent)
         measure, dZ = h * weights * stretch, slope / (h * stretch)[:, :, None]
-        lame, shear = lame_parameters(modulus, nu, z)
+        lame, shear = lame_parameters(solid, z)
         lame, shear = lame * measure, shear * measure
         stiff = lame + 2.0 * shear
         rows.append(
@@ -156,9 +153,7 @@ BLOCKS = {
 }
 
 
-def tensor_stiffness(
-    grid: Grid, dofs: Dofs, modulus: Modulus, nu: float | PoissonRatio
-) -> Iterator[tuple[Index, Index, Array]]:
+def tensor_stiffness(grid: Grid, dofs: Dofs, solid: Solid) -> Iterator[tuple[Index, Index, Array]]:
     """Numbers, rows and stiffness of some elements at a time: shapes (e,), (e, 2 n) and (e, 2 n, 2 n).
 
     The next ones take the memory of the stiffness.
@@ -169,8 +164,8 @@ def tensor_stiffness(
         The mesh; its first layer has a chart.
     dofs : skfem.Dofs
         Numbering of its functions of `ElementQuadP`.
-    modulus, nu
-        E(z), and the Poisson ratio.
+    solid : Solid
+        In units of the grid.
 
     Raises
     ------
@@ -180,7 +175,7 @@ def tensor_stiffness(
     mesh, order = dofs.topo, int(dofs.element.p)
     along_r, along_z = factors(mesh, order)
     radial = {name: M[:, along_r[:, None], along_r] for name, M in radial_integrals(grid.r, order).items()}
-    depth = {name: M[:, along_z[:, None], along_z] for name, M in depth_integrals(grid.z, modulus, nu, order).items()}
+    depth = {name: M[:, along_z[:, None], along_z] for name, M in depth_integrals(grid.z, solid, order).items()}
     columns, layers = element_places(mesh)
     rows = both_components(np.asarray(dofs.element_dofs)).T
     size = rows.shape[1]
@@ -233,7 +228,7 @@ def charted_stiffness(
         radial = (J[1, 1] / det)[..., None] * along_r - (J[1, 0] / det)[..., None] * along_z
         axial = (J[0, 0] / det)[..., None] * along_z - (J[0, 1] / det)[..., None] * along_r
         measure = r * np.abs(det) * W * (sides[0] * sides[1])[elements, None]
-        lame, shear = lame_parameters(body.modulus, body.nu, z)
+        lame, shear = lame_parameters(body.solid, z)
         hoop = N / r[..., None]
         if pressure_degree is None:
             yield elements, rows[elements], contracted(radial, axial, hoop, lame * measure, shear * measure)

@@ -24,13 +24,9 @@ from fem_reference._large_strain.core import Core, core_of
 from fem_reference._large_strain.surface import local_slopes
 from fem_reference._typing import Array, Index
 from fem_reference.errors import NotConverged
-from fem_reference.modulus import Modulus
-from fem_reference.poisson import PoissonRatio, poisson_at
+from fem_reference.solid import Solid
 
-__all__ = ["EXTERIOR_RATIO", "Block", "block_of", "factorised", "linear_response", "summed"]
-
-#: Largest Poisson ratio of the exterior, whose stiffness needs a finite lambda: it changes by about 1 - 2 nu.
-EXTERIOR_RATIO = 0.5 - 2.5e-8
+__all__ = ["Block", "block_of", "factorised", "linear_response", "summed"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,8 +97,7 @@ class Block:
 
 def block_of(
     grid: Grid,
-    modulus: Modulus,
-    nu: float | PoissonRatio,
+    solid: Solid,
     order: int,
     mixed: bool,
     friction: FrictionName = "none",
@@ -115,8 +110,8 @@ def block_of(
     ----------
     grid : Grid
         With its edge at s = 1.
-    modulus, nu
-        E(z), and Poisson's ratio up to 0.5, in lengths of the edge radius.
+    solid : Solid
+        In lengths of the edge radius; its Poisson ratio is up to 0.5.
     order : int
         Degree of the elements.
     mixed : bool
@@ -130,7 +125,7 @@ def block_of(
     """
 
     def constants(z: Array) -> tuple[Array, Array]:
-        E, ratio = modulus(z), poisson_at(nu, z)
+        E, ratio = solid.modulus(z), solid.poisson(z)
         with np.errstate(divide="ignore"):
             softness = np.divide((1.0 + ratio) * (1.0 - 2.0 * ratio), ratio * E)
         return E / (2.0 * (1.0 + ratio)), softness
@@ -138,8 +133,7 @@ def block_of(
     core = core_of(grid, constants, order, mixed, tension, extra)
     trace = trace_of(grid, order)
     boundary, signs = square_boundary(grid, core.dofs, order)
-    at_end = min(float(poisson_at(nu, np.array(grid.extent))), EXTERIOR_RATIO)
-    exterior = exterior_stiffness(grid, modulus, at_end, order, order - 1 if mixed else None)
+    exterior = exterior_stiffness(grid, solid, order, order - 1 if mixed else None)
     surface = 2 * line_unknowns(core.dofs, 1, 0.0)
     fixed = 2 * line_unknowns(core.dofs, 0, 0.0)
     if friction == "bonded":

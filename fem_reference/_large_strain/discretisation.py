@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+import math
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import cast
 
 import numpy as np
 
-from fem_reference._contact.bodies import condition_of
 from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.friction import FrictionName
 from fem_reference._contact.mesh_lengths import scales
 from fem_reference._contact.path import EDGE_RISE
 from fem_reference._contact.states import Point
-from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
 from fem_reference._elastic.elasticity import EXTRA_POINTS
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import variant
@@ -28,10 +26,10 @@ from fem_reference._large_strain.surface_stability import largest_tension
 from fem_reference._large_strain.transfer import carried_over
 from fem_reference.errors import NotConverged
 from fem_reference.interaction import Interaction
-from fem_reference.modulus import Modulus, OffsetPowerLawModulus, PowerLawModulus
-from fem_reference.poisson import PoissonRatio
+from fem_reference.neo_hookean import NeoHookean
 from fem_reference.problem import Problem
-from fem_reference.solids import OffsetPowerLaw, PowerLaw
+from fem_reference.solid import PowerLaw, Solid
+from fem_reference.solids import Homogeneous, OffsetPowerLaw
 
 __all__ = ["Discretisation", "LinearEvent", "linear_event", "linear_problem"]
 
@@ -87,17 +85,16 @@ def linear_problem(problem: Problem, friction: FrictionName = "none") -> Problem
     finite strain begin from vertical gaps.
     """
     problem, solid = problem.under("derjaguin"), problem.solid
-    modulus, nu = solid.modulus, solid.poisson
-    if isinstance(nu, PoissonRatio) or not isinstance(modulus, PowerLawModulus | OffsetPowerLawModulus):
+    if not isinstance(solid, PowerLaw | Homogeneous | OffsetPowerLaw | NeoHookean):
         return problem
+    nu = solid.nu
     stiffer = 4.0 * (1.0 - nu) ** 2 / (3.0 - 4.0 * nu) if friction == "bonded" else 1.0
     if nu <= LARGEST_RATIO and stiffer == 1.0:
         return problem
     ratio = min(nu, LARGEST_RATIO)
-    E0, tension = modulus.E0 * stiffer * (1.0 - ratio**2) / (1.0 - nu**2), condition_of(solid).tension
-    if isinstance(modulus, OffsetPowerLawModulus):
-        return replace(problem, solid=OffsetPowerLaw(E0, modulus.c0, modulus.k, modulus.z_s, ratio, tension))
-    return replace(problem, solid=PowerLaw(E0, modulus.c0, modulus.k, ratio, tension))
+    name = "E" if isinstance(solid, Homogeneous) else "E0"
+    modulus = getattr(solid, name) * stiffer * (1.0 - ratio**2) / (1.0 - nu**2)
+    return replace(problem, solid=replace(solid, nu=ratio, **{name: modulus}))
 
 
 def linear_event(
@@ -156,8 +153,7 @@ class Discretisation:
     @property
     def _without_length(self) -> bool:
         """Whether the solid has no length of its own, so that its elements serve every size."""
-        solid = self.problem.solid
-        return isinstance(solid.modulus, PowerLawModulus) and not isinstance(solid.poisson, PoissonRatio)
+        return math.isinf(self.problem.solid.surface_depth)
 
     @property
     def unit_of_traction(self) -> float:
@@ -169,16 +165,14 @@ class Discretisation:
         solid = self.problem.solid
         spec = replace(self.spec, extent=self.extent)
         if self._without_length:
-            return _block(self, spec, PowerLawModulus(1.0, 1.0, 0.0), cast(Hashable, solid.poisson))
-        moved = spec.moved(radius / self.size)
-        modulus, nu = scaled_modulus(solid.modulus, radius), scaled_poisson(solid.poisson, radius)
-        return _block(self, moved, cast(Hashable, modulus), cast(Hashable, nu))
+            return _block(self, spec, NeoHookean(1.0, float(solid.poisson(np.array(radius)))))
+        return _block(self, spec.moved(radius / self.size), solid.in_lengths(radius))
 
     def surface(self, block: Block, radius: float) -> Surface:
         """Return punch and law at a radius of the edge."""
         punch, law = self.problem.punch, self.problem.law
         unit = self.unit_of_traction
-        tension = condition_of(self.problem.solid).tension / (unit * radius)
+        tension = self.problem.solid.surface_tension / (unit * radius)
         return Surface(block.trace, block.slopes, punch, law, self.interaction, radius, unit, tension=tension)
 
     @property
@@ -237,21 +231,20 @@ class Discretisation:
 
 
 @lru_cache(maxsize=4)
-def _block(choice: Discretisation, spec: MeshSpec, modulus: Hashable, nu: Hashable) -> Block:
+def _block(choice: Discretisation, spec: MeshSpec, solid: Solid) -> Block:
     grid = variant(spec, choice.feature).grid() if choice.feature else spec.grid()
-    constants = cast(Modulus, modulus), cast(float, nu)
     law = choice.problem.law
     tension = -float(law.traction(np.array(law.peak_gap))) / choice.unit_of_traction
-    return block_of(grid, *constants, spec.order, choice.mixed, choice.friction, tension, choice.extra)
+    return block_of(grid, solid, spec.order, choice.mixed, choice.friction, tension, choice.extra)
 
 
 def _reason(problem: Problem) -> str:
     """What to do, and what the tension of the law does to a compressible surface."""
     law, solid, remedy = problem.law, problem.solid, "take a stiffer solid or less adhesion"
-    modulus, nu = solid.modulus, solid.poisson
-    if not isinstance(modulus, PowerLawModulus) or isinstance(nu, PoissonRatio):
+    if math.isfinite(solid.surface_depth):
         return remedy
-    tension = -float(law.traction(np.array(law.peak_gap))) * (1.0 - nu**2) / modulus.E0
+    E, nu = float(solid.modulus(np.array(1.0))), float(solid.poisson(np.array(1.0)))
+    tension = -float(law.traction(np.array(law.peak_gap))) * (1.0 - nu**2) / E
     limit = largest_tension(nu)
     if tension < NEAR_LIMIT * limit:
         return remedy

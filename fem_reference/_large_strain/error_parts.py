@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
-from fem_reference._large_strain.block import EXTERIOR_RATIO
+from fem_reference._elastic.exterior import EXTERIOR_RATIO
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent
 from fem_reference._large_strain.equilibrium import State, solve_state
 from fem_reference._large_strain.events import Family, PathEvent, found_event

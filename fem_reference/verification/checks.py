@@ -17,7 +17,8 @@ from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.trace import Trace
 from fem_reference._threads import one_thread
 from fem_reference._typing import Array
-from fem_reference.modulus import Modulus, OffsetPowerLawModulus, PowerLawModulus
+from fem_reference.solid import PowerLaw, Solid
+from fem_reference.solids import OffsetPowerLaw
 from fem_reference.verification.check import Check
 from fem_reference.verification.element_checks import element_checks, manufactured_checks
 from fem_reference.verification.load_vectors import disc_load, ring_load, smooth_load
@@ -81,14 +82,13 @@ _GAUSSIAN = smooth_load(lambda r: np.exp(-(r**2)))
 
 
 def surface_displacement(
-    modulus: Modulus, nu: float, spec: MeshSpec, load: Callable[[Trace], Array]
+    solid: Solid, spec: MeshSpec, load: Callable[[Trace], Array]
 ) -> tuple[Callable[[Array], Array], int]:
     """Solve the half-space under a given surface load.
 
     Parameters
     ----------
-    modulus, nu
-        Material.
+    solid : Solid
     spec : MeshSpec
         Mesh in absolute units.
     load : callable
@@ -100,7 +100,7 @@ def surface_displacement(
         u_z at the surface for any radii inside the mesh.
     unknowns : int
     """
-    compliance = compliance_for(modulus, nu, spec, 1.0)
+    compliance = compliance_for(solid, spec, 1.0)
     trace = compliance.trace
     w = compliance.factor(1.0) * (compliance.matrix @ load(trace))
 
@@ -133,7 +133,7 @@ def _against(
     nu: float,
 ) -> Check:
     """Compare the displacement of one material under a load with Eq. 6, at radii of which the first is 0."""
-    w, unknowns = surface_displacement(PowerLawModulus(1.0, 1.0, k), nu, spec, load)
+    w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k, nu), spec, load)
     expected = exact(r, k, nu)
     error = float(np.abs(w(r) - expected).max() / expected[0])
     return Check(f"{subject} against Eq. 6", f"{name}, k = {k}, nu = {nu}", error, LIMITS[name], unknowns)
@@ -157,7 +157,7 @@ def disc_checks(exponents: Iterable[float]) -> list[Check]:
             ("flat punch gives a plane", -0.5 * (1.0 - k)),
         ):
             pressure = _power(beta)
-            w, unknowns = surface_displacement(PowerLawModulus(1.0, 1.0, k), NU, EDGE, disc_load(pressure))
+            w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k, NU), EDGE, disc_load(pressure))
             exact = power_displacement(r, k, NU, beta)
             error = float(np.abs(w(r) - exact).max() / exact[0])
             rows.append(Check(name, f"k = {k}, nu = {NU}", error, LIMITS["edge"], unknowns))
@@ -167,11 +167,11 @@ def disc_checks(exponents: Iterable[float]) -> list[Check]:
 def far_field_checks() -> list[Check]:
     """(e) The displacement does not depend on where the exterior begins."""
     r = np.linspace(0.0, 4.0, 41)
-    base, _ = surface_displacement(PowerLawModulus(1.0, 1.0, K), NU, DEFAULT, _GAUSSIAN)
+    base, _ = surface_displacement(PowerLaw(1.0, 1.0, K, NU), DEFAULT, _GAUSSIAN)
     rows = []
     for extent in (8.0, 16.0, 512.0):
         spec = MeshSpec(DEFAULT.edge_width, DEFAULT.surface_depth, extent, DEFAULT.density, DEFAULT.order)
-        w, unknowns = surface_displacement(PowerLawModulus(1.0, 1.0, K), NU, spec, _GAUSSIAN)
+        w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, K, NU), spec, _GAUSSIAN)
         error = float(np.abs(w(r) - base(r)).max() / base(r)[0])
         case = f"extent {extent:g} against 64, k = {K}"
         rows.append(Check("interior of another size", case, error, FAR_FIELD_LIMIT, unknowns))
@@ -189,7 +189,7 @@ def limit_checks() -> list[Check]:
     exact = gaussian_displacement(r, 0.0, NU)
     unit = {}
     for k in (2e-3, 1e-3):
-        w, unknowns = surface_displacement(PowerLawModulus(1.0, 1.0, k), NU, DEFAULT, _GAUSSIAN)
+        w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k, NU), DEFAULT, _GAUSSIAN)
         unit[k] = float(np.abs(w(r) - exact).max() / exact[0])
     rate = abs(unit[2e-3] / unit[1e-3] - 2.0)
     name = "k -> 0 tends to the homogeneous solid, first order"
@@ -198,7 +198,7 @@ def limit_checks() -> list[Check]:
     for z_s in (1e-2, 1e-3):
         depth = min(DEFAULT.surface_depth, 0.2 * z_s)
         spec = MeshSpec(DEFAULT.edge_width, depth, DEFAULT.extent, DEFAULT.density, DEFAULT.order)
-        w, unknowns = surface_displacement(OffsetPowerLawModulus(1.0, 1.0, K, z_s), NU, spec, _GAUSSIAN)
+        w, unknowns = surface_displacement(OffsetPowerLaw(1.0, 1.0, K, z_s, NU), spec, _GAUSSIAN)
         unit[z_s] = float(np.abs(w(r) - exact).max() / exact[0])
     rate = abs(np.log10(unit[1e-2] / unit[1e-3]) - (1.0 - K))
     name = "z_s -> 0 tends to the power law as z_s^(1-k)"

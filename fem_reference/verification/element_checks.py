@@ -10,7 +10,8 @@ from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import Grid, edge_grid, uniform_grid
 from fem_reference._linear.linear_solver import solve_cg
-from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
+from fem_reference.solid import PowerLaw
+from fem_reference.solids import OffsetPowerLaw
 from fem_reference.verification.check import Check
 from fem_reference.verification.manufactured import BIAXIAL, SMOOTH, column, manufactured_error
 
@@ -46,10 +47,10 @@ def manufactured_checks() -> list[Check]:
     >>> [check.passed for check in manufactured_checks()]
     [True, True, True]
     """
-    modulus, side = OffsetPowerLawModulus(1.0, 1.0, K, 0.5), 1.5
+    solid, side = OffsetPowerLaw(1.0, 1.0, K, 0.5, NU), 1.5
     rows = []
     for order, (coarse, fine) in MESHES.items():
-        errors = [manufactured_error(uniform_grid(side, n), modulus, NU, order, SMOOTH) for n in (coarse, fine)]
+        errors = [manufactured_error(uniform_grid(side, n), solid, order, SMOOTH) for n in (coarse, fine)]
         observed = math.log(errors[0] / errors[1]) / math.log(fine / coarse)
         case = f"degree {order}: order {observed:.2f} of {order + 1}"
         shortfall = max(0.0, order + 1 - observed)
@@ -67,16 +68,16 @@ def element_checks() -> list[Check]:
     """
     rows = []
     patch = edge_grid(extent=3.0, density=1.0)
-    for name, grid, modulus, field in (
-        ("biaxial strain, k = 0", patch, PowerLawModulus(1.0, 1.0, 0.0), BIAXIAL),
-        (f"confined column, k = {K}", uniform_grid(1.0, 1), PowerLawModulus(1.0, 1.0, K), column(K)),
+    for name, grid, solid, field in (
+        ("biaxial strain, k = 0", patch, PowerLaw(1.0, 1.0, 0.0, NU), BIAXIAL),
+        (f"confined column, k = {K}", uniform_grid(1.0, 1), PowerLaw(1.0, 1.0, K, NU), column(K)),
     ):
-        error = manufactured_error(grid, modulus, NU, 3, field)
+        error = manufactured_error(grid, solid, 3, field)
         size = 2 * (3 * grid.r.size - 2) * (3 * grid.z.size - 2)
         rows.append(Check("patch test", name, error, PATCH_LIMIT, size))
 
     grid, case = edge_grid(edge_width=0.05, extent=16.0, density=0.9), f"k = {K}, nu = {NU}"
-    half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, K), NU)
+    half_space = assemble_half_space(grid, PowerLaw(1.0, 1.0, K, NU))
     matrix, unknowns = half_space.matrix, half_space.unknowns
     asymmetry = float(abs(matrix - matrix.T).max() / abs(matrix).max())
     rows.append(Check("stiffness is symmetric", case, asymmetry, ROUNDING_LIMIT, unknowns))
@@ -92,7 +93,7 @@ def element_checks() -> list[Check]:
     # The same body in other units of length: E is that of the same depth, a stiffness per radian a modulus times
     # a length.
     scaled = Grid(UNIT * grid.r, UNIT * grid.z)
-    scaled_stiffness = surface_stiffness(assemble_half_space(scaled, PowerLawModulus(1.0, UNIT, K), NU))
+    scaled_stiffness = surface_stiffness(assemble_half_space(scaled, PowerLaw(1.0, UNIT, K, NU)))
     apart = float(np.abs(scaled_stiffness / UNIT - S).max() / np.abs(S).max())
     rows.append(Check("units of length do not matter", case, apart, SOLVER_LIMIT, unknowns))
     return rows

@@ -19,7 +19,7 @@ from fem_reference._elastic.elasticity import Body, gauss_product, stiffness
 from fem_reference._elastic.mapping import ChartMapping, InteriorChart
 from fem_reference._elastic.mesh import Grid
 from fem_reference._typing import Array
-from fem_reference.modulus import Modulus
+from fem_reference.solid import Solid
 
 __all__ = ["BIAXIAL", "SMOOTH", "Field", "column", "manufactured_error"]
 
@@ -76,14 +76,14 @@ def column(k: float) -> Field:
     )
 
 
-def manufactured_error(grid: Grid, modulus: Modulus, nu: float, order: int, field: Field) -> float:
+def manufactured_error(grid: Grid, solid: Solid, order: int, field: Field) -> float:
     """Solve for a known field on [0, a]^2 and return the error of the displacement.
 
     Parameters
     ----------
     grid : Grid
         Interior grid; the field is prescribed on the axis (u_r) and at one point (u_z), its forces elsewhere.
-    modulus, nu, order
+    solid, order
         Material and element order.
     field : Field
         The exact displacement.
@@ -95,13 +95,13 @@ def manufactured_error(grid: Grid, modulus: Modulus, nu: float, order: int, fiel
     """
     mesh = grid.quads()
     layer = float(grid.z[1])
-    body = Body(mesh, InteriorChart(layer, modulus.surface_exponent), modulus, nu, order)
+    body = Body(mesh, InteriorChart(layer, solid.surface_exponent), solid, order)
     matrix, _ = stiffness(body, np.flatnonzero(mesh.p[1][mesh.t].max(axis=0) <= layer))
     # Gauss points clustered towards the surface in every layer; the first reference axis of a tensor mesh is z.
     points, weights = gauss_product(POINTS, POINTS, 3)
     basis = Basis(mesh, ElementQuadP(order), ChartMapping(mesh, body.chart), quadrature=(points[::-1], weights))
     r, z = np.asarray(basis.global_coordinates())
-    load = _load(basis, modulus(z), nu, field)
+    load = _load(basis, solid.modulus(z), solid.poisson(z), field)
     fixed = np.append(2 * line_unknowns(basis.dofs, 0, 0.0), 2 * line_unknowns(basis.dofs, 1, grid.extent)[0] + 1)
     values = np.zeros(matrix.shape[0])
     values[fixed[-1]] = float(field.displacement(np.array(0.0), np.array(grid.extent))[1])
@@ -115,7 +115,7 @@ def manufactured_error(grid: Grid, modulus: Modulus, nu: float, order: int, fiel
     return float(np.sqrt(error / norm))
 
 
-def _load(basis: Basis, E: Array, nu: float, field: Field) -> Array:
+def _load(basis: Basis, E: Array, nu: Array, field: Field) -> Array:
     """Load vector of the stress of a field."""
     r, z = np.asarray(basis.global_coordinates())
     rr, rz, zr, zz = field.gradient(r, z)

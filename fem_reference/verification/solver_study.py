@@ -14,7 +14,7 @@ from fem_reference._elastic.trace import trace_of
 from fem_reference._linear.linear_solver import solve_cg, solve_direct
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._threads import one_thread
-from fem_reference.modulus import PowerLawModulus
+from fem_reference.solid import PowerLaw
 from fem_reference.verification.load_vectors import smooth_load
 
 __all__ = ["FULL_STUDY", "QUICK_STUDY", "SolverCase", "SolverRow", "solver_table"]
@@ -103,7 +103,7 @@ def solver_table(cases: Iterable[SolverCase] = QUICK_STUDY) -> list[SolverRow]:
 
 def _row(case: SolverCase) -> SolverRow:
     grid = case.spec.grid()
-    half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, case.k), case.nu, case.spec.order)
+    half_space = assemble_half_space(grid, PowerLaw(1.0, 1.0, case.k, case.nu), case.spec.order)
     load = np.zeros(half_space.matrix.shape[0])
     load[half_space.surface] = _LOAD(trace_of(grid, case.spec.order))
     begin = time.perf_counter()

@@ -7,16 +7,24 @@ import numpy as np
 import pytest
 from scipy import special
 
-from fem_reference import Interface, LennardJones, PowerPunch, Problem, solve_together
+from fem_reference import (
+    Coating,
+    CustomSolid,
+    Interface,
+    LennardJones,
+    OffsetPowerLaw,
+    PowerLaw,
+    PowerPunch,
+    Problem,
+    TabulatedModulus,
+    solve_together,
+)
 from fem_reference._contact.mesh_lengths import EXTERIOR_ERROR, mesh_spec
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.depth_scales import FIRST_END, DepthScales, depth_scales
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference.accuracy import level_for
-from fem_reference.depth_profiles import CustomProfile, TabulatedProfile, TransitionProfile
-from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
 from tests.fem_reference.hankel_reference import pull_off, transform
-from tests.fem_reference.profile_solid import ProfileSolid, table_of_moduli
 from tests.reference_values import REFERENCE_VALUES
 from tests.solvers.layered_jkr import Stack
 
@@ -33,23 +41,29 @@ def _exponential(z):
     return 1.0 + 10.0 * np.exp(-z / 2.0)
 
 
-EXPONENTIAL = CustomProfile(_exponential, 0.0, 0.0, surface_depth=2.0)
-STIFF, SOFT = TransitionProfile(10.0, 1.0, thickness=1.0), TransitionProfile(1.0, 10.0, thickness=1.0)
-SMOOTH = TransitionProfile(10.0, 1.0, thickness=1.0, transition=0.02)
-PLAIN = PowerLawModulus(1.0, 1.0, 0.0)
-LAYERS_OF_NU = TransitionProfile(0.2, 0.45, 1.0)
-TABLE, TABLE_OF_NU = table_of_moduli((0.0, 1.0, 2.0), (1.0, 1.5, 4.0)), TabulatedProfile((0.0, 2.0), (0.4, 0.1))
+EXPONENTIAL = CustomSolid(_exponential, NU, length=2.0)
+STIFF, SOFT, SMOOTH = (
+    Coating(10.0, 1.0, 1.0, 0.0, NU),
+    Coating(1.0, 10.0, 1.0, 0.0, NU),
+    Coating(10.0, 1.0, 1.0, 0.02, NU),
+)
+STIFF_WITH_TWO_RATIOS, TWO_RATIOS = Coating(10.0, 1.0, 1.0, 0.0, 0.2, 0.45), Coating(1.0, 1.0, 1.0, 0.0, 0.2, 0.45)
+TABLE = TabulatedModulus((0.0, 1.0, 2.0), (1.0, 1.5, 4.0), (0.4, 0.25, 0.1))
 
 
 #: Above the depth 3 a cubic that falls with the slope -3.75: 1/E doubles within 0.13.
-FALLING = table_of_moduli((0.0, 0.5, 1.0, 3.0), (2.0, 1.0, 3.0, 0.5))
+FALLING = TabulatedModulus((0.0, 0.5, 1.0, 3.0), (2.0, 1.0, 3.0, 0.5), NU)
 
 #: Relative error of the displacement of `FALLING` on the finest mesh of "default": 1.5e-9 measured.
 ELASTIC_ERROR = 1e-8
 
 
-def _problem(modulus, n=2.0, nu=NU):
-    return Problem(ProfileSolid(modulus, nu), PowerPunch(n, 1.0), LAW)
+def _problem(solid, n=2.0):
+    return Problem(solid, PowerPunch(n, 1.0), LAW)
+
+
+def _transform(solid, xi, sharp):
+    return transform(solid.modulus, solid.poisson, xi, sharp=sharp)
 
 
 def _power(n):
@@ -67,31 +81,31 @@ def test_hankel_transform_of_layers():
     xi = np.geomspace(1e-4, 30.0, 7)
     layer = Stack(((10.0, 0.2, 1.0),), (1.0, 0.45))
     unit = 2.0 / layer.surface.plane_strain
-    values = transform(STIFF, LAYERS_OF_NU, xi, sharp=(1.0,))
+    values = _transform(STIFF_WITH_TWO_RATIOS, xi, sharp=(1.0,))
     assert values == pytest.approx(unit * layer.relative_compliance(xi), rel=1e-9)
-    narrow = transform(TransitionProfile(10.0, 1.0, 1.0, 0.01), LAYERS_OF_NU, xi, sharp=(1.0,))
+    narrow = transform(Coating(10.0, 1.0, 1.0, 0.01, NU).modulus, STIFF_WITH_TWO_RATIOS.poisson, xi, sharp=(1.0,))
     assert narrow == pytest.approx(values, rel=2e-2)
 
 
 @pytest.mark.parametrize(
-    ("modulus", "nu", "n", "options"),
+    ("solid", "n", "options"),
     [
-        (STIFF, LAYERS_OF_NU, 2.0, {"sharp": (1.0,), "radius": 22.0}),
-        (STIFF, NU, 2.0, {"sharp": (1.0,), "radius": 22.0}),
-        (SOFT, NU, 2.0, {"sharp": (1.0,)}),
-        (SMOOTH, NU, 2.0, {"radius": 22.0}),
-        (PLAIN, LAYERS_OF_NU, 2.0, {"sharp": (1.0,)}),
+        (STIFF_WITH_TWO_RATIOS, 2.0, {"sharp": (1.0,), "radius": 22.0}),
+        (STIFF, 2.0, {"sharp": (1.0,), "radius": 22.0}),
+        (SOFT, 2.0, {"sharp": (1.0,)}),
+        (SMOOTH, 2.0, {"radius": 22.0}),
+        (TWO_RATIOS, 2.0, {"sharp": (1.0,)}),
         # Both have a slope at the surface: waves up to 20 alone move the displacement by 8.7e-7.
-        (TABLE, TABLE_OF_NU, 2.0, {"wave": 40.0}),
+        (TABLE, 2.0, {"wave": 40.0}),
         # Beside it: the displacement of this solid on a mesh eight times as large.
-        (EXPONENTIAL, NU, 5.0, {"nearest": 2.0, "width": 0.125, "radius": 7.0, "wave": 40.0}),
+        (EXPONENTIAL, 5.0, {"nearest": 2.0, "width": 0.125, "radius": 7.0, "wave": 40.0}),
     ],
 )
 @pytest.mark.heavy
-def test_pull_off_of_coatings(modulus, nu, n, options):
+def test_pull_off_of_coatings(solid, n, options):
     """Force and displacement within the bound (measured difference: 9e-8 relative at most; largest bound 1.5e-5)."""
-    reference = pull_off(modulus, nu, _power(n), **options)
-    solutions = solve_together(_problem(modulus, n, nu), (FORCE, DISPLACEMENT), "quick")
+    reference = pull_off(solid.modulus, solid.poisson, _power(n), **options)
+    solutions = solve_together(_problem(solid, n), (FORCE, DISPLACEMENT), "quick")
     for name, exact in ((FORCE, reference.force), (DISPLACEMENT, reference.displacement)):
         assert abs(solutions[name].value - exact) <= min(1e-6, solutions[name].u_num + HANKEL_ERROR)
         assert solutions[name].u_num <= 2e-5
@@ -105,11 +119,11 @@ def test_displacement_of_a_table_that_falls_to_a_small_modulus():
     half = 0.5 * np.diff(ends)[:, None]
     xi, weight = (ends[:-1, None] + half * (x + 1.0)).ravel(), (half * w).ravel()
     # The pressure exp(-r^2) has the transform exp(-xi^2/4)/2.
-    waves = weight * transform(FALLING, NU, xi, sharp=FALLING.depths[1:]) * 0.5 * np.exp(-(xi**2) / 4.0)
+    waves = weight * _transform(FALLING, xi, sharp=FALLING.depths[1:]) * 0.5 * np.exp(-(xi**2) / 4.0)
     exact = special.j0(np.outer(radii, xi)) @ waves
     level = level_for("default")
     spec = replace(mesh_spec(_problem(FALLING), level, 0.25, 1.0, 1.0), density=level.density)
-    solid = compliance_for(FALLING, NU, spec, 1.0)
+    solid = compliance_for(FALLING, spec, 1.0)
     trace = solid.trace
     load = trace.phi.T @ (np.exp(-(trace.s**2)) * trace.s * trace.weight)
     assert trace.evaluate(radii) @ solid.matrix @ load == pytest.approx(exact, rel=ELASTIC_ERROR)
@@ -118,30 +132,30 @@ def test_displacement_of_a_table_that_falls_to_a_small_modulus():
 @pytest.mark.parametrize("depth", [1.0, 0.75, FIRST_END * 1.5, 7.3e-4, 2.0**20])
 def test_jumps_of_a_callable(depth):
     """Wherever they are, to rounding; both declared and found."""
-    modulus = CustomProfile(lambda z: np.where(z < depth, 3.0, 2.0), 0.0, 0.0, surface_depth=depth)
+    solid = CustomSolid(lambda z: np.where(z < depth, 3.0, 2.0), NU, length=depth)
     if depth != FIRST_END * 1.5:  # the middle of an octave: the one place where a jump is not found
-        lines = depth_scales(modulus, 1e-3 * depth, 1e3 * depth).lines
+        lines = depth_scales(solid, 1e-3 * depth, 1e3 * depth).lines
         assert lines == pytest.approx([depth], rel=1e-14)
-    declared = replace(modulus, interfaces=(Interface(depth),))
+    declared = replace(solid, interfaces=(Interface(depth),))
     assert depth_scales(declared, 1e-3 * depth, 1e3 * depth) == DepthScales((depth,))
 
 
 def test_layers_and_kinks():
-    sandwich = CustomProfile(lambda z: np.where((z < 1) | (z > 1.2), 1.0, 9.0), 0.0, 0.0, 1.0)
+    sandwich = CustomSolid(lambda z: np.where((z < 1) | (z > 1.2), 1.0, 9.0), NU, 1.0)
     assert depth_scales(sandwich, 1e-2, 1e2).lines == pytest.approx([1.0, 1.2], rel=1e-14)
-    kink = CustomProfile(lambda z: 1.0 + np.minimum(z, 2.0), 0.0, 0.0, 1.0)
+    kink = CustomSolid(lambda z: 1.0 + np.minimum(z, 2.0), NU, 1.0)
     scales = depth_scales(kink, 1e-2, 1e2)
     assert scales.lines == ()
     assert min(b - a for a, b in scales.parts) < 0.2
-    assert depth_scales(OffsetPowerLawModulus(1.0, 1.0, 0.7, 1.0), 1e-3, 1e6) == DepthScales()
+    assert depth_scales(OffsetPowerLaw(1.0, 1.0, 0.7, 1.0, NU), 1e-3, 1e6) == DepthScales()
 
 
 def test_error_of_the_exterior():
     """Falls with the square of the extent, of a modulus and of a Poisson ratio that change, and keeps its limit."""
-    assert exterior_error(PLAIN, 64.0, CustomProfile(lambda z: 0.3 + 0.0 * z)) == 0.0
-    for least, *profiles in ((5e-5, EXPONENTIAL), (1e-7, PLAIN, TransitionProfile(0.1, 0.4, 1.0))):
-        modulus, *poisson = profiles
-        short, long = (exterior_error(modulus, extent, *poisson) for extent in (256.0, 1024.0))
+    uniform = PowerLaw(1.0, 1.0, 0.0, NU), CustomSolid(lambda z: 1.0 + 0.0 * z, lambda z: 0.3 + 0.0 * z, 1.0)
+    assert [exterior_error(solid, 64.0) for solid in uniform] == [0.0, 0.0]
+    for least, solid in ((5e-5, EXPONENTIAL), (1e-7, Coating(1.0, 1.0, 1.0, 0.0, 0.1, 0.4))):
+        short, long = (exterior_error(solid, extent) for extent in (256.0, 1024.0))
         assert short / long == pytest.approx(16.0, rel=1e-2)
         assert short > least
     spec = mesh_spec(_problem(EXPONENTIAL, 5.0), level_for("quick"), 0.25, 1.0, 1.0)
@@ -150,6 +164,6 @@ def test_error_of_the_exterior():
 
 def test_noise_is_refused():
     rng = np.random.default_rng(7)
-    noisy = CustomProfile(lambda z: 1.0 + 0.1 * rng.random(np.shape(z)), 0.0, 0.0, 1.0)
+    noisy = CustomSolid(lambda z: 1.0 + np.where((z > 0.1) & (z < 10.0), 0.1, 0.0) * rng.random(np.shape(z)), NU, 1.0)
     with pytest.raises(ValueError, match="smooth the data"):
         depth_scales(noisy, 0.5, 2.0)

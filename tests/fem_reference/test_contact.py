@@ -13,16 +13,16 @@ from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.errors import NotConverged
 from fem_reference.interaction import Derjaguin
 from fem_reference.laws import LennardJones
-from fem_reference.modulus import PowerLawModulus
 from fem_reference.punch import PowerPunch
 from fem_reference.quantities import quantity_named
+from fem_reference.solid import PowerLaw
 from tests.refusals import refused
 
 SPEC = MeshSpec(0.125, 2.5e-3, 256.0, 0.9, 6, 0.05)
 
 
 def _contact(E0=1.0, k=0.0, nu=0.0, law=None, punch=None):
-    compliance = compliance_for(PowerLawModulus(E0, 1.0, k), nu, SPEC, 1.0)
+    compliance = compliance_for(PowerLaw(E0, 1.0, k, nu), SPEC, 1.0)
     return Contact(Derjaguin(punch or PowerPunch(2.0, 1.0), law or LennardJones(1.0, 1.0)), compliance)
 
 

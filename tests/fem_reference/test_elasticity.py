@@ -8,7 +8,8 @@ from skfem import Basis, BilinearForm, ElementQuadP
 
 from fem_reference._elastic import compliance
 from fem_reference._elastic.assembly import assemble_half_space
-from fem_reference._elastic.compliance import compliance_for, scaled_modulus, surface_compliance
+from fem_reference._elastic.compliance import checked_inverse, compliance_for
+from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.depth_scales import depth_scales
 from fem_reference._elastic.dissection import LEAF, condensed_on
 from fem_reference._elastic.elasticity import Body, element_places, gauss_product, lame_parameters, stiffness
@@ -16,11 +17,13 @@ from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import ChartMapping, InteriorChart
 from fem_reference._elastic.mesh import Grid, MeshSpec, edge_grid, uniform_grid
 from fem_reference._elastic.trace import trace_of
-from fem_reference.depth_profiles import CustomProfile
+from fem_reference.custom_solid import CustomSolid
 from fem_reference.errors import NotConverged
-from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
+from fem_reference.neo_hookean import NeoHookean
+from fem_reference.solid import PowerLaw
+from fem_reference.solids import OffsetPowerLaw
+from fem_reference.tabulated_modulus import TabulatedModulus
 from fem_reference.verification.load_vectors import smooth_load
-from tests.fem_reference.profile_solid import table_of_moduli
 from tests.refusals import refused
 
 #: Same Gauss points, other order of summation: measured 5e-15.
@@ -33,23 +36,27 @@ def _through_depth(across, down):
     return X[::-1], W
 
 
-def _interior(grid, modulus, nu, order):
+def _interior(grid, solid, order):
     mesh = grid.quads()
     depth = float(grid.z[1])
-    body = Body(mesh, InteriorChart(depth, modulus.surface_exponent), modulus, nu, order)
+    body = Body(mesh, InteriorChart(depth, solid.surface_exponent), solid, order)
     touching = np.flatnonzero(mesh.p[1][mesh.t].max(axis=0) <= depth)
     matrix, _ = stiffness(body, touching)
     return body, matrix
 
 
+def _compliance(half_space):
+    return checked_inverse(surface_stiffness(half_space), half_space)
+
+
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.49])
 def test_batched_contraction_equals_bilinear_forms(nu):
     grid = uniform_grid(1.0, 2)
-    modulus = OffsetPowerLawModulus(1.0, 1.0, 0.4, 0.5)
-    body, matrix = _interior(grid, modulus, nu, 3)
+    solid = OffsetPowerLaw(1.0, 1.0, 0.4, 0.5, nu)
+    body, matrix = _interior(grid, solid, 3)
 
     def moduli(w):
-        E = modulus(w.x[1])
+        E = solid.modulus(w.x[1])
         return E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))
 
     def strains(u, r, component):
@@ -85,7 +92,7 @@ def test_batched_contraction_equals_bilinear_forms(nu):
 
 
 def test_rigid_translation_costs_nothing_and_matrix_is_symmetric():
-    _, matrix = _interior(edge_grid(extent=4.0), PowerLawModulus(1.0, 1.0, 0.4), 0.3, 4)
+    _, matrix = _interior(edge_grid(extent=4.0), PowerLaw(1.0, 1.0, 0.4, 0.3), 4)
     assert abs(matrix - matrix.T).max() <= 1e-13 * abs(matrix).max()
     translation = np.zeros(matrix.shape[0])
     # Vertex functions sum to 1.
@@ -96,18 +103,20 @@ def test_rigid_translation_costs_nothing_and_matrix_is_symmetric():
 
 def test_nu_one_half_and_low_order_are_refused():
     grid = uniform_grid(1.0, 1)
-    refused(r"0\.5 is outside", Body, grid.quads(), InteriorChart(1.0, 0.0), PowerLawModulus(1.0, 1.0, 0.0), 0.5)
-    refused("order 1", Body, grid.quads(), InteriorChart(1.0, 0.0), PowerLawModulus(1.0, 1.0, 0.0), 0.3, order=1)
+    refused(r"0\.5 is outside", PowerLaw, 1.0, 1.0, 0.0, 0.5)
+    refused("keep the volume", _interior, grid, NeoHookean(1.0, 0.5), 2)
+    refused("order 1", Body, grid.quads(), InteriorChart(1.0, 0.0), PowerLaw(1.0, 1.0, 0.0, 0.3), order=1)
 
 
 def test_modulus_that_vanishes_is_refused():
-    refused("not positive", _interior, uniform_grid(1.0, 2), CustomProfile(np.zeros_like, 0.0, 0.0, 1.0), 0.3, 2)
+    hollow = CustomSolid(lambda z: np.where((z > 0.2) & (z < 0.8), 0.0, 1.0), 0.3, length=1.0)
+    refused("not positive", _interior, uniform_grid(1.0, 2), hollow, 2)
 
 
 def test_the_exterior_resists_every_displacement_of_its_boundary():
     """But the radial row on the axis, which is fixed later."""
     grid = Grid(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 2.0]))
-    S = exterior_stiffness(grid, PowerLawModulus(1.0, 1.0, 0.4), nu=0.3, order=3)
+    S = exterior_stiffness(grid, PowerLaw(1.0, 1.0, 0.4, 0.3), order=3)
     assert S.shape == (26, 26)
     assert np.sum(np.linalg.eigvalsh(S) > 1e-6) == 25
 
@@ -115,26 +124,26 @@ def test_the_exterior_resists_every_displacement_of_its_boundary():
 def test_one_compliance_serves_every_size_of_a_power_law():
     spec = MeshSpec(edge_width=0.1, surface_depth=0.05, extent=16.0, density=1.0, order=4)
     load = smooth_load(lambda s: np.exp(-(s**2)))(trace_of(spec.grid(), spec.order))
-    uniform = compliance_for(PowerLawModulus(4.0, 1.0, 0.0), 0.0, spec, size=1.0)
+    uniform = compliance_for(PowerLaw(4.0, 1.0, 0.0, 0.0), spec, size=1.0)
     assert 4.0 * uniform.factor(1.0) * (uniform.matrix @ load)[0] == pytest.approx(np.sqrt(np.pi), rel=1e-4)
-    graded = compliance_for(PowerLawModulus(E0=2.0, c0=1.0, k=0.5), 0.3, spec, size=1.0)
+    graded = compliance_for(PowerLaw(E0=2.0, c0=1.0, k=0.5, nu=0.3), spec, size=1.0)
     assert (graded.factor(4.0), graded.factor_slope(4.0)) == (1.0, 0.125)
 
 
 def test_meshes_that_a_power_law_has_at_several_sizes_share_a_condensation():
     """The edge is too narrow for a mesh of the whole path; the compliance is that of the solid at that size."""
     spec = MeshSpec(edge_width=0.2, surface_depth=0.1, extent=8.0, density=1.2, order=3)
-    law = PowerLawModulus(E0=2.0, c0=3.0, k=0.5)
-    small, large = (compliance_for(law, 0.3, spec, size, scaling=False) for size in (0.7, 2.0))
+    law = PowerLaw(E0=2.0, c0=3.0, k=0.5, nu=0.3)
+    small, large = (compliance_for(law, spec, size, scaling=False) for size in (0.7, 2.0))
     assert small.matrix is large.matrix
-    own = surface_compliance(assemble_half_space(spec.grid(), scaled_modulus(law, 2.0), 0.3, spec.order))
+    own = _compliance(assemble_half_space(spec.grid(), law.in_lengths(2.0), spec.order))
     assert large.factor(2.0) * large.matrix == pytest.approx(2.0 * own, rel=1e-10)
     refused("holds at the size", large.factor, 0.7)
 
 
 def test_the_compliance_of_a_solid_that_does_not_scale_has_one_size():
     spec = MeshSpec(edge_width=0.2, surface_depth=0.1, extent=8.0, density=1.2, order=3)
-    skin = compliance_for(OffsetPowerLawModulus(E0=2.0, c0=1.0, k=0.5, z_s=1.0), 0.3, spec, size=2.0)
+    skin = compliance_for(OffsetPowerLaw(E0=2.0, c0=1.0, k=0.5, z_s=1.0, nu=0.3), spec, size=2.0)
     assert (skin.factor(2.0), skin.factor_slope(2.0)) == (2.0, 0.0)
     refused("holds at the size", skin.factor, 3.0)
 
@@ -146,7 +155,7 @@ UNTOLD = 0.2
 
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_dissection_eliminates_what_a_dense_inverse_does(count):
-    small = assemble_half_space(uniform_grid(2.0, count), PowerLawModulus(1.0, 1.0, 0.3), 0.2, 3)
+    small = assemble_half_space(uniform_grid(2.0, count), PowerLaw(1.0, 1.0, 0.3, 0.2), 3)
     assert (count**2 > LEAF) == (count == 5)
     rows = np.concatenate([small.surface[::-1], np.setdiff1d(small.free, small.surface)[-3:]])
     condensed = condensed_on(rows, small.elements, element_places(small.dofs.topo), small.free)
@@ -169,7 +178,7 @@ def _stiffness_in_extended_precision(half_space):
         mapping = ChartMapping(body.mesh, body.chart)
         basis = Basis(body.mesh, ElementQuadP(order), mapping, quadrature=rule, elements=np.flatnonzero(elements))
         r, z = np.asarray(basis.global_coordinates())
-        lame, shear = (constant * r * basis.dx for constant in lame_parameters(body.modulus, body.nu, z))
+        lame, shear = (constant * r * basis.dx for constant in lame_parameters(body.solid, z))
         functions = [f[0] for f in basis.basis]
         zero = [0.0 * r for _ in functions]
         radial, axial = ([f.grad[i] for f in functions] for i in (0, 1))
@@ -207,8 +216,8 @@ def _eliminated_in_extended_precision(half_space):
 def test_rounding_is_as_large_as_it_is_said_to_be(width, k):
     depth = 0.3 * width if k == 0.0 else 0.1 * k * width
     spec = MeshSpec(edge_width=width, surface_depth=depth, extent=16.0, density=5.0, order=4)
-    half_space = assemble_half_space(spec.grid(), PowerLawModulus(1.0, 1.0, k), 0.3, spec.order)
-    X = surface_compliance(half_space)
+    half_space = assemble_half_space(spec.grid(), PowerLaw(1.0, 1.0, k, 0.3), spec.order)
+    X = _compliance(half_space)
     load = np.zeros((half_space.elements.size, X.shape[0]))
     load[half_space.surface] = np.eye(X.shape[0])
     stated = X @ half_space.gathered(half_space.remainder(load, half_space.recovered(X)))
@@ -220,8 +229,8 @@ def test_rounding_is_as_large_as_it_is_said_to_be(width, k):
 def test_a_displacement_that_is_wrong_lacks_what_it_is_said_to_lack():
     """Whatever the displacement below the surface, and however it is spoiled."""
     spec = MeshSpec(edge_width=0.1, surface_depth=0.05, extent=16.0, density=1.5, order=3)
-    half_space = assemble_half_space(spec.grid(), PowerLawModulus(1.0, 1.0, 0.4), 0.3, spec.order)
-    X = surface_compliance(half_space)
+    half_space = assemble_half_space(spec.grid(), PowerLaw(1.0, 1.0, 0.4, 0.3), spec.order)
+    X = _compliance(half_space)
     load = np.zeros((half_space.elements.size, 2))
     load[half_space.surface[:4], [0, 1, 0, 1]] = 1.0
     right = half_space.recovered(X @ load[half_space.surface])
@@ -234,7 +243,7 @@ def test_a_displacement_that_is_wrong_lacks_what_it_is_said_to_lack():
 
 
 def test_what_is_left_of_a_load_has_the_square_of_an_error_inside_elements():
-    half_space = assemble_half_space(uniform_grid(2.0, 2), PowerLawModulus(1.0, 1.0, 0.4), 0.3, 3)
+    half_space = assemble_half_space(uniform_grid(2.0, 2), PowerLaw(1.0, 1.0, 0.4, 0.3), 3)
     elements = half_space.elements
     spoiled = replace(half_space, elements=replace(elements, follow=(1.0 + 1e-4) * elements.follow))
     u = np.zeros((elements.size, 1))
@@ -246,15 +255,15 @@ def test_what_is_left_of_a_load_has_the_square_of_an_error_inside_elements():
 def test_a_compliance_that_rounding_changes_is_refused(monkeypatch):
     """Measured: 2e-12 of the compliance."""
     spec = MeshSpec(edge_width=2.0**-12, surface_depth=1e-4, extent=16.0, density=5.0, order=4)
-    half_space = assemble_half_space(spec.grid(), PowerLawModulus(1.0, 1.0, 0.0), 0.3, spec.order)
-    assert surface_compliance(half_space).shape == 2 * (half_space.surface.size,)
+    half_space = assemble_half_space(spec.grid(), PowerLaw(1.0, 1.0, 0.0, 0.3), spec.order)
+    assert _compliance(half_space).shape == 2 * (half_space.surface.size,)
     monkeypatch.setattr(compliance, "LARGEST_ROUNDING", 1e-14)
-    refused("nearly singular", surface_compliance, half_space, error=NotConverged)
+    refused("nearly singular", _compliance, half_space, error=NotConverged)
 
 
 @pytest.mark.parametrize("step", [1e-10, 1e-7])
 def test_a_step_too_thin_for_its_elements_is_refused_by_its_depth(step):
     """The first is lost in the shells of the exterior, the second in the surface stiffness."""
-    modulus = table_of_moduli((0.0, 2.0, 2.0 * (1.0 + step), 6.0), (1.0, 1.2, 0.0012, 0.0014))
-    spec = MeshSpec(0.05, 0.01, 64.0, 0.8, 5, scales=depth_scales(modulus, 1e-3, 64.0))
-    refused(r"at the depth 2 .* 1e-05; ", compliance_for, modulus, 0.3, spec, 1.0, recoverable=True, error=NotConverged)
+    solid = TabulatedModulus((0.0, 2.0, 2.0 * (1.0 + step), 6.0), (1.0, 1.2, 0.0012, 0.0014), 0.3)
+    spec = MeshSpec(0.05, 0.01, 64.0, 0.8, 5, scales=depth_scales(solid, 1e-3, 64.0))
+    refused(r"at the depth 2 .* 1e-05; ", compliance_for, solid, spec, 1.0, recoverable=True, error=NotConverged)

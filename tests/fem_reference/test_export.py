@@ -15,7 +15,7 @@ from fem_reference.export import contact_field, draw, write_vtu
 from fem_reference.interaction import Derjaguin
 from fem_reference.laws import LennardJones
 from fem_reference.punch import PowerPunch
-from fem_reference.solids import PowerLaw
+from fem_reference.solid import PowerLaw
 from tests.refusals import refused
 
 SPEC = MeshSpec(0.125, 2.5e-3, 64.0, 0.9, 6)
@@ -24,9 +24,7 @@ SPEC = MeshSpec(0.125, 2.5e-3, 64.0, 0.9, 6)
 @pytest.fixture(scope="module")
 def state():
     solid = PowerLaw(1.0, 1.0, 0.4, 0.3)
-    contact = Contact(
-        Derjaguin(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)), compliance_for(solid.modulus, 0.3, SPEC, 1.0)
-    )
+    contact = Contact(Derjaguin(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)), compliance_for(solid, SPEC, 1.0))
     point = PathEvents(traced(contact)).pull_off
     return point, contact_field(solid, SPEC, point)
 

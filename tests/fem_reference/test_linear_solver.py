@@ -15,7 +15,7 @@ from fem_reference._linear.conjugate_gradients import conjugate_gradients, produ
 from fem_reference._linear.linear_solver import solve_cg, solve_direct
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference.errors import Failure, NotConverged
-from fem_reference.modulus import PowerLawModulus
+from fem_reference.solid import PowerLaw
 from fem_reference.verification.solver_study import FULL_STUDY, QUICK_STUDY, solver_table
 from tests.marks import heavy
 from tests.refusals import refused
@@ -36,9 +36,7 @@ AGREEMENT = 1e-8
 
 @pytest.fixture(scope="module")
 def half_space():
-    return assemble_half_space(
-        edge_grid(edge_width=0.05, extent=16.0, density=0.9), PowerLawModulus(1.0, 1.0, 0.4), 0.3
-    )
+    return assemble_half_space(edge_grid(edge_width=0.05, extent=16.0, density=0.9), PowerLaw(1.0, 1.0, 0.4, 0.3))
 
 
 @pytest.mark.parametrize("study", [QUICK_STUDY, *heavy((FULL_STUDY,))], ids=len)
@@ -57,9 +55,7 @@ def test_the_iterations_do_not_grow_with_the_unknowns(study):
 @pytest.mark.parametrize(("k", "nu"), [(0.0, 0.0), (0.8, 0.45)])
 def test_a_cycle_of_the_hierarchy_reduces_every_error(k, nu):
     """On elements of every aspect ratio, too; otherwise the iterations grow with the mesh."""
-    half_space = assemble_half_space(
-        MeshSpec(1e-3, 1e-4, 128.0, 0.35, 2).grid(), PowerLawModulus(1.0, 1.0, k), nu, order=2
-    )
+    half_space = assemble_half_space(MeshSpec(1e-3, 1e-4, 128.0, 0.35, 2).grid(), PowerLaw(1.0, 1.0, k, nu), order=2)
     hierarchy = ElasticPreconditioner(half_space)._coarse
     error = np.random.default_rng(1).normal(size=hierarchy.levels[0].A.shape[0])
     left = []
@@ -73,7 +69,7 @@ def test_a_cycle_of_the_hierarchy_reduces_every_error(k, nu):
 def test_thin_elements_leave_no_force_by_rounding():
     """Refinement takes the residual to 1e-13; the forces of a matrix keep it at 2e-11 to 5e-11 (measured)."""
     grid = MeshSpec(edge_width=1e-6, surface_depth=1e-6, extent=64.0, density=1.5, order=4).grid()
-    half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, 0.4), 0.3, 4)
+    half_space = assemble_half_space(grid, PowerLaw(1.0, 1.0, 0.4, 0.3), 4)
     assert solve_cg(half_space, _pressed(half_space), tolerance=1e-12).residual <= 1e-12
 
 
@@ -81,7 +77,7 @@ def test_the_hierarchy_has_the_same_numbers_in_every_run():
     """pyamg takes its random vectors from NumPy's global generator, which is left as it was."""
     # Two levels would have no random numbers: the mesh has three.
     grid = MeshSpec(1e-3, 1e-4, 128.0, 0.45, 4).grid()
-    half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, 0.4), 0.3, 4)
+    half_space = assemble_half_space(grid, PowerLaw(1.0, 1.0, 0.4, 0.3), 4)
     b = np.random.default_rng(4).normal(size=half_space.free.size)
     applied = []
     for seed in (1, 2):

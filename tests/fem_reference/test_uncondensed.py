@@ -21,11 +21,10 @@ from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._linear.linear_solver import solve_cg
 from fem_reference.interaction import Derjaguin
 from fem_reference.laws import LennardJones
-from fem_reference.modulus import PowerLawModulus
 from fem_reference.problem import Problem
 from fem_reference.punch import PowerPunch
 from fem_reference.quantities import TABLE
-from fem_reference.solids import PowerLaw
+from fem_reference.solid import PowerLaw
 from fem_reference.states import event_state
 
 #: Largest distance of the whole system from its condensation (measured: 4e-11).
@@ -42,7 +41,7 @@ def _problem(solid):
 
 
 NU = 0.3
-SOFT = PowerLawModulus(0.3, 1.3, 0.4)
+SOFT = PowerLaw(0.3, 1.3, 0.4, NU)
 
 #: Relative error put into the condensed compliance.
 SPOILED = 1e-5
@@ -50,14 +49,14 @@ SPOILED = 1e-5
 
 def _soft_contact(spoiled=0.0, spec=SPEC):
     """A solid with jumps on the small mesh; its compliance is too large by a share."""
-    compliance = compliance_for(SOFT, NU, spec, 1.0)
+    compliance = compliance_for(SOFT, spec, 1.0)
     compliance = replace(compliance, matrix=(1.0 + spoiled) * compliance.matrix)
     return Contact(Derjaguin(PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9)), compliance)
 
 
 @pytest.fixture(scope="module")
 def soft_system():
-    half_space = assemble_half_space(SPEC.grid(), PowerLawModulus(1.0, 1.0, SOFT.k), NU, SPEC.order)
+    half_space = assemble_half_space(SPEC.grid(), PowerLaw(1.0, 1.0, SOFT.k, NU), SPEC.order)
     return FullSystem(half_space, Derjaguin(PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9)))
 
 
@@ -250,7 +249,7 @@ def test_a_solution_holds_the_value_of_the_whole_system(solved, monkeypatch):
 def test_facet_forms_on_elements_thinner_than_rounding_resolves():
     """At an edge of a millionth of its radius the reference coordinates are good to 1e-10 of an element."""
     grid = replace(SPEC, edge_width=1e-6, density=1.4).grid()
-    half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, 0.4), NU, 4)
+    half_space = assemble_half_space(grid, PowerLaw(1.0, 1.0, 0.4, NU), 4)
     system = FullSystem(half_space, Derjaguin(PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9)), preconditioner=object())
     assert system.facets.dx.sum() == pytest.approx(SPEC.extent, rel=1e-12)
     assert system.s.min() > 0.0

@@ -5,7 +5,7 @@ import pytest
 from scipy import integrate, special
 
 from fem_reference._elastic.mesh import edge_grid
-from fem_reference.modulus import PowerLawModulus
+from fem_reference.solid import PowerLaw
 from fem_reference.verification import manufactured
 from fem_reference.verification.checks import (
     DEFAULT,
@@ -137,4 +137,4 @@ def test_impossible_grids_and_exponents_are_refused():
     ):
         refused(message, edge_grid, **options)
     for k in (-0.1, 1.0, float("nan")):
-        refused("exponent", PowerLawModulus, 1.0, 1.0, k)
+        refused("exponent", PowerLaw, 1.0, 1.0, k, 0.3)

@@ -83,11 +83,21 @@ def test_a_class_takes_the_same_keywords_in_both(name):
 
 @pytest.mark.parametrize("package", [fscm, fem_reference])
 def test_a_solid_of_the_other_reference_is_refused_by_a_problem_or_solved(package):
-    """A solid of one's own is written for one of them."""
+    """An exponential of the finite elements has what the integral equation needs; its value is that of its own."""
     other = fem_reference if package is fscm else fscm
-    solid = other.Exponential(1.0, 2.0, 1.0, 0.3)
-    with pytest.raises(ValueError, match="solid"):
-        package.Problem(solid, package.PowerPunch(2.0, 10.0), package.LennardJones(1.0, 1.0))
+    parts = package.PowerPunch(2.0, 10.0), package.LennardJones(1.0, 1.0)
+    for solid in (other.PowerLaw(1.0, 1.0, 0.4, 0.3), other.Coating(1.0, 2.0, 1.0, 0.0, 0.3)):
+        with pytest.raises(ValueError, match="solid"):
+            package.Problem(solid, *parts)
+    constants = 1.0, 2.0, 1.0, 0.3
+    if package is fem_reference:
+        with pytest.raises(ValueError, match="solid"):
+            package.Problem(other.Exponential(*constants), *parts)
+        return
+    values = [
+        fscm.solve(fscm.Problem(body.Exponential(*constants), *parts), "pull_off_force") for body in (fscm, other)
+    ]
+    assert values[0].value == pytest.approx(values[1].value, rel=1e-12)
 
 
 @pytest.mark.parametrize("package", [fscm, fem_reference])

@@ -59,7 +59,7 @@ def test_the_solver_gets_the_tension_of_a_problem_and_no_friction_or_second_body
         gel = ball_on(5e-3, 2.0, nu).with_value("solid.surface_tension", 0.3)
         assert LargeStrain().skip(gel, "pull_off_force") is None
         LargeStrain().evaluate(gel, "pull_off_force")
-    assert [(solid.poisson, solid.surface_tension) for solid in posed] == [(0.3, 0.3), (0.5, 0.3)]
+    assert [(solid.nu, solid.surface_tension) for solid in posed] == [(0.3, 0.3), (0.5, 0.3)]
     bonded = GEL.with_value("solid.friction", "bonded")
     assert "solid.friction" in LargeStrain().skip(bonded, "pull_off_force")
     pair = replace(GEL, punch_solid=GEL.solid)
