@@ -26,6 +26,7 @@ import numpy as np
 
 from fem_reference._azimuth import azimuth
 from fem_reference._face import Face, Fineness, face_of
+from fem_reference._force_at_place import ForceAtPlace, secant_root
 from fem_reference._typing import Array, Index
 from fem_reference._vertical_line import energy_above
 from fem_reference.laws import LennardJones, Mie
@@ -44,13 +45,12 @@ _BATCH = 400
 #: Heights that differ by less than this share are equal: far away a point level with the apex is at the height 0.
 _LEVEL = 8.0 * np.finfo(float).eps
 
-#: Steps of the secant method for the largest tension, whose equation is almost linear in the logarithm of the depth;
-#: relative step of the difference for its slope.
-_SECANTS, _BESIDE = 4, 1e-4
+#: Steps of the secant method for the largest tension, whose equation is almost linear in the logarithm of the depth.
+_SECANTS = 4
 
 
 @dataclass(frozen=True, slots=True)
-class BodyOfRevolution:
+class BodyOfRevolution(ForceAtPlace):
     """The potential of a punch.
 
     Parameters
@@ -102,19 +102,6 @@ class BodyOfRevolution:
         rho = np.asarray(rho, float)
         return _peak_gap(self, rho.shape, rho.tobytes())
 
-    def peak_slope(self, rho: Array) -> Array:
-        """Its derivative by the radius."""
-        rho = np.asarray(rho, float)
-        inner, outer = self.peak_gap(np.stack([rho * (1.0 - _BESIDE), rho * (1.0 + _BESIDE)]))
-        return np.asarray((outer - inner) / (2.0 * _BESIDE * rho))
-
-    def fall(self, r: float) -> float:
-        """That of the potential where the surface is level with the apex; far away it is that of a slender body."""
-        at = np.array(r)
-        level = np.array(self.punch.height(at))
-        by_radius, by_gap = self.slopes(at, level)
-        return -r * float((by_radius + by_gap * self.punch.slope(at)) / self.traction(at, level))
-
     def energy(self, rho: Array, gap: Array) -> Array:
         """Integral of p from H to infinity, by quadrature along the vertical line."""
         return energy_above(self, rho, gap, -self.law.z0)
@@ -130,14 +117,9 @@ def _peak_gap(body: BodyOfRevolution, shape: tuple[int, ...], rho: bytes) -> Arr
         repulsion, attraction = body._powers(x, np.exp(log_depth) - z0)
         return np.asarray(np.log(-A * repulsion[2] / (B * attraction[2])) / (m - n))
 
-    before = np.log((z0 + body.law.peak_gap) * np.hypot(1.0, body.punch.slope(x)))
-    left = excess(before)
-    log_depth = before + left
-    for _ in range(_SECANTS):
-        last, left = left, excess(log_depth)
-        step = np.divide(log_depth - before, last - left, out=np.zeros_like(left), where=last != left)
-        before, log_depth = log_depth, log_depth + left * step
-    return np.asarray(np.exp(log_depth) - z0).reshape(shape)
+    first = np.log((z0 + body.law.peak_gap) * np.hypot(1.0, body.punch.slope(x)))
+    left = excess(first)
+    return np.asarray(np.exp(secant_root(excess, first, left, first + left, _SECANTS)) - z0).reshape(shape)
 
 
 @lru_cache(maxsize=8)

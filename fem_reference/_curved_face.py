@@ -23,6 +23,7 @@ from functools import lru_cache
 import numpy as np
 
 from fem_reference._ball_under_law import face_gap, rate_of_ball, traction_of_ball
+from fem_reference._force_at_place import BESIDE, ForceAtPlace, secant_root
 from fem_reference._typing import Array
 from fem_reference._vertical_line import energy_above
 from fem_reference.laws import SurfaceLaw
@@ -35,7 +36,7 @@ _HALVINGS = 55
 
 #: Relative steps of the differences: of the slope for a curvature, of fourth order, and of the traction by a curvature
 #: and by the radius of the nearest point, to which it is less sensitive by d/R; least radius in distances.
-_STEP, _BESIDE, _INNERMOST = 1e-3, 1e-4, 1e-6
+_STEP, _BESIDE, _INNERMOST = 1e-3, BESIDE, 1e-6
 
 #: Least curvature in units of 1/d: that of a plane to rounding.
 _FLAT = 1e-14
@@ -70,7 +71,7 @@ def check_curvature(punch: Punch, law: SurfaceLaw) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class CurvedFace:
+class CurvedFace(ForceAtPlace):
     """The potential of a punch under a law from a table.
 
     Parameters
@@ -115,30 +116,12 @@ class CurvedFace:
         """Gap of the largest tension at a radius."""
         rho = np.asarray(rho, float)
         face = face_gap(self.law)
-        before = np.log((self.law.peak_gap - face) * np.hypot(1.0, self.punch.slope(rho)))
-        log_depth = before + 0.01
-        last = self.slopes(rho, np.exp(before) + face)[1]
-        for _ in range(_SECANTS):
-            left = self.slopes(rho, np.exp(log_depth) + face)[1]
-            step = np.divide(log_depth - before, last - left, out=np.zeros_like(left), where=last != left)
-            before, last, log_depth = log_depth, left, log_depth + left * step
-        return np.asarray(np.exp(log_depth) + face)
 
-    def peak_slope(self, rho: Array) -> Array:
-        """Its derivative by the radius."""
-        rho = np.asarray(rho, float)
-        inner, outer = self.peak_gap(np.stack([rho * (1.0 - _BESIDE), rho * (1.0 + _BESIDE)]))
-        return np.asarray((outer - inner) / (2.0 * _BESIDE * rho))
+        def slope(log_depth: Array) -> Array:
+            return self.slopes(rho, np.exp(log_depth) + face)[1]
 
-    def fall(self, r: float) -> float:
-        """That of the potential where the surface is level with the apex."""
-        at = np.array(r)
-        level = np.array(self.punch.height(at))
-        traction = float(self.traction(at, level))
-        if traction == 0.0:
-            return math.inf
-        by_radius, by_gap = self.slopes(at, level)
-        return -r * float(by_radius + by_gap * self.punch.slope(at)) / traction
+        first = np.log((self.law.peak_gap - face) * np.hypot(1.0, self.punch.slope(rho)))
+        return np.asarray(np.exp(secant_root(slope, first, slope(first), first + 0.01, _SECANTS)) + face)
 
     def energy(self, rho: Array, gap: Array) -> Array:
         """Integral of p from H to infinity, by quadrature along the vertical line."""

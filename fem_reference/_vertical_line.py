@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Protocol
 
 import numpy as np
 
+from fem_reference._force_at_place import ForceAtPlace
 from fem_reference._typing import Array
 
 __all__ = ["energy_above"]
@@ -23,18 +23,12 @@ _RATIOS_OF_A_TABLE = *[1.25] * 20, *_RATIOS
 _CHANGE = 1e-9
 
 
-class _Traction(Protocol):
-    def traction(self, rho: Array, gap: Array) -> Array: ...
-
-    def slopes(self, rho: Array, gap: Array) -> tuple[Array, Array]: ...
-
-
-def energy_above(interaction: _Traction, rho: Array, gap: Array, face: float, smooth: bool = True) -> Array:
+def energy_above(interaction: ForceAtPlace, rho: Array, gap: Array, face: float, smooth: bool = True) -> Array:
     """Integral of p from a gap to infinity.
 
     Parameters
     ----------
-    interaction : Interaction
+    interaction : ForceAtPlace
     rho, gap : ndarray
     face : float
         Gap at which a point is on the face.

@@ -35,6 +35,7 @@ import scipy
 from fem_reference._ball_under_law import face_gap, rate_of_ball, traction_of_ball
 from fem_reference._body_of_revolution import BodyOfRevolution
 from fem_reference._curved_face import CurvedFace, check_curvature
+from fem_reference._force_at_place import ForceAtPlace
 from fem_reference._typing import Array
 from fem_reference.laws import LennardJones, Mie, SurfaceLaw
 from fem_reference.profiles import Ball
@@ -159,7 +160,7 @@ class Derjaguin:
 
 
 @dataclass(frozen=True, slots=True)
-class Body:
+class Body(ForceAtPlace):
     """The potential of a ball whose atoms fill its radius.
 
     Parameters
@@ -221,10 +222,7 @@ class Body:
         """That of the potential where the surface is level with the apex; far away the ball is a point."""
         if r > _POINT * self.punch.R:
             return self.law.decay[1] + 3.0
-        at = np.array(r)
-        level = np.array(self.punch.height(at))
-        by_radius, by_gap = self.slopes(at, level)
-        return -r * float((by_radius + by_gap * self.punch.slope(at)) / self.traction(at, level))
+        return ForceAtPlace.fall(self, r)
 
     def energy(self, rho: Array, gap: Array) -> Array:
         """Integral of p from H to infinity, by quadrature along the vertical line."""

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import Literal
 
-from fem_reference._contact.events import JUMP_IN, JUMP_OUT, LANDING, SEPARATED, PathEvents, event_energy
+from fem_reference._contact.event_kinds import JUMP_IN, JUMP_OUT, LANDING, SEPARATED, event_energy
+from fem_reference._contact.events import PathEvents
 from fem_reference._contact.quantity import Quantity, Term
 from fem_reference._contact.states import Point
 

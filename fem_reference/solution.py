@@ -11,8 +11,8 @@ from dataclasses import replace
 from functools import partial
 
 from fem_reference._contact.critical import stiffer_than_critical
+from fem_reference._contact.event_kinds import JUMP_IN
 from fem_reference._contact.event_mesh import EventMesh, chosen, whole_path
-from fem_reference._contact.events import JUMP_IN
 from fem_reference._contact.friction import FrictionName, with_friction
 from fem_reference._contact.mesh_lengths import scales
 from fem_reference._contact.parts import EventsOnMeshes, events_on_meshes

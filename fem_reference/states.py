@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fem_reference._contact.event_kinds import EVENTS
 from fem_reference._contact.event_mesh import chosen, whole_path
-from fem_reference._contact.events import EVENTS
 from fem_reference._contact.friction import FrictionName, with_friction
 from fem_reference._contact.states import Point
 from fem_reference._contact.turning import turning_slowly

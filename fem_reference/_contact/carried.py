@@ -16,7 +16,8 @@ import numpy as np
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeGap, GapRise, Size
 from fem_reference._contact.cusp import cusp_from
-from fem_reference._contact.events import CUSP, Anchor, PathEvents, beginning_of, excess_of, slope_at
+from fem_reference._contact.event_kinds import CUSP, Anchor, beginning_of, excess_of, slope_at
+from fem_reference._contact.events import PathEvents
 from fem_reference._contact.states import WIDTH_SHARE, Branch, Point, edge_width, point_at
 from fem_reference._typing import Array
 from fem_reference.errors import Failure, NotConverged

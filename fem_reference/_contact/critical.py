@@ -16,8 +16,8 @@ import numpy as np
 
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import cusp_from, slowest
+from fem_reference._contact.event_kinds import CUSP
 from fem_reference._contact.event_mesh import chosen
-from fem_reference._contact.events import CUSP
 from fem_reference._contact.path import traced
 from fem_reference._contact.states import Point
 from fem_reference._elastic.mesh import MeshSpec

@@ -19,7 +19,7 @@ from fem_reference._contact.carried import carried, projected, projected_rate
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeRadius
 from fem_reference._contact.cusp import displacement_rates
-from fem_reference._contact.events import CUSP, JUMP_IN, JUMP_OUT, beginning_of, kind_of
+from fem_reference._contact.event_kinds import CUSP, JUMP_IN, JUMP_OUT, beginning_of, kind_of
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.newton import State
 from fem_reference._contact.states import Point, point_at

@@ -10,7 +10,8 @@ from typing import TypeVar
 
 from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.contact import Contact
-from fem_reference._contact.events import CUSP, PathEvents
+from fem_reference._contact.event_kinds import CUSP
+from fem_reference._contact.events import PathEvents
 from fem_reference._contact.followed import FollowedPath, followed_path, path_on
 from fem_reference._contact.meshes import Meshes
 from fem_reference._contact.states import edge_is_resolved

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import count, pairwise
 
@@ -17,56 +17,34 @@ import scipy
 from fem_reference._contact.completeness import complete_path
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import cusp_from, slowest
+from fem_reference._contact.event_kinds import (
+    CUSP,
+    EVENTS,
+    JUMP_IN,
+    JUMP_OUT,
+    LANDING,
+    SEPARATED,
+    Anchor,
+    beginning_of,
+    displacement,
+    displacement_rate,
+    excess_of,
+    kind_of,
+    load,
+    load_rate,
+    slope_at,
+)
 from fem_reference._contact.path import interpolated
 from fem_reference._contact.states import Point, joined, point_at
 from fem_reference.errors import Failure, NoSuchEvent, NotConverged
 
-__all__ = [
-    "CUSP",
-    "EVENTS",
-    "JUMP_IN",
-    "JUMP_OUT",
-    "LANDING",
-    "SEPARATED",
-    "Anchor",
-    "Jump",
-    "Pair",
-    "PathEvents",
-    "beginning_of",
-    "beyond_pull_off",
-    "event_energy",
-    "excess_of",
-    "kind_of",
-    "slope_at",
-]
+__all__ = ["Jump", "Pair", "PathEvents"]
 
 #: Relative tolerance of the parameter at an event; P is stationary there and delta moves by as little.
 ROOT_TOLERANCE = 1e-11
 
-#: Events of the path: the deepest minimum of the load, the two folds of displacement control, and the point in contact
-#: where the load changes from tension to compression.
-EVENTS = ("pull_off", "jump_in", "jump_out", "zero_load")
-
-#: The point at the displacement of the jump into contact, on the next branch inwards: where that jump ends.
-LANDING = "landing"
-
-#: The point out of contact at the displacement of the jump out of contact: where that jump ends.
-SEPARATED = "separated"
-
-#: The first fold on approach.
-JUMP_IN = "jump_in"
-
-#: The last fold on retreat.
-JUMP_OUT = "jump_out"
-
 #: Why a solid has no jumps.
 STIFF = "the displacement rises all along the path: this solid is too stiff for jumps"
-
-#: The point where the two folds merge, at the modulus at which they do; its compliance has that modulus.
-CUSP = "cusp"
-
-#: Relative change of the parameter for the slope of a rate: an error of this size slows the secant method only.
-SLOPE_STEP = 1e-4
 
 #: Change of the logarithm of the radius for the slope of an interpolated function: it slows the secant method only.
 LOG_SLOPE_STEP = 1e-3
@@ -76,54 +54,6 @@ Pair = tuple[Point, Point]
 #: Names of the fold where a jump begins and of the point where it ends. Those of a further jump have a number, from 2
 #: on and from outside to inside: "jump_in_2" and "landing_2", "jump_out_2" and "separated_2".
 Jump = tuple[str, str]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Anchor:
-    """An event of a path, from which the same event on another mesh is found.
-
-    Attributes
-    ----------
-    point : Point
-        The state.
-    slope : float
-        Derivative there, by the parameter, of the function that vanishes (see `excess_of`).
-    radius_error : float
-        Relative error of the radius of the edge.
-    """
-
-    point: Point
-    slope: float
-    radius_error: float = 0.0
-
-
-def kind_of(event: str) -> str:
-    """Return the name of an event without the number of its jump.
-
-    Examples
-    --------
-    >>> kind_of("jump_out_2"), kind_of("jump_out")
-    ('jump_out', 'jump_out')
-    """
-    return event.rstrip("0123456789").removesuffix("_")
-
-
-def beginning_of(event: str) -> str | None:
-    """Return the fold where the jump begins that ends at an event, or None.
-
-    Examples
-    --------
-    >>> beginning_of("landing"), beginning_of("separated_2"), beginning_of("pull_off")
-    ('jump_in', 'jump_out_2', None)
-    """
-    kind = kind_of(event)
-    beginning = {LANDING: JUMP_IN, SEPARATED: JUMP_OUT}.get(kind)
-    return None if beginning is None else beginning + event.removeprefix(kind)
-
-
-def beyond_pull_off(event: str) -> bool:
-    """Whether an event lies on the path beyond the pull-off, where the edge is sharper relative to its radius."""
-    return kind_of(event) in ("zero_load", LANDING)
 
 
 class PathEvents:
@@ -224,10 +154,10 @@ class PathEvents:
     @cached_property
     def jump_in(self) -> Point:
         """The first fold on approach, where displacement control jumps into contact."""
-        maxima = _sign_changes(self.points, _displacement_rate, rising=False)
+        maxima = _sign_changes(self.points, displacement_rate, rising=False)
         if not maxima:
             raise NoSuchEvent(STIFF)
-        return self.root(maxima[0], _displacement_rate)
+        return self.root(maxima[0], displacement_rate)
 
     @cached_property
     def jump_out(self) -> Point:
@@ -240,7 +170,7 @@ class PathEvents:
     @cached_property
     def zero_load(self) -> Point:
         """The point in contact where the load changes from tension to compression."""
-        zero = self._rise_through(_neighbours(self.points), _load, _load_rate, 0.0, outermost=True)
+        zero = self._rise_through(_neighbours(self.points), load, load_rate, 0.0, outermost=True)
         if zero is None:
             raise NoSuchEvent("the load does not become compressive on the path")
         return zero
@@ -285,8 +215,8 @@ class PathEvents:
     @cached_property
     def _further(self) -> dict[str, Point]:
         """Folds and ends of the jumps but the first on approach and the last on retreat, by their names."""
-        maxima = _sign_changes(self.points, _displacement_rate, rising=False)
-        minima = _sign_changes(self.points, _displacement_rate, rising=True)
+        maxima = _sign_changes(self.points, displacement_rate, rising=False)
+        minima = _sign_changes(self.points, displacement_rate, rising=True)
         points: dict[str, Point] = {}
         if len(maxima) > 1:
             for number, (fold, end) in zip(count(2), self._later_on_approach(maxima), strict=False):
@@ -300,7 +230,7 @@ class PathEvents:
         """Fold and end of each jump on approach after the first."""
         jumps, end = [], self.landing
         while inside := [pair for pair in maxima if _path_order(pair[1]) > _path_order(end)]:
-            fold = self.root(inside[0], _displacement_rate)
+            fold = self.root(inside[0], displacement_rate)
             end = self._landing(fold, inwards=True)
             jumps.append((fold, end))
         return jumps
@@ -317,7 +247,7 @@ class PathEvents:
         jumps: list[Pair] = []
         outside = list(minima)
         while outside and outside[-1] != outermost:
-            fold = self.root(outside[-1], _displacement_rate)
+            fold = self.root(outside[-1], displacement_rate)
             end = self._landing(fold, inwards=False)
             jumps.append((fold, end))
             outside = [pair for pair in minima if _path_order(pair[0]) < _path_order(end)]
@@ -337,7 +267,7 @@ class PathEvents:
             for a, b in _neighbours(self.points)
             if (_path_order(a) >= position if inwards else _path_order(b) <= position)
         ]
-        landing = self._rise_through(pairs, _displacement, _displacement_rate, delta, outermost=not inwards)
+        landing = self._rise_through(pairs, displacement, displacement_rate, delta, outermost=not inwards)
         if landing is None:
             raise NoSuchEvent(f"the path does not reach the displacement {delta:.6g} on both branches")
         return landing
@@ -405,60 +335,6 @@ class PathEvents:
         slope = (value(x + LOG_SLOPE_STEP) - value(x - LOG_SLOPE_STEP)) / (2.0 * LOG_SLOPE_STEP)
         self._slopes[point] = slope / point.parameter
         return point
-
-
-def slope_at(event: str, point: Point) -> float:
-    """Return the slope, at the state of an event, of the function that vanishes there (see `excess_of`)."""
-    if beginning_of(event) is not None:
-        return point.state.displacement_rate
-    if event == "zero_load":
-        return point.state.load_rate
-    unit = point.parameter if point.branch.touching else point.branch.contact.law.z0
-    ahead = point_at(point, point.parameter + SLOPE_STEP * unit)
-    excess = excess_of(event)
-    return (excess(ahead) - excess(point)) / (ahead.parameter - point.parameter)
-
-
-def excess_of(event: str, level: float = 0.0) -> Callable[[Point], float]:
-    """Return the function of a point that vanishes at an event.
-
-    Parameters
-    ----------
-    event : str
-        One of `EVENTS`, or of the names in `PathEvents.jumps`.
-    level : float
-        Displacement at a landing or separation.
-
-    Examples
-    --------
-    >>> from types import SimpleNamespace
-    >>> excess_of("landing", level=1.0)(SimpleNamespace(state=SimpleNamespace(displacement=3.0)))
-    2.0
-    """
-    value = {"pull_off": _load_rate, "jump_in": _displacement_rate, "jump_out": _displacement_rate, "zero_load": _load}
-    rate = value.get(kind_of(event), _displacement)
-    return lambda point: rate(point) - level
-
-
-def event_energy(point: Point) -> float:
-    """Elastic plus surface energy at a point."""
-    return point.branch.contact.energy(point.state.y)
-
-
-def _load(point: Point) -> float:
-    return point.state.load
-
-
-def _load_rate(point: Point) -> float:
-    return point.load_rate
-
-
-def _displacement(point: Point) -> float:
-    return point.state.displacement
-
-
-def _displacement_rate(point: Point) -> float:
-    return point.displacement_rate
 
 
 def _path_order(point: Point) -> tuple[bool, float]:

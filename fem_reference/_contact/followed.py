@@ -11,17 +11,17 @@ from fem_reference._contact.bodies import are_one_power_law
 from fem_reference._contact.completeness import complete_path, displacement_range
 from fem_reference._contact.cusp import slowest_sample
 from fem_reference._contact.edge_states import EdgeStates
-from fem_reference._contact.events import (
+from fem_reference._contact.event_kinds import (
     CUSP,
     JUMP_IN,
     LANDING,
     SEPARATED,
     Anchor,
-    PathEvents,
     beginning_of,
     beyond_pull_off,
     excess_of,
 )
+from fem_reference._contact.events import PathEvents
 from fem_reference._contact.jkr_tension import last_turn
 from fem_reference._contact.mesh_lengths import (
     EDGE_PER_BALANCE,

@@ -257,6 +257,8 @@ def scales(problem: Problem) -> bool:
     return width >= NARROWEST_OF_ONE_MESH
 
 
+# Each mesh of a path asks for it again.
+@lru_cache(maxsize=16)
 def spot_length(problem: Problem, radius: float) -> float:
     """Return the shortest length over which traction and stiffness balance, that of the spot on which contact begins.
 

@@ -26,8 +26,9 @@ from fem_reference._contact.bodies import meshed_bodies
 from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.event_equations import EventEquations
+from fem_reference._contact.event_kinds import beginning_of
 from fem_reference._contact.event_mesh import EventMesh
-from fem_reference._contact.events import PathEvents, beginning_of
+from fem_reference._contact.events import PathEvents
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.quantity import Quantity
 from fem_reference._contact.states import Point

@@ -12,7 +12,6 @@ import numpy as np
 
 from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.friction import FrictionName
-from fem_reference._contact.mesh_lengths import scales
 from fem_reference._contact.path import EDGE_RISE
 from fem_reference._contact.states import Point
 from fem_reference._elastic.elasticity import EXTRA_POINTS
@@ -146,8 +145,6 @@ class Discretisation:
 
     def at(self, radius: float) -> Discretisation:
         """Return the discretisation whose lines have their places for an edge at a radius."""
-        if scales(linear_problem(self.problem)):
-            return replace(self, size=radius)
         return replace(self, spec=self.spec.moved(radius / self.size), size=radius)
 
     @property

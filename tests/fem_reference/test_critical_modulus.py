@@ -12,7 +12,8 @@ from fem_reference import Exponential, LennardJones, NoSuchEvent, OffsetPowerLaw
 from fem_reference._contact import critical
 from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.cusp import cusp_from, displacement_rates, slowest
-from fem_reference._contact.events import CUSP, PathEvents
+from fem_reference._contact.event_kinds import CUSP
+from fem_reference._contact.events import PathEvents
 from fem_reference._contact.meshes import Meshes
 from fem_reference._contact.path import traced
 from fem_reference._contact.states import point_at

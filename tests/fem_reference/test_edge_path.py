@@ -12,7 +12,8 @@ from scipy.interpolate import CubicSpline
 from fem_reference import Coating, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve, trace
 from fem_reference._contact import followed
 from fem_reference._contact.edge_states import EdgeStates
-from fem_reference._contact.events import Anchor, PathEvents
+from fem_reference._contact.event_kinds import Anchor
+from fem_reference._contact.events import PathEvents
 from fem_reference._contact.jkr_tension import jkr_curve
 from fem_reference._contact.meshes import Meshes
 from fem_reference._contact.path import BEYOND_LAST_TURN, completed, contact_points, separate_points, traced

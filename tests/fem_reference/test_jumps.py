@@ -18,7 +18,8 @@ from fem_reference import (
     Solution,
     solve_together,
 )
-from fem_reference._contact.events import PathEvents, event_energy
+from fem_reference._contact.event_kinds import event_energy
+from fem_reference._contact.events import PathEvents
 from fem_reference.quantities import LOSSES, TABLE, further_losses
 from tests.fem_reference.analytic_branch import AnalyticBranch
 from tests.fem_reference.solved_together import sphere_on

@@ -11,7 +11,8 @@ from fem_reference._contact import uncondensed
 from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.event_equations import EventEquations
-from fem_reference._contact.events import Anchor, PathEvents
+from fem_reference._contact.event_kinds import Anchor
+from fem_reference._contact.events import PathEvents
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.path import traced
 from fem_reference._contact.uncondensed import UncondensedEvents, UncondensedValue
