@@ -26,7 +26,7 @@ import numpy as np
 
 from fem_reference._azimuth import azimuth
 from fem_reference._face import Face, Fineness, face_of
-from fem_reference._force_at_place import ForceAtPlace, secant_root
+from fem_reference._surface_force import Interaction, secant_root
 from fem_reference._typing import Array, Index
 from fem_reference._vertical_line import energy_above
 from fem_reference.laws import LennardJones, Mie
@@ -50,7 +50,7 @@ _SECANTS = 4
 
 
 @dataclass(frozen=True, slots=True)
-class BodyOfRevolution(ForceAtPlace):
+class BodyOfRevolution(Interaction):
     """The potential of a punch.
 
     Parameters

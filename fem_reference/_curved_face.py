@@ -23,7 +23,7 @@ from functools import lru_cache
 import numpy as np
 
 from fem_reference._ball_under_law import face_gap, rate_of_ball, traction_of_ball
-from fem_reference._force_at_place import BESIDE, ForceAtPlace, secant_root
+from fem_reference._surface_force import BESIDE, Interaction, secant_root
 from fem_reference._typing import Array
 from fem_reference._vertical_line import energy_above
 from fem_reference.laws import SurfaceLaw
@@ -71,7 +71,7 @@ def check_curvature(punch: Punch, law: SurfaceLaw) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class CurvedFace(ForceAtPlace):
+class CurvedFace(Interaction):
     """The potential of a punch under a law from a table.
 
     Parameters

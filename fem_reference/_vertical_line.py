@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from fem_reference._force_at_place import ForceAtPlace
+from fem_reference._surface_force import Interaction
 from fem_reference._typing import Array
 
 __all__ = ["energy_above"]
@@ -23,12 +23,12 @@ _RATIOS_OF_A_TABLE = *[1.25] * 20, *_RATIOS
 _CHANGE = 1e-9
 
 
-def energy_above(interaction: ForceAtPlace, rho: Array, gap: Array, face: float, smooth: bool = True) -> Array:
+def energy_above(interaction: Interaction, rho: Array, gap: Array, face: float, smooth: bool = True) -> Array:
     """Integral of p from a gap to infinity.
 
     Parameters
     ----------
-    interaction : ForceAtPlace
+    interaction : Interaction
     rho, gap : ndarray
     face : float
         Gap at which a point is on the face.

@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Literal, Protocol
+from typing import Literal
 
 import numpy as np
 import scipy
@@ -35,7 +35,7 @@ import scipy
 from fem_reference._ball_under_law import face_gap, rate_of_ball, traction_of_ball
 from fem_reference._body_of_revolution import BodyOfRevolution
 from fem_reference._curved_face import CurvedFace, check_curvature
-from fem_reference._force_at_place import ForceAtPlace
+from fem_reference._surface_force import Interaction
 from fem_reference._typing import Array
 from fem_reference.laws import LennardJones, Mie, SurfaceLaw
 from fem_reference.profiles import Ball
@@ -66,51 +66,8 @@ _WIDEST = 10.0
 _POINT = 1e3
 
 
-class Interaction(Protocol):
-    """Traction on the surface of the solid; compression is positive."""
-
-    @property
-    def punch(self) -> Punch:
-        """The punch."""
-        ...
-
-    @property
-    def law(self) -> SurfaceLaw:
-        """The law of the same atoms over a half-space."""
-        ...
-
-    @property
-    def finer(self) -> Interaction:
-        """The same by a finer quadrature, or itself if it has none."""
-        ...
-
-    def traction(self, rho: Array, gap: Array) -> Array:
-        """p at the radius rho and the vertical gap H, shape of both."""
-        ...
-
-    def slopes(self, rho: Array, gap: Array) -> tuple[Array, Array]:
-        """dp/drho at a fixed gap, and dp/dH."""
-        ...
-
-    def energy(self, rho: Array, gap: Array) -> Array:
-        """Integral of p from H to infinity, the energy per projected area."""
-        ...
-
-    def peak_gap(self, rho: Array) -> Array | float:
-        """Gap of the largest tension at a radius: the one at the contact edge."""
-        ...
-
-    def peak_slope(self, rho: Array) -> Array | float:
-        """Its derivative by the radius."""
-        ...
-
-    def fall(self, r: float) -> float:
-        """Exponent q of p ~ r^-q on the undeformed surface at a radius; infinite or nan where nothing is left."""
-        ...
-
-
 @dataclass(frozen=True, slots=True)
-class Derjaguin:
+class Derjaguin(Interaction):
     """The law at the vertical gap.
 
     Parameters
@@ -127,11 +84,6 @@ class Derjaguin:
 
     punch: Punch
     law: SurfaceLaw
-
-    @property
-    def finer(self) -> Derjaguin:
-        """Itself: there is no quadrature."""
-        return self
 
     def traction(self, rho: Array, gap: Array) -> Array:
         """p(H)."""
@@ -160,7 +112,7 @@ class Derjaguin:
 
 
 @dataclass(frozen=True, slots=True)
-class Body(ForceAtPlace):
+class Body(Interaction):
     """The potential of a ball whose atoms fill its radius.
 
     Parameters
@@ -181,11 +133,6 @@ class Body(ForceAtPlace):
 
     punch: Ball
     law: LennardJones | Mie
-
-    @property
-    def finer(self) -> Body:
-        """Itself: there is no quadrature."""
-        return self
 
     def _distances(self, rho: Array, gap: Array) -> tuple[Array, Array, Array]:
         """Distances of the centre and of the surface of the ball, and the vertical one of the centre."""
@@ -222,7 +169,7 @@ class Body(ForceAtPlace):
         """That of the potential where the surface is level with the apex; far away the ball is a point."""
         if r > _POINT * self.punch.R:
             return self.law.decay[1] + 3.0
-        return ForceAtPlace.fall(self, r)
+        return Interaction.fall(self, r)
 
     def energy(self, rho: Array, gap: Array) -> Array:
         """Integral of p from H to infinity, by quadrature along the vertical line."""

@@ -78,7 +78,7 @@ LAYERS = {
             "_azimuth",
             "_face",
             "_vertical_line",
-            "_force_at_place",
+            "_surface_force",
             "_ball_under_law",
             "_curved_face",
             "_body_of_revolution",

@@ -15,7 +15,6 @@ from fem_reference._elastic.compliance import Compliance, compliance_for, sum_of
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._typing import Array
-from fem_reference.problem import Problem
 from fem_reference.solid import Solid
 
 __all__ = [
@@ -28,6 +27,10 @@ __all__ = [
 ]
 
 
+#: The half-space, and that of an elastic punch.
+Solids = tuple[Solid, ...]
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class MeshedBody:
     """One half-space, ready for conjugate gradients."""
@@ -36,35 +39,34 @@ class MeshedBody:
     preconditioner: ElasticPreconditioner
 
 
-def are_one_power_law(problem: Problem, kinks: tuple[float, ...] = ()) -> bool:
-    """Whether one compliance serves every size: power laws of one exponent, no surface tension, no lines of the punch.
+def are_one_power_law(solids: Solids) -> bool:
+    """Whether one compliance serves every size: power laws of one exponent without surface tension.
 
     Examples
     --------
-    >>> from fem_reference import Homogeneous, LennardJones, PowerLaw, PowerPunch
-    >>> parts = PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
+    >>> from fem_reference import Homogeneous, PowerLaw
     >>> graded, uniform = PowerLaw(1.0, 1.0, 0.4, 0.3), Homogeneous(1.0, 0.3)
-    >>> [are_one_power_law(Problem(graded, *parts, punch_solid=solid)) for solid in (None, graded, uniform)]
+    >>> [are_one_power_law(solids) for solids in ((graded,), (graded, graded), (graded, uniform))]
     [True, True, False]
     """
-    laws = [solid.as_power_law for solid in problem.solids]
-    scaling = not kinks and not any(law is None or law.surface_tension for law in laws)
-    return scaling and len({law.k for law in laws if law}) == 1
+    laws = [solid.as_power_law for solid in solids]
+    exponents = {None if law is None or law.surface_tension else law.k for law in laws}
+    return len(exponents) == 1 and None not in exponents
 
 
 def compliance_of(
-    problem: Problem, spec: MeshSpec, size: float, scaling: bool = True, recoverable: bool = False
+    solids: Solids, spec: MeshSpec, size: float, scaling: bool = True, recoverable: bool = False
 ) -> Compliance:
     """Return the sum of the compliances of all bodies; the arguments are those of `compliance_for`."""
-    first, *others = [compliance_for(solid, mesh, size, scaling, recoverable) for solid, mesh in _meshes(problem, spec)]
+    first, *others = [compliance_for(solid, mesh, size, scaling, recoverable) for solid, mesh in _meshes(solids, spec)]
     for other in others:
         first = sum_of(first, other, size)
     return first
 
 
-def meshed_bodies(problem: Problem, spec: MeshSpec, size: float) -> tuple[MeshedBody, ...]:
+def meshed_bodies(solids: Solids, spec: MeshSpec, size: float) -> tuple[MeshedBody, ...]:
     """Return the bodies on their meshes in units of the size, ready for their whole system."""
-    return _preconditioned(tuple((unit_of(solid, size), mesh) for solid, mesh in _meshes(problem, spec)))
+    return _preconditioned(tuple((unit_of(solid, size), mesh) for solid, mesh in _meshes(solids, spec)))
 
 
 # One: the factors of a body take some 300 MB on a mesh of 5e4 unknowns.
@@ -74,24 +76,24 @@ def _preconditioned(bodies: tuple[tuple[Solid, MeshSpec], ...]) -> tuple[MeshedB
     return tuple(MeshedBody(half_space, ElasticPreconditioner(half_space)) for half_space in half_spaces)
 
 
-def _meshes(problem: Problem, spec: MeshSpec) -> Iterator[tuple[Solid, MeshSpec]]:
-    return zip(problem.solids, (spec, spec.of_punch()), strict=False)
+def _meshes(solids: Solids, spec: MeshSpec) -> Iterator[tuple[Solid, MeshSpec]]:
+    return zip(solids, (spec, spec.of_punch()), strict=False)
 
 
-def plane_strain_modulus(problem: Problem, length: Array) -> float:
+def plane_strain_modulus(solids: Solids, length: Array) -> float:
     """Return the modulus E / (1 - nu^2) that the bodies together have for waves of a length, with surface tension."""
     return _in_series(
         [
             float(solid.modulus(length) / (1.0 - solid.poisson(length) ** 2))
             + 2.0 * solid.surface_tension / float(length)
-            for solid in problem.solids
+            for solid in solids
         ]
     )
 
 
-def stiffness_at(problem: Problem, depth: Array) -> float:
+def stiffness_at(solids: Solids, depth: Array) -> float:
     """Return the modulus E that the bodies together have at a depth."""
-    return _in_series([float(solid.modulus(depth)) for solid in problem.solids])
+    return _in_series([float(solid.modulus(depth)) for solid in solids])
 
 
 def _in_series(moduli: list[float]) -> float:

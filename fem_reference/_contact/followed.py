@@ -160,7 +160,7 @@ class FollowedPath:
         problem, size = self.meshes.problem, self._first[1]
         spec = replace(self.meshes.spec_at(WIDEST, size), density=SCAN_DENSITY, order=SEARCH_DEGREE)
         turn = last_turn(self.meshes.contact(spec, size), size)
-        ratio = EDGE_PER_BALANCE / BEYOND_LAST_TURN if are_one_power_law(problem, kinks) else WIDEST_EDGE
+        ratio = EDGE_PER_BALANCE / BEYOND_LAST_TURN if not kinks and are_one_power_law(problem.solids) else WIDEST_EDGE
         check_width(ratio * WIDTH_SHARE * spot_length(problem, size) / turn)
         return turn
 

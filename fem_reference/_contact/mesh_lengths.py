@@ -223,7 +223,7 @@ def balance_length(problem: Problem, radius: float) -> float:
     # E(l) length / l = traction, by a fixed point in log l; a root finder moves the last digit, and with it the
     # power of 2 to which `spec` rounds.
     for _ in range(BALANCE_STEPS):
-        E = plane_strain_modulus(problem, depth)
+        E = plane_strain_modulus(problem.solids, depth)
         before, depth = depth, np.sqrt(depth * E * law.z0**2 / (2.0 * scale_of_energy(law)))
         if depth == before:
             break
@@ -245,11 +245,11 @@ def scales(problem: Problem) -> bool:
     [True, False]
     """
     punch, law = problem.punch, problem.law
-    if not are_one_power_law(problem, kinks_within(problem)):
+    if kinks_within(problem) or not are_one_power_law(problem.solids):
         return False
     radius = radius_at_height(punch, law.z0)
     for _ in range(BALANCE_STEPS):
-        height, E = float(punch.height(np.array(radius))), stiffness_at(problem, np.array(radius))
+        height, E = float(punch.height(np.array(radius))), stiffness_at(problem.solids, np.array(radius))
         if height**2 * E > scale_of_energy(law) * radius:
             break
         radius *= RADIUS_STEP

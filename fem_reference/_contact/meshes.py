@@ -64,7 +64,7 @@ class Meshes:
         """Discretise the problem on a mesh with its edge at the radius `size`."""
         # The whole system is solved on meshes of the accuracy itself, not on those that differ in one thing.
         whole = spec.order == self.level.order and not isinstance(spec, VariantSpec)
-        return Contact(self.problem.force, compliance_of(self.problem, spec, size, self.scale, whole))
+        return Contact(self.problem.force, compliance_of(self.problem.solids, spec, size, self.scale, whole))
 
     def lower_contact(self, spec: MeshSpec, size: float) -> Contact:
         """Discretise the problem with the degree below.

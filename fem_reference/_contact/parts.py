@@ -37,7 +37,6 @@ from fem_reference._elastic.variants import ENDS, FEATURES, variant
 from fem_reference._wells import has_one_well
 from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.errors import NotConverged
-from fem_reference.problem import Problem
 from fem_reference.tabulated_law import TabulatedLaw
 
 __all__ = ["PARTS", "Estimate", "EventsOnMeshes", "events_on_meshes"]
@@ -200,17 +199,13 @@ def events_on_meshes(mesh: EventMesh) -> EventsOnMeshes:
                 if force.finer is not force
             ),
         ),
-        CarriedEvents(fine, _with_tail(contact, problem)),
+        # Far away the body moves most whose displacement falls most slowly.
+        CarriedEvents(
+            fine, TailContact(contact.force, contact.compliance, min(solid.depth_exponent for solid in problem.solids))
+        ),
         (SEARCH_DEGREE, spec.order - 1, spec.order),
         meshes.level.accuracy,
         # Between two wells the gap of the barrier is at a second edge, in longer elements: with the largest gain the
         # energy lost by a double layer (b = 0.8, l = 1, mu = 0.7) was off by 1.0002 bounds, with the smallest by 0.8.
         LARGEST_GAIN if has_one_well(problem.law) else SMALLEST_GAIN,
     )
-
-
-def _with_tail(contact: Contact, problem: Problem) -> Contact:
-    """The contact with the displacement beyond the mesh."""
-    # Far away the body moves most whose displacement falls most slowly.
-    depth_exponent = min(solid.depth_exponent for solid in problem.solids)
-    return TailContact(contact.force, contact.compliance, depth_exponent)

@@ -368,7 +368,7 @@ def uncondensed_events(mesh: EventMesh) -> UncondensedEvents:
 
     def system() -> FullSystem:
         problem = mesh.meshes.problem
-        first, *others = meshed_bodies(problem, mesh.spec, mesh.size)
+        first, *others = meshed_bodies(problem.solids, mesh.spec, mesh.size)
         return FullSystem(first.half_space, problem.force, first.preconditioner, others)
 
     return UncondensedEvents(mesh.events, mesh.lower_contact, system)

@@ -233,7 +233,7 @@ def compliance_for(
     law = solid.as_power_law
     if law is None:
         return Compliance(trace, matrix, unknowns, size, size)
-    serves_all = scaling and not law.surface_tension and not spec.kinks
+    serves_all = scaling and not law.surface_tension
     return Compliance(trace, matrix, unknowns, size, _factor(law, size), law if serves_all else None)
 
 

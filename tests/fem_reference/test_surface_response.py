@@ -74,7 +74,7 @@ def _exact(C, xi, weight):
 
 def _displacement(problem):
     """The same by finite elements, with the mesh that the problem has for an edge at r = 1."""
-    compliance = compliance_of(problem, mesh_spec(problem, level_for("quick"), 0.25, 1.0, 0.1), 1.0)
+    compliance = compliance_of(problem.solids, mesh_spec(problem, level_for("quick"), 0.25, 1.0, 0.1), 1.0)
     trace = compliance.trace
     load = trace.phi.T @ (trace.weight * trace.s * np.exp(-(trace.s**2)))
     return trace.evaluate(RADII) @ (compliance.factor(1.0) * (compliance.matrix @ load))

@@ -1,4 +1,4 @@
-"""Surface force of a punch that depends on the place of a point: what follows from its traction and slopes."""
+"""Surface force of a punch: its contract, and what follows from its traction and slopes."""
 
 from __future__ import annotations
 
@@ -9,36 +9,48 @@ from collections.abc import Callable
 import numpy as np
 
 from fem_reference._typing import Array
+from fem_reference.laws import SurfaceLaw
 from fem_reference.punch import Punch
 
-__all__ = ["BESIDE", "ForceAtPlace", "secant_root"]
+__all__ = ["BESIDE", "Interaction", "secant_root"]
 
 #: Relative step of the difference for the slope of the gap of the largest tension.
 BESIDE = 1e-4
 
 
-class ForceAtPlace(ABC):
-    """The potential of a punch at the place of a point of the surface."""
+class Interaction(ABC):
+    """Traction on the surface of the solid; compression is positive."""
 
     __slots__ = ()
     punch: Punch
+    #: The law of the same atoms over a half-space.
+    law: SurfaceLaw
+
+    @property
+    def finer(self) -> Interaction:
+        """The same by a finer quadrature, or itself if it has none."""
+        return self
 
     @abstractmethod
     def traction(self, rho: Array, gap: Array) -> Array:
-        """p(rho, H), shape of both."""
+        """p at the radius rho and the vertical gap H, shape of both."""
 
     @abstractmethod
     def slopes(self, rho: Array, gap: Array) -> tuple[Array, Array]:
         """dp/drho at a fixed gap, and dp/dH."""
 
     @abstractmethod
-    def peak_gap(self, rho: Array) -> Array:
-        """Gap of the largest tension at a radius."""
+    def energy(self, rho: Array, gap: Array) -> Array:
+        """Integral of p from H to infinity, the energy per projected area."""
 
-    def peak_slope(self, rho: Array) -> Array:
+    @abstractmethod
+    def peak_gap(self, rho: Array) -> Array | float:
+        """Gap of the largest tension at a radius: the one at the contact edge."""
+
+    def peak_slope(self, rho: Array) -> Array | float:
         """Its derivative by the radius."""
         rho = np.asarray(rho, float)
-        inner, outer = self.peak_gap(np.stack([rho * (1.0 - BESIDE), rho * (1.0 + BESIDE)]))
+        inner, outer = np.asarray(self.peak_gap(np.stack([rho * (1.0 - BESIDE), rho * (1.0 + BESIDE)])))
         return np.asarray((outer - inner) / (2.0 * BESIDE * rho))
 
     def fall(self, r: float) -> float:
