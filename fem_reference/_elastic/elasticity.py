@@ -4,36 +4,27 @@ Per radian it is the integral of sigma(u) : eps(v) r dr dz.
 
 The four strains are u_r,r; u_r / r (hoop); u_z,z and u_r,z + u_z,r.  The displacement components share one
 scalar space of order p (scikit-fem `ElementQuadP`); component c of scalar unknown i is unknown 2 i + c.
-Gauss points never touch the axis, and u_r = 0 there keeps the hoop strain bounded.
-
-Basis, quadrature and mapping are those of scikit-fem; the contraction over Gauss points is batched over
-elements, because a Python loop over the 49 x 49 pairs of functions of an order-6 element takes ten times
-longer.  The tests compare it with scikit-fem bilinear forms.
+Gauss points never touch the axis, and u_r = 0 there keeps the hoop strain bounded.  The tests compare the stiffness
+with scikit-fem bilinear forms.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
-from skfem import Basis, ElementQuadP, MeshQuad
+from skfem import MeshQuad
 
-from fem_reference._elastic.dof_ordering import both_components
 from fem_reference._elastic.gauss import unit_gauss
-from fem_reference._elastic.mapping import Chart, ChartMapping
+from fem_reference._elastic.mapping import Chart
 from fem_reference._typing import Array, Index
 from fem_reference.solid import Solid
 
-__all__ = ["Body", "contracted", "element_places", "gauss_product", "lame_parameters", "stiffness"]
+__all__ = ["Body", "contracted", "element_places", "gauss_product", "lame_parameters"]
 
 
 #: Gauss points a direction beyond the order p: r and E(z) are no polynomials of low degree.
 EXTRA_POINTS = 2
-
-#: Elements contracted at once, 25 MB at order 6: a quarter faster than with 256, which the caches do not hold.
-CHUNK = 64
 
 #: Gauss points through the first layer, in the cube root of y: integrands like y^(k/(1-k)) reach 1e-10.
 FIRST_LAYER_POINTS = 14
@@ -108,17 +99,6 @@ def lame_parameters(solid: Solid, z: Array) -> tuple[Array, Array]:
     return E * ratio / ((1.0 + ratio) * (1.0 - 2.0 * ratio)), E / (2.0 * (1.0 + ratio))
 
 
-def _element_matrices(body: Body, basis: Basis, chunk: slice) -> Array:
-    """Stiffness of some elements, shape (elements, 2 n, 2 n) with n functions and interleaved components."""
-    r, z = np.asarray(basis.global_coordinates())[:, chunk]
-    measure = r * basis.dx[chunk]
-    lame, shear = (constant * measure for constant in lame_parameters(body.solid, z))
-    radial = np.stack([f[0].grad[0][chunk] for f in basis.basis], axis=-1)
-    axial = np.stack([f[0].grad[1][chunk] for f in basis.basis], axis=-1)
-    hoop = np.stack([np.asarray(f[0])[chunk] for f in basis.basis], axis=-1) / r[..., None]
-    return contracted(radial, axial, hoop, lame, shear)
-
-
 def contracted(radial: Array, axial: Array, hoop: Array, lame: Array, shear: Array) -> Array:
     """Stiffness of elements from the values of n functions at q points, shape (elements, 2 n, 2 n).
 
@@ -145,42 +125,6 @@ def contracted(radial: Array, axial: Array, hoop: Array, lame: Array, shear: Arr
     return K
 
 
-def stiffness(body: Body, first_layer: Index, depth_axis: int = 1) -> tuple[sparse.csr_array, Basis]:
-    """Assemble the stiffness matrix of a body.
-
-    Parameters
-    ----------
-    body : Body
-        What to assemble.
-    first_layer : ndarray of int
-        Elements touching the surface; they get the quadrature of the chart of the first layer.
-    depth_axis : int
-        Mesh coordinate that points into the solid in those elements.
-
-    Returns
-    -------
-    matrix : csr_array, shape (2 N, 2 N)
-        Symmetric; no boundary condition applied.
-    basis : skfem.Basis
-        The scalar space with N unknowns (on all elements).
-
-    Raises
-    ------
-    ValueError
-        If the modulus is not positive, or Poisson's ratio outside its range.
-    """
-    bases = _bases(body, first_layer, depth_axis)
-    triplets = []
-    for _, local, K in _elements(body, bases):
-        narrow = local.astype(np.int32)
-        rows = np.broadcast_to(narrow[:, :, None], K.shape)
-        cols = np.broadcast_to(narrow[:, None, :], K.shape)
-        triplets.append((K.ravel(), rows.ravel(), cols.ravel()))
-    data, rows, cols = (np.concatenate(column) for column in zip(*triplets, strict=True))
-    size = 2 * bases[-1].N
-    return sparse.coo_array((data, (rows, cols)), shape=(size, size)).tocsr(), bases[-1]
-
-
 def element_places(mesh: MeshQuad) -> Index:
     """Column and row of each element of a tensor-product mesh, shape (2, elements).
 
@@ -191,32 +135,3 @@ def element_places(mesh: MeshQuad) -> Index:
     """
     corners = mesh.p[:, mesh.t].min(axis=1)
     return np.stack([np.unique(along, return_inverse=True)[1] for along in corners])
-
-
-def _bases(body: Body, first_layer: Index, depth_axis: int) -> list[Basis]:
-    """The scalar space on the elements of each quadrature rule."""
-    element = ElementQuadP(body.order)
-    mapping = ChartMapping(body.mesh, body.chart)
-    count = body.order + EXTRA_POINTS
-    below = np.setdiff1d(np.arange(body.mesh.nelements), first_layer)
-    rules = []
-    if below.size:
-        rules.append((below, gauss_product(count, count)))
-    if first_layer.size:
-        X, W = gauss_product(count, FIRST_LAYER_POINTS, 3)
-        corners = body.mesh.p[depth_axis, body.mesh.t[:, first_layer[0]]]
-        # scikit-fem numbers the corners of a tensor mesh down the columns: its first reference axis is z.
-        rules.append((first_layer, (X[::-1] if corners[0] != corners[1] else X, W)))
-    return [
-        Basis(body.mesh, element, mapping, quadrature=rule, elements=elements, disable_doflocs=True)
-        for elements, rule in rules
-    ]
-
-
-def _elements(body: Body, bases: Iterable[Basis]) -> Iterator[tuple[Index, Index, Array]]:
-    """Numbers, rows and stiffness of some elements at a time: shapes (e,), (e, 2 n) and (e, 2 n, 2 n)."""
-    for basis in bases:
-        rows = both_components(np.asarray(basis.element_dofs)).T
-        for start in range(0, rows.shape[0], CHUNK):
-            chunk = slice(start, start + CHUNK)
-            yield np.asarray(basis.tind)[chunk], rows[chunk], _element_matrices(body, basis, chunk)

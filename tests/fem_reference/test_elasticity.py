@@ -12,7 +12,7 @@ from fem_reference._elastic.compliance import checked_inverse, compliance_for
 from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.depth_scales import depth_scales
 from fem_reference._elastic.dissection import LEAF, condensed_on
-from fem_reference._elastic.elasticity import Body, element_places, gauss_product, lame_parameters, stiffness
+from fem_reference._elastic.elasticity import Body, element_places, gauss_product, lame_parameters
 from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import ChartMapping, InteriorChart
 from fem_reference._elastic.mesh import Grid, MeshSpec, edge_grid, uniform_grid
@@ -24,6 +24,7 @@ from fem_reference.solid import PowerLaw
 from fem_reference.solids import OffsetPowerLaw
 from fem_reference.tabulated_modulus import TabulatedModulus
 from fem_reference.verification.load_vectors import smooth_load
+from fem_reference.verification.manufactured import interior_stiffness
 from tests.refusals import refused
 
 #: Same Gauss points, other order of summation: measured 5e-15.
@@ -36,24 +37,15 @@ def _through_depth(across, down):
     return X[::-1], W
 
 
-def _interior(grid, solid, order):
-    mesh = grid.quads()
-    depth = float(grid.z[1])
-    body = Body(mesh, InteriorChart(depth, solid.surface_exponent), solid, order)
-    touching = np.flatnonzero(mesh.p[1][mesh.t].max(axis=0) <= depth)
-    matrix, _ = stiffness(body, touching)
-    return body, matrix
-
-
 def _compliance(half_space):
     return checked_inverse(surface_stiffness(half_space), half_space)
 
 
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.49])
-def test_batched_contraction_equals_bilinear_forms(nu):
+def test_products_of_integrals_equal_bilinear_forms(nu):
     grid = uniform_grid(1.0, 2)
     solid = OffsetPowerLaw(1.0, 1.0, 0.4, 0.5, nu)
-    body, matrix = _interior(grid, solid, 3)
+    mesh, matrix = grid.quads(), interior_stiffness(grid, solid, 3)
 
     def moduli(w):
         E = solid.modulus(w.x[1])
@@ -78,12 +70,12 @@ def test_batched_contraction_equals_bilinear_forms(nu):
                 return (lame * volume + 2 * shear * direct + shear * eu[3] * ev[3]) * r
 
             total = 0
-            top = np.flatnonzero(body.mesh.p[1][body.mesh.t].max(axis=0) <= grid.z[1])
+            top = np.flatnonzero(mesh.p[1][mesh.t].max(axis=0) <= grid.z[1])
             for elements, rule in (
                 (top, _through_depth(5, 14)),
-                (np.setdiff1d(np.arange(body.mesh.nelements), top), gauss_product(5, 5)),
+                (np.setdiff1d(np.arange(mesh.nelements), top), gauss_product(5, 5)),
             ):
-                basis = Basis(body.mesh, ElementQuadP(3), quadrature=rule, elements=elements)
+                basis = Basis(mesh, ElementQuadP(3), quadrature=rule, elements=elements)
                 total = total + form.assemble(basis)
             reference[a, b] = total
     for (a, b), expected in reference.items():
@@ -92,7 +84,7 @@ def test_batched_contraction_equals_bilinear_forms(nu):
 
 
 def test_rigid_translation_costs_nothing_and_matrix_is_symmetric():
-    _, matrix = _interior(edge_grid(extent=4.0), PowerLaw(1.0, 1.0, 0.4, 0.3), 4)
+    matrix = interior_stiffness(edge_grid(extent=4.0), PowerLaw(1.0, 1.0, 0.4, 0.3), 4)
     assert abs(matrix - matrix.T).max() <= 1e-13 * abs(matrix).max()
     translation = np.zeros(matrix.shape[0])
     # Vertex functions sum to 1.
@@ -104,13 +96,13 @@ def test_rigid_translation_costs_nothing_and_matrix_is_symmetric():
 def test_nu_one_half_and_low_order_are_refused():
     grid = uniform_grid(1.0, 1)
     refused(r"0\.5 is outside", PowerLaw, 1.0, 1.0, 0.0, 0.5)
-    refused("keep the volume", _interior, grid, NeoHookean(1.0, 0.5), 2)
+    refused("keep the volume", interior_stiffness, grid, NeoHookean(1.0, 0.5), 2)
     refused("order 1", Body, grid.quads(), InteriorChart(1.0, 0.0), PowerLaw(1.0, 1.0, 0.0, 0.3), order=1)
 
 
 def test_modulus_that_vanishes_is_refused():
     hollow = CustomSolid(lambda z: np.where((z > 0.2) & (z < 0.8), 0.0, 1.0), 0.3, length=1.0)
-    refused("not positive", _interior, uniform_grid(1.0, 2), hollow, 2)
+    refused("not positive", interior_stiffness, uniform_grid(1.0, 2), hollow, 2)
 
 
 def test_the_exterior_resists_every_displacement_of_its_boundary():
