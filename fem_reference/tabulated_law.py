@@ -209,7 +209,7 @@ class TabulatedLaw:
         return np.asarray(self._stress * self.z0 * (tail + middle + self._wall.integral(compressed, start)))
 
 
-def _zero_gap(spline: PPoly, x: Array, beyond: float) -> tuple[float, float]:
+def _zero_gap(spline: scipy.interpolate.PPoly, x: Array, beyond: float) -> tuple[float, float]:
     """Of the gaps without traction where a tension begins: that of the largest work of adhesion, and this work.
 
     `beyond` is the integral of the traction beyond the last point.

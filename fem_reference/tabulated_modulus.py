@@ -54,7 +54,9 @@ class TabulatedModulus(Solid):
     moduli: Sequence[float]
     nu: float | Sequence[float]
     surface_tension: float = 0.0
-    _curves: tuple[scipy.interpolate.PchipInterpolator, scipy.interpolate.PchipInterpolator] = field(init=False, compare=False)
+    _curves: tuple[scipy.interpolate.PchipInterpolator, scipy.interpolate.PchipInterpolator] = field(
+        init=False, compare=False
+    )
 
     def __post_init__(self) -> None:
         check_tension(self.surface_tension)
@@ -66,7 +68,10 @@ class TabulatedModulus(Solid):
         ratios: Any = _columns(depths, self.nu, "ratios")[1] if is_column else (self.nu,) * len(depths)
         for ratio in ratios:
             check_ratio(ratio)
-        curves = scipy.interpolate.PchipInterpolator(depths, moduli), scipy.interpolate.PchipInterpolator(depths, ratios)
+        curves = (
+            scipy.interpolate.PchipInterpolator(depths, moduli),
+            scipy.interpolate.PchipInterpolator(depths, ratios),
+        )
         checked = {"depths": depths, "moduli": moduli, "nu": ratios if is_column else self.nu, "_curves": curves}
         for name, value in checked.items():
             object.__setattr__(self, name, value)

@@ -13,7 +13,6 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import SuperLU, splu
 
-from fem_reference._contact.friction import FrictionName
 from fem_reference._elastic.assembly import square_boundary
 from fem_reference._elastic.dof_ordering import line_unknowns
 from fem_reference._elastic.elasticity import EXTRA_POINTS
@@ -100,7 +99,6 @@ def block_of(
     solid: Solid,
     order: int,
     mixed: bool,
-    friction: FrictionName = "none",
     tension: float = 0.0,
     extra: int = EXTRA_POINTS,
 ) -> Block:
@@ -116,8 +114,6 @@ def block_of(
         Degree of the elements.
     mixed : bool
         Whether the pressure is an unknown of its own; an incompressible solid needs it.
-    friction : {"none", "bonded"}
-        Whether the points of the surface are free to slide, or keep their radii.
     tension : float
         Largest tension on the surface.
     extra : int
@@ -136,7 +132,7 @@ def block_of(
     exterior = exterior_stiffness(grid, solid, order, order - 1 if mixed else None)
     surface = 2 * line_unknowns(core.dofs, 1, 0.0)
     fixed = 2 * line_unknowns(core.dofs, 0, 0.0)
-    if friction == "bonded":
+    if solid.bonded:
         fixed = np.union1d(fixed, surface)
     return Block(core, trace, local_slopes(trace), surface, boundary, signs[:, None] * exterior * signs, fixed)
 

@@ -27,7 +27,7 @@ from fem_reference.errors import NotConverged
 from fem_reference.interaction import Interaction
 from fem_reference.neo_hookean import NeoHookean
 from fem_reference.problem import Problem
-from fem_reference.solid import PowerLaw, Solid
+from fem_reference.solid import PowerLaw, ScaledSolid, Solid
 from fem_reference.solids import Homogeneous, OffsetPowerLaw
 
 __all__ = ["Discretisation", "LinearEvent", "linear_event", "linear_problem"]
@@ -161,9 +161,11 @@ class Discretisation:
         """Return the elements with their edge at a radius."""
         solid = self.problem.solid
         spec = replace(self.spec, extent=self.extent)
+        bonded = self.friction == "bonded"
         if self._without_length:
-            return _block(self, spec, NeoHookean(1.0, float(solid.poisson(np.array(radius)))))
-        return _block(self, spec.moved(radius / self.size), solid.in_lengths(radius))
+            unit = NeoHookean(1.0, float(solid.poisson(np.array(radius))))
+            return _block(self, spec, ScaledSolid(unit, bonded=bonded))
+        return _block(self, spec.moved(radius / self.size), ScaledSolid(solid, radius, bonded))
 
     def surface(self, block: Block, radius: float) -> Surface:
         """Return punch and law at a radius of the edge."""
@@ -232,7 +234,7 @@ def _block(choice: Discretisation, spec: MeshSpec, solid: Solid) -> Block:
     grid = variant(spec, choice.feature).grid() if choice.feature else spec.grid()
     law = choice.problem.law
     tension = -float(law.traction(np.array(law.peak_gap))) / choice.unit_of_traction
-    return block_of(grid, solid, spec.order, choice.mixed, choice.friction, tension, choice.extra)
+    return block_of(grid, solid, spec.order, choice.mixed, tension, choice.extra)
 
 
 def _reason(problem: Problem) -> str:
