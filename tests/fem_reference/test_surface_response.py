@@ -19,6 +19,7 @@ from fem_reference._contact.bodies import compliance_of
 from fem_reference._contact.friction import with_friction
 from fem_reference._contact.mesh_lengths import mesh_spec
 from fem_reference._elastic.assembly import assemble_half_space
+from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.surface_tension import SurfaceTension
@@ -111,6 +112,20 @@ def test_surface_tension_against_hankel_transforms(solid):
     xi, weight = _waves()
     exact = _exact(_response(solid, xi), xi, weight)
     assert _displacement(Problem(solid, *PARTS)) == pytest.approx(exact, rel=MESH_ERROR)
+
+
+@pytest.mark.parametrize(
+    ("solid", "halved"),
+    [
+        (_tense(COATED, 3.0), replace(COATED, thickness=0.5, surface_tension=1.5)),
+        (_tense(GRADED, 0.5), replace(GRADED, c0=0.5 * GRADED.c0, surface_tension=0.25)),
+    ],
+)
+def test_a_unit_of_length_does_not_matter(solid, halved):
+    """A tension is a modulus times a length."""
+    spec = MeshSpec(0.1, 0.05, 64.0, 1.3, 4)
+    large, small = compliance_for(solid, spec, 2.0), compliance_for(halved, spec, 1.0)
+    assert large.factor(2.0) * large.matrix == pytest.approx(2.0 * small.factor(1.0) * small.matrix, rel=1e-9)
 
 
 @pytest.mark.parametrize("solid", [UNIFORM, GRADED, COATED, _tense(GRADED, 0.5)])
