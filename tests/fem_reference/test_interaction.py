@@ -1,4 +1,4 @@
-"""Surface forces of a ball: its potential against integration over its volume, its rigid limit, its first order."""
+"""Surface forces of a ball: what its potential changes of the pull-off force to first order."""
 
 import math
 from functools import cache
@@ -8,93 +8,15 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import fscm
-from fem_reference import Ball, LennardJones, Mie, NeoHookean, Problem, solve_large_strain
-from fem_reference.interaction import Body, interaction_of
-from tests.refusals import refused
-
-GAUSS = np.polynomial.legendre.leggauss(24)
-
-LAWS = [LennardJones(1.0, 1.0), Mie(1.0, 1.0, 12.0, 6.0), Mie(1.0, 1.0, 9.0, 2.5), Mie(2.0, 1.0, 5.0, 4.0)]
-law_ids = pytest.mark.parametrize("law", LAWS, ids=lambda law: f"{law.powers[0][1]:g}-{law.powers[1][1]:g}")
-
-
-def composite(ends):
-    """Nodes and weights of a Gauss rule on each interval between neighbours."""
-    x, w = GAUSS
-    half = 0.5 * np.diff(ends)
-    return ((ends[:-1] + half)[:, None] + half[:, None] * x).ravel(), (half[:, None] * w).ravel()
-
-
-def integrated(R, m, s):
-    """Integral of d^-(m+3) over a ball at the distance s of its centre, over that of a half-space at the distance 1."""
-    # Shells around the point: those with the radius d have the area 2 pi d^2 (1 - cos) inside the ball.
-    d, weight = composite(np.geomspace(s - R, s + R, 60))
-    inside = 2.0 * math.pi * d**2 * (1.0 - (s * s + d * d - R * R) / (2.0 * s * d))
-    return float((weight * inside) @ d ** -(m + 3.0)) * m * (m + 1.0) / (2.0 * math.pi)
-
-
-@law_ids
-@pytest.mark.parametrize("R", [0.5, 3.0, 200.0])
-def test_the_potential_is_that_of_all_atoms_of_the_ball(law, R):
-    """Near the surface, and where the closed form is summed as a series."""
-    body = Body(Ball(R), law)
-    for distance in (0.9, 1.3, 20.0, 2.0 * R, 4.0 * R, 30.0 * R):
-        s = R + distance
-        exact = sum(strength * integrated(R, m, s) for strength, m in law.powers)
-        scale = sum(abs(strength) * integrated(R, m, s) for strength, m in law.powers)
-        gap = np.array(distance - law.z0)  # on the axis
-        assert float(body.traction(np.array(0.0), gap)) == pytest.approx(exact, abs=1e-12 * scale)
-        rho = np.array(0.6 * s)
-        tilted = body.traction(rho, 0.8 * s - R - law.z0 + Ball(R).height(rho))
-        assert float(tilted) == pytest.approx(exact, abs=1e-11 * scale)
-
-
-@law_ids
-@pytest.mark.parametrize("R", [3.0, 20.0, 1000.0])
-@pytest.mark.parametrize("h", [0.0, 0.5, 40.0])
-def test_over_a_plane_the_load_is_that_of_vertical_gaps_to_the_far_pole(law, R, h):
-    body = Body(Ball(R), law)
-    log_rho, weight = composite(np.log(math.sqrt(R)) + np.linspace(-18.0, 40.0, 90))
-    rho = np.exp(log_rho)
-    of_body = 2.0 * math.pi * float((weight * rho**2) @ body.traction(rho, h + Ball(R).height(rho)))
-    D, weight = composite(np.geomspace(1.0 + h, 1.0 + h + 2.0 * R, 60))
-    of_gaps = 2.0 * math.pi * float((weight * (R - (D - 1.0 - h))) @ law.traction(D - 1.0))
-    assert of_body == pytest.approx(of_gaps, rel=1e-12)
-    if (R, h, law) == (20.0, 0.0, LAWS[0]):
-        assert of_body == pytest.approx(-117.889330034344, rel=1e-14)
-
-
-@law_ids
-@pytest.mark.parametrize("name", ["body", "derjaguin"])
-def test_slopes_and_energy_belong_to_the_traction(law, name):
-    interaction = interaction_of(Ball(20.0), law, name)
-    rho, gap = np.array([0.3, 5.0, 12.0]), np.array([0.2, -0.1, 30.0])
-    step = 2e-5
-    by_radius, by_gap = interaction.slopes(rho, gap)
-    beside = [interaction.traction(rho + sign * step, gap) for sign in (1, -1)]
-    assert by_radius == pytest.approx((beside[0] - beside[1]) / (2 * step), rel=1e-5)
-    beside = [interaction.traction(rho, gap + sign * step) for sign in (1, -1)]
-    assert by_gap == pytest.approx((beside[0] - beside[1]) / (2 * step), rel=1e-5)
-    energies = [interaction.energy(rho, gap + sign * step) for sign in (1, -1)]
-    assert (energies[1] - energies[0]) / (2 * step) == pytest.approx(interaction.traction(rho, gap), rel=1e-5)
-
-
-def test_a_large_ball_acts_as_its_law_over_a_plane():
-    law = LennardJones(1.0, 1.0)
-    gap = np.array([-0.1, 0.2, 3.0])
-    near = Body(Ball(1e7), law).traction(np.zeros(3), gap)
-    assert near == pytest.approx(law.traction(gap), rel=1e-5)
-
-
-def test_an_unknown_name_is_refused():
-    refused("below", interaction_of, Ball(1.0), LennardJones(1.0, 1.0), "below")
+from fem_reference import Ball, LennardJones, NeoHookean, Problem, solve_large_strain
+from tests.solvers.potentials import composite
 
 
 def energy_of_a_ball(rho, h, z0):
     """Integral of p from h to infinity over a ball of R = 1 under the 9-3 law with w = 1, in the closed form of p."""
     total, vertical = 0.0, 1.0 + z0 + h
     nearest = np.hypot(rho, vertical) - 1.0
-    x, w = GAUSS
+    x, w = np.polynomial.legendre.leggauss(24)
     for piece in range(40):
         start, stop = (nearest[:, None] * (2.0 ** (piece + i) - 1.0) for i in (0, 1))
         s = np.hypot(rho[:, None], vertical[:, None] + start + (stop - start) * 0.5 * (1.0 + x))

@@ -1,14 +1,12 @@
-"""Potential of a punch of any shape under any powers: its atoms, table, and energy, the rigid solid, and a contact."""
+"""Potential of a punch of any shape in the integral equation: its table, its energy, its tail, and a contact."""
 
 import math
 
 import numpy as np
 import pytest
-import scipy
 
 import fscm
-from fscm import Ball, Coating, Homogeneous, LennardJones, Mie, PowerPunch, PowerSum, Problem, RoundedCone
-from fscm._ball import BallUnderMie
+from fscm import Coating, Homogeneous, LennardJones, PowerPunch, PowerSum, Problem, RoundedCone
 from fscm._potential import Profile, log_powers
 from fscm._potential_table import power_table
 from fscm._surface.breaks import initial_mesh
@@ -19,10 +17,9 @@ from fscm._surface.state import Control, rigid_state
 from fscm._surface.tail_of_body import TailOfBody
 from fscm.measured_punch import MeasuredPunch
 from fscm.punch import ScaledPunch
-from tests.marks import heavy
 from tests.refusals import refused
+from tests.solvers.potentials import composite
 
-GAUSS = np.polynomial.legendre.leggauss(24)
 SHAPES = {
     "cone": PowerPunch(1.0, 2.0),
     "steep cone": PowerPunch(1.0, 0.4),
@@ -34,40 +31,6 @@ SHAPES = {
     "reentrant": MeasuredPunch([0.0, 4.0, 9.0, 12.0], [0.0, 6.0, 2.0, 20.0]),
 }
 by_shape = pytest.mark.parametrize("punch", SHAPES.values(), ids=SHAPES.keys())
-
-
-def composite(ends):
-    """Nodes and weights of a Gauss rule on each interval between neighbours."""
-    x, w = GAUSS
-    half = 0.5 * np.diff(ends)
-    return ((ends[:-1] + half)[:, None] + half[:, None] * x).ravel(), (half[:, None] * w).ravel()
-
-
-def power_by_columns(punch, m, x, v):
-    """p_m of the atoms in vertical columns around the point; in closed form along a column."""
-    a, levels = 0.5 * (m + 3.0), float(punch.height(np.array(x))) - v
-    s, weight = composite(np.concatenate([[0.0], v * np.geomspace(0.1, 1e4, 16)]))
-    count = 240
-    phi = math.pi * (np.arange(count) + 0.5)[:, None] / count
-    h = punch.height(np.sqrt(np.maximum(x * x + s * s + 2.0 * x * s * np.cos(phi), 0.0))) - levels
-    whole = 0.5 * s ** (1.0 - 2.0 * a) * scipy.special.beta(a - 0.5, 0.5)
-    above = whole * scipy.special.betainc(a - 0.5, 0.5, s * s / (s * s + h * h))
-    density = np.where(h > 0.0, above, 2.0 * whole - above) * s
-    return m * (m + 1.0) / (2.0 * math.pi) * 2.0 * math.pi / count * float(np.sum(density @ weight))
-
-
-@by_shape
-def test_the_powers_are_those_of_all_atoms(punch):
-    """Real exponents.  The columns resolve a kink to 1e-4, and a pointed tip from the places beside it."""
-    kinked, pointed = hasattr(punch, "kinks"), punch.growth < 2.0
-    tolerance = 1e-4 if kinked else 1e-7 if pointed else 1e-10
-    exponents = (12.0, 4.7, 3.0)
-    points = ((0.0, 0.8), (3.0, 1.3), (4.0, 2.0), (9.5, 30.0))
-    for x, v in points[:3] if kinked or pointed else points:
-        radius, depth = np.array([x]), np.array([v])
-        logs = log_powers(Profile(punch, 1.0), exponents, radius, punch.height(radius) - depth, depth)[:, 0]
-        for m, log_p in zip(exponents, logs, strict=True):
-            assert math.exp(log_p) * v**-m == pytest.approx(power_by_columns(punch, m, x, v), rel=tolerance)
 
 
 @by_shape
@@ -87,31 +50,6 @@ def test_the_table_is_the_quadrature_within_its_measured_error(punch):
         assert by_depth * v == pytest.approx((ends[0] - ends[1]) / (2.0 * step), rel=1e-5, abs=1e-5)
         ends = [table(r * (1.0 + sign * step), v)[0] for sign in (1.0, -1.0)]
         assert by_radius == pytest.approx((ends[0] - ends[1]) / (2.0 * step), rel=1e-4, abs=1e-5)
-
-
-def test_a_sphere_acts_as_its_ball():
-    """Under steep powers, for which the atoms beyond the sphere of the profile do not count: the closed form."""
-    law, ball = Mie(m=14.0, n=10.5), Ball(200.0)
-    of_profile = fscm.interaction.BodyOfRevolution(ScaledPunch(ball, 15.0, 1.0), law)
-    closed = BallUnderMie(ScaledPunch(ball, 15.0, 1.0), law)
-    r, gap = np.array([0.0, 0.5, 2.0, 4.0]), np.array([0.1, -0.1, 3.0, 1.0])
-    for name in ("traction", "slope", "drift"):
-        expected, size = getattr(closed, name)(r, gap), closed.size(r, gap)
-        assert np.all(np.abs(getattr(of_profile, name)(r, gap) - expected) < 1e-9 * size)
-    assert of_profile.energy(r, gap) == pytest.approx(closed.energy(r, gap), rel=1e-10)
-    assert of_profile.peak_gap(r) == pytest.approx(closed.peak_gap(r), rel=1e-9)
-
-
-@pytest.mark.parametrize(("name", "law"), [("n = 1.5", Mie(m=12.0, n=6.0)), *heavy(("kinked", Mie(m=8.5, n=3.7)))])
-def test_over_a_rigid_plane_the_load_is_that_of_vertical_gaps(name, law):
-    """Slices of the punch are parallel to the plane, so that the force of all atoms is that of the law."""
-    punch, gap = SHAPES[name], 0.2
-    body = fscm.interaction.BodyOfRevolution(punch, law)
-    kinks = [4.0, 9.0] if name == "kinked" else []
-    r, weight = composite(np.sort(np.concatenate([[0.0], np.geomspace(1e-3, 1e7, 60), kinks])))
-    loads = [float((weight * r) @ body.traction(r, gap + punch.height(r)))]
-    loads.append(float((weight * r) @ law.traction(gap + punch.height(r))))
-    assert loads[0] == pytest.approx(loads[1], rel=1e-8)
 
 
 def posed(punch, softness=1e-3, law=None, solid=None):

@@ -9,13 +9,19 @@ from tests.solvers.agreement import agreeing
 RADII = np.array([0.0, 0.8, 1.6, 2.5, 4.0])
 GAPS = np.geomspace(0.75, 20.0, 80)
 # A jump is the first, also where it does not exist.
-QUANTITIES = ("jump_out_displacement", "pull_off_force", "jump_in_gap", "zero_load_displacement")
+QUANTITIES = (
+    *("jump_out_displacement", "pull_off_force", "pull_off_displacement"),
+    *("jump_in_gap", "zero_load_displacement"),
+)
 LARGEST_BOUND = 1e-5
 
 SOLIDS = {
     "coating": lambda package: package.Coating(1.0, 10.0, 1.0, 0.0, 0.3),
     "smooth coating": lambda package: package.Coating(10.0, 1.0, 0.5, 0.1, 0.3),
     "stiff coating": lambda package: package.Coating(50.0, 40.0, 1.0, 0.0, 0.3),
+    "coating of another ratio": lambda package: package.Coating(10.0, 1.0, 1.0, 0.0, 0.2, 0.45),
+    "ratios alone": lambda package: package.Coating(1.0, 1.0, 1.0, 0.0, 0.2, 0.45),
+    "table of two ratios": lambda package: package.TabulatedModulus((0.0, 1.0, 2.0), (1.0, 1.5, 4.0), (0.4, 0.25, 0.1)),
     "offset power law": lambda package: package.OffsetPowerLaw(0.91, 1.0, 0.4, 1.0, 0.3),
     "exponential": lambda package: package.Exponential(1.0, 3.0, 2.0, 0.3),
 }
