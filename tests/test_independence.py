@@ -1,6 +1,7 @@
 """Imports between the packages and between the layers of `comparisons`."""
 
 import ast
+import re
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -218,6 +219,14 @@ def test_no_module_imports_itself_by_others(package):
 def test_a_circle_is_seen():
     with pytest.raises(CycleError):
         tuple(TopologicalSorter({"fscm.a": {"fscm.b"}, "fscm.b": {"fscm.a"}}).static_order())
+
+
+@pytest.mark.parametrize("package", ["fscm", "fem_reference"])
+def test_the_modules_that_a_solver_numbers_exist(package):
+    text = ast.get_docstring(ast.parse(modules()[package].read_text(encoding="utf-8")))
+    named = re.findall(r"`((?:_\w+\.)?\w+)`", text.split("What a solver")[1].split("The names")[0])
+    assert len(named) > 15
+    assert {f"{package}.{name}" for name in named} - {*modules()} == set()
 
 
 @pytest.mark.parametrize("package", PACKAGES)

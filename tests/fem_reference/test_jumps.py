@@ -6,18 +6,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
 
+import fem_reference
 import fem_reference.solution as solution_module
-from fem_reference import (
-    Coating,
-    Exponential,
-    LennardJones,
-    NoSuchEvent,
-    NotConverged,
-    PowerPunch,
-    Problem,
-    Solution,
-    solve_together,
-)
 from fem_reference._contact.event_kinds import event_energy
 from fem_reference._contact.events import PathEvents
 from fem_reference.quantities import LOSSES, TABLE, further_losses
@@ -92,7 +82,7 @@ def test_the_hysteresis_is_the_sum_over_all_jumps(name):
 
 
 def test_a_jump_that_the_cycle_does_not_have_is_told():
-    with pytest.raises(NoSuchEvent, match="jump_out_2"):
+    with pytest.raises(fem_reference.NoSuchEvent, match="jump_out_2"):
         _events(PAIR).at("jump_out_2")
 
 
@@ -100,7 +90,7 @@ def test_folds_that_cannot_be_told_apart_are_refused():
     """On its own mesh the outer fold was lower, where the path has the inner one lower."""
     events = _events((-1.0, -4.0, -2.0, -4.001))
     vars(events)["jump_out"] = events.minima("jump_out")[0]
-    with pytest.raises(NotConverged, match="not decided"):
+    with pytest.raises(fem_reference.NotConverged, match="not decided"):
         _ = events.jumps
 
 
@@ -126,13 +116,15 @@ def test_the_loss_on_meshes_of_their_own_has_every_jump(name, monkeypatch):
     def solved(problem, rows, accuracy):
         requested.extend(rows)
         return {
-            row: Solution(quantity.value(events.at), 1e-8, 1, 1, 0.0, 1.0, (4, 6, 7), (1.0, 1.0, 1.0), {"mesh": 1e-8})
+            row: fem_reference.Solution(
+                quantity.value(events.at), 1e-8, 1, 1, 0.0, 1.0, (4, 6, 7), (1.0, 1.0, 1.0), {"mesh": 1e-8}
+            )
             for row, quantity in rows.items()
         }
 
     monkeypatch.setattr(solution_module, "_solved_together", solved)
     monkeypatch.setattr(solution_module, "whole_path", lambda problem, accuracy: events)
-    problem = sphere_on(Exponential(3.0, 1.0, 5.0, 0.1))
+    problem = sphere_on(fem_reference.Exponential(3.0, 1.0, 5.0, 0.1))
     row = TABLE["hysteresis_energy"]
     loss = solution_module._by_addends(problem, {"hysteresis_energy": row}, "default")["hysteresis_energy"]
     assert requested[:2] == list(LOSSES)
@@ -146,8 +138,10 @@ def test_the_loss_on_meshes_of_their_own_has_every_jump(name, monkeypatch):
 @pytest.mark.heavy
 def test_the_hysteresis_on_a_stiff_film_has_three_jumps():
     """A film of 1 GPa on 1.5 MPa: the innermost fold is at -122.3 nm, and the jump out of contact at -135.4 nm."""
-    film = Coating(E_coating=1e9, E_substrate=1.5e6, thickness=1e-7, transition=0.0, nu_coating=0.4, nu_substrate=0.49)
-    problem = Problem(film, PowerPunch(2.0, 5e-6), LennardJones(0.05, 4e-10))
-    solutions = solve_together(problem, ("hysteresis_energy", *LOSSES), "quick")
+    film = fem_reference.Coating(
+        E_coating=1e9, E_substrate=1.5e6, thickness=1e-7, transition=0.0, nu_coating=0.4, nu_substrate=0.49
+    )
+    problem = fem_reference.Problem(film, fem_reference.PowerPunch(2.0, 5e-6), fem_reference.LennardJones(0.05, 4e-10))
+    solutions = fem_reference.solve_together(problem, ("hysteresis_energy", *LOSSES), "quick")
     further = solutions["hysteresis_energy"].value - sum(solutions[name].value for name in LOSSES)
     assert further == pytest.approx(1.4542e-16, rel=1e-3)

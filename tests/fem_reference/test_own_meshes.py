@@ -9,19 +9,8 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
+import fem_reference
 import fem_reference.solution as solution_module
-from fem_reference import (
-    CustomPunch,
-    Exponential,
-    LennardJones,
-    NotConverged,
-    OffsetPowerLaw,
-    PowerLaw,
-    PowerPunch,
-    Problem,
-    solve,
-    solve_together,
-)
 from fem_reference._contact import completeness
 from fem_reference._contact import event_mesh as event_mesh_module
 from fem_reference._contact.completeness import complete_path, displacement_range
@@ -37,11 +26,11 @@ from tests.refusals import refused
 
 FORCE, JUMP_IN, JUMP_OUT = NAMES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
 ROWS = {name: TABLE[name] for name in NAMES}
-LAW = LennardJones(1.0, 1.0)
-GRADED = sphere_on(Exponential(3.0, 1.0, 5.0, 0.1))
+LAW = fem_reference.LennardJones(1.0, 1.0)
+GRADED = sphere_on(fem_reference.Exponential(3.0, 1.0, 5.0, 0.1))
 #: Of a power punch, n = 5, on a solid that softens: by both references, all digits shown.
 ZERO_LOAD = 0.42243083
-CONE = replace(GRADED, solid=Exponential(0.9, 0.3, 5.0, 0.1), punch=PowerPunch(1.0, 1.0))
+CONE = replace(GRADED, solid=fem_reference.Exponential(0.9, 0.3, 5.0, 0.1), punch=fem_reference.PowerPunch(1.0, 1.0))
 
 
 def _own(problem, points, missed=(), monkeypatch=None):
@@ -57,24 +46,24 @@ def _own(problem, points, missed=(), monkeypatch=None):
 def test_a_quantity_whose_edge_is_not_resolved_or_that_is_missed_gets_its_own_mesh(monkeypatch):
     names = partial(_own, GRADED, monkeypatch=monkeypatch)
     assert names({"jump_in": True, "jump_out": False}) == [JUMP_OUT]
-    assert names({"jump_in": True, "jump_out": True}, {JUMP_OUT: NotConverged()}) == [JUMP_OUT]
+    assert names({"jump_in": True, "jump_out": True}, {JUMP_OUT: fem_reference.NotConverged()}) == [JUMP_OUT]
     # The mesh of the first event is its own.
     assert names({"jump_in": True, "jump_out": True}) == []
     # The mesh of the jump out of contact serves the other one, which has no contact edge.
     assert names({"jump_in": False, "jump_out": False}) == [JUMP_OUT, JUMP_IN]
     # One mesh serves every event of a solid that scales, unless it misses one.
-    scaling = partial(_own, replace(GRADED, solid=PowerLaw(1.0, 1.0, 0.4, 0.3)), monkeypatch=monkeypatch)
+    scaling = partial(_own, replace(GRADED, solid=fem_reference.PowerLaw(1.0, 1.0, 0.4, 0.3)), monkeypatch=monkeypatch)
     assert scaling({"jump_in": False, "jump_out": False}) == []
-    assert scaling({"jump_in": False, "jump_out": False}, {JUMP_OUT: NotConverged()}) == [JUMP_OUT]
+    assert scaling({"jump_in": False, "jump_out": False}, {JUMP_OUT: fem_reference.NotConverged()}) == [JUMP_OUT]
 
 
 def test_every_order_of_quantities_finds_the_events_after_a_jump_before_contact():
     """The path of that jump ends before contact."""
-    offset = sphere_on(OffsetPowerLaw(0.91, 1.0, 0.4, 1.0, 0.3))
+    offset = sphere_on(fem_reference.OffsetPowerLaw(0.91, 1.0, 0.4, 1.0, 0.3))
     orders = ("jump_in_gap", FORCE), (FORCE, "jump_in_gap")
-    results = [solve_together(offset, names, "quick") for names in orders]
+    results = [fem_reference.solve_together(offset, names, "quick") for names in orders]
     assert [tuple(together) for together in results] == list(orders)
-    assert [together[FORCE].value for together in results] == [solve(offset, FORCE, "quick").value] * 2
+    assert [together[FORCE].value for together in results] == [fem_reference.solve(offset, FORCE, "quick").value] * 2
     gap, other_gap = (together["jump_in_gap"] for together in results)
     assert 0.0 < gap.value == pytest.approx(other_gap.value, abs=gap.u_num + other_gap.u_num)
 
@@ -82,8 +71,12 @@ def test_every_order_of_quantities_finds_the_events_after_a_jump_before_contact(
 @pytest.mark.heavy
 def test_the_bound_of_a_second_event_holds():
     """On the mesh of the pull-off the three values at zero load turn back, 1.4 bounds from the value."""
-    problem = Problem(Exponential(2.0, 1.0, 2.0, 0.3), PowerPunch(5.0, 1.0), LAW)
-    zero_load = solve_together(problem, (FORCE, "zero_load_displacement"), "quick")["zero_load_displacement"]
+    problem = fem_reference.Problem(
+        fem_reference.Exponential(2.0, 1.0, 2.0, 0.3), fem_reference.PowerPunch(5.0, 1.0), LAW
+    )
+    zero_load = fem_reference.solve_together(problem, (FORCE, "zero_load_displacement"), "quick")[
+        "zero_load_displacement"
+    ]
     assert zero_load.value == pytest.approx(ZERO_LOAD, abs=zero_load.u_num + 1e-8)
     assert zero_load.u_num < 1e-6
 
@@ -91,9 +84,9 @@ def test_the_bound_of_a_second_event_holds():
 @pytest.mark.heavy
 def test_the_jumps_of_a_cone_are_as_certain_together_as_alone():
     """On the mesh of the pull-off the jump out of contact is not found on all densities."""
-    together = solve_together(CONE, NAMES, "quick")
+    together = fem_reference.solve_together(CONE, NAMES, "quick")
     assert all(together[name].u_num <= 1e-4 * abs(together[name].value) for name in NAMES)
-    alone = solve(CONE, JUMP_OUT, "quick")
+    alone = fem_reference.solve(CONE, JUMP_OUT, "quick")
     assert abs(alone.value - together[JUMP_OUT].value) <= alone.parts["rounding"] + together[JUMP_OUT].parts["rounding"]
 
 
@@ -105,8 +98,8 @@ JUMP_OUT_GAPS = {2.0: -0.03323081, 3.0: -0.03186462}
 
 
 def test_an_edge_that_no_mesh_resolves_is_refused():
-    with pytest.raises(NotConverged, match="of its radius, and the smallest that are meshed"):
-        solve(UNRESOLVED, "pull_off_force", "quick")
+    with pytest.raises(fem_reference.NotConverged, match="of its radius, and the smallest that are meshed"):
+        fem_reference.solve(UNRESOLVED, "pull_off_force", "quick")
 
 
 @pytest.mark.heavy
@@ -116,8 +109,10 @@ def test_an_edge_that_does_not_settle_is_searched_with_a_mesh_for_each_radius():
     def outside(r):
         return np.maximum(r - 0.05, 0.0)
 
-    punch = CustomPunch(lambda r: outside(r) ** 2 / 2.0, 2.0, outside, kinks=(0.05,))
-    problem = Problem(PowerLaw(1.0, 1.0, 0.3, 0.3), punch, LennardJones(0.0005, 0.004))
+    punch = fem_reference.CustomPunch(lambda r: outside(r) ** 2 / 2.0, 2.0, outside, kinks=(0.05,))
+    problem = fem_reference.Problem(
+        fem_reference.PowerLaw(1.0, 1.0, 0.3, 0.3), punch, fem_reference.LennardJones(0.0005, 0.004)
+    )
     mesh = event_mesh(Meshes(problem, level_for("quick")), ("pull_off",))
     assert mesh.event == "pull_off"
     assert mesh.spec.edge_width > 1e-3
@@ -129,7 +124,7 @@ def test_an_edge_that_does_not_settle_is_searched_with_a_mesh_for_each_radius():
 @pytest.mark.parametrize("mu", [2.0, *heavy(3.0)])
 def test_the_gap_under_the_tip_of_a_cone_is_certain(mu):
     """The pressure is singular there: with elements at the tip like those of a sphere the bound was 9 % of the gap."""
-    gap = solve(problem_with(0.0, mu, n=1.0), "jump_out_gap", "quick")
+    gap = fem_reference.solve(problem_with(0.0, mu, n=1.0), "jump_out_gap", "quick")
     assert gap.u_num <= 1e-3 * abs(gap.value)
     assert gap.value == pytest.approx(JUMP_OUT_GAPS[mu], abs=gap.u_num)
 
@@ -156,7 +151,7 @@ def test_a_path_that_stays_undecided_is_refused(monkeypatch):
     points = AnalyticBranch(slope.integ(), [0.0, 1.0]).points(np.arange(-2.2, 2.3, 0.8))
     assert len(complete_path(points)) > len(points)
     monkeypatch.setattr(completeness, "ROUNDS", 1)
-    refused("pair of turning points", complete_path, points, error=NotConverged)
+    refused("pair of turning points", complete_path, points, error=fem_reference.NotConverged)
 
 
 @pytest.mark.parametrize("touching", [([-1.0, -1.0], [-1.0, -1.0]), ([-1.0, -0.01], [-1.0, 10.0])])
@@ -165,7 +160,7 @@ def test_a_path_that_turns_back_between_the_branches_is_refused(touching):
     approach = AnalyticBranch(Polynomial([0.0, -1.0]), [0.0, -1.0], touching=False).points([3.0, 2.0, 1.0])
     displacement, load = touching
     contact = AnalyticBranch(Polynomial(displacement), load).points([0.0, 1.0, 2.0])
-    refused("path turns", complete_path, [*approach, *contact], error=NotConverged)
+    refused("path turns", complete_path, [*approach, *contact], error=fem_reference.NotConverged)
 
 
 def test_the_range_includes_turning_points_between_samples():

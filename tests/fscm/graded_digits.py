@@ -1,17 +1,18 @@
-"""Responses of graded solids to a ring from Taylor series of the equations with 30 digits, and the script for them.
+"""Responses of graded solids to a ring from compliances with 16 digits, and the script for them.
 
 `python -m tests.fscm.graded_digits` writes `graded_digits.json` beside this file: 50 pairs of radii of five solids.
 
-The moduli are polynomials in a variable y with dz = dy / p(y), so that the Taylor coefficients of the equations follow
-from a finite recurrence: y = z + z_s, exp(-z/l), 1/(1 + exp(2 (z - h)/w)), or z between two data points.  Numbers are
-integers in units of 2^-BITS.  The compliance is a Chebyshev polynomial on each piece of the logarithm of the wave
-number, and the Hankel integral a sum of Gauss rules with a smooth end, behind which it oscillates and cancels.
+The compliance of a wave is that of a homogeneous solid deep below, and changes over the depth by a Riccati equation,
+which midpoint steps solve, extrapolated to any number of digits.  It is a Chebyshev polynomial on each piece of the
+logarithm of the wave number, and the Hankel integral a sum of Gauss rules with a smooth end, behind which it
+oscillates and cancels.
 """
 
 from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
@@ -32,10 +33,8 @@ SOLIDS = {
     # Last by its name, too, since seeds follow the names in order.
     "two materials": Coating(1.0, 10.0, 1.0, 0.0, 0.25, 0.45),
 }
-#: Binary digits after the point, terms of a series, and the share of its radius that is a step: 3^-60 = 1e-29.
-BITS, TERMS, SHARE = 130, 60, 3
-#: First depth in 1/xi, below which is exp(-64) = 1e-28, and a depth from which on a modulus is constant.
-START, CONSTANT = 32, 70
+#: Digits of a step over the depth, its extrapolations at most, and the first depth in 1/xi, below which is exp(-64).
+DIGITS, ROUNDS, START = 18, 12, 22
 #: Pieces of the wave number, and nodes on each; the change of the response with fewer is below 1e-12 of it.
 ENDS, NODES = np.concatenate([np.geomspace(1e-10, 1e-4, 7)[:-1], np.geomspace(1e-4, 1e3, 19)]), 18
 #: The integral ends smoothly around this wave number, over this width.
@@ -45,129 +44,104 @@ COUNT = 50
 mpf = mpmath.mpf
 
 
-class Variable:
-    """Polynomials p m, m and q m of y, lowest power first, where q = dE/dz / E and m makes all of them polynomials."""
-
-    def __init__(self, rate, factor, growth, roots):
-        self.rate, self.factor, self.growth, self.roots = rate, factor, growth, roots
-
-
-def _product(a, b):
-    out = [mpf(0)] * (len(a) + len(b) - 1)
-    for i, x in enumerate(a):
-        for j, y in enumerate(b):
-            out[i + j] += x * y
-    return out
-
-
-def _of(p, E, roots=()):
-    slope = [j * c for j, c in enumerate(E)][1:] or [mpf(0)]
-    return Variable(_product(p, E), E, _product(p, slope), [*roots, *np.roots(np.array(E[::-1], float)).tolist()])
-
-
 class Piece(NamedTuple):
-    """Part of the depth: y at its bottom and at its top, Poisson's ratio, and E there over E just below."""
+    """Part of the depth, from its bottom to its top, with its modulus as a function and its Poisson's ratio."""
 
-    variable: Variable
     bottom: mpf
     top: mpf
+    modulus: Callable[[mpf], mpf]
     nu: float
-    jump: float = 1.0
 
 
 def _pieces(solid, deepest):
     """The pieces from a depth to the surface."""
-    one, nu = mpf(1), solid.nu_coating if isinstance(solid, Coating) else solid.nu
     if isinstance(solid, OffsetPowerLaw):
-        k, z_s = mpf(solid.k), mpf(solid.z_s)
-        return [Piece(Variable([mpf(0), one], [mpf(0), one], [k], [mpf(0)]), deepest + z_s, z_s, nu)]
+        return [Piece(deepest, mpf(0), lambda z: (z + solid.z_s) ** mpf(solid.k), solid.nu)]
     if isinstance(solid, Exponential):
-        length, below = mpf(solid.length), mpf(solid.E_depth)
-        variable = _of([mpf(0), -1 / length], [below, mpf(solid.E_surface) - below], [mpf(0)])
-        return [Piece(variable, mpmath.exp(-min(deepest, CONSTANT * length) / length), one, nu)]
+        surface, below, length = solid.E_surface, solid.E_depth, solid.length
+        return [Piece(deepest, mpf(0), lambda z: below + (surface - below) * mpmath.exp(-z / length), solid.nu)]
     if isinstance(solid, Coating) and solid.transition == 0.0:
-        uniform, h = _of([one], [one]), mpf(solid.thickness)
-        coating = Piece(uniform, min(deepest, h) - h, mpf(0) - h, nu, solid.E_coating / solid.E_substrate)
-        return [Piece(uniform, deepest, h, solid.nu_substrate), coating] if deepest > h else [coating]
+        top = min(deepest, mpf(solid.thickness))
+        coating = Piece(top, mpf(0), lambda z: solid.E_coating, solid.nu_coating)
+        return [Piece(deepest, top, lambda z: solid.E_substrate, solid.nu_substrate), coating]
     if isinstance(solid, Coating):
-        h, w, below = mpf(solid.thickness), mpf(solid.transition), mpf(solid.E_substrate)
-        variable = _of([mpf(0), -2 / w, 2 / w], [below, mpf(solid.E_coating) - below], [mpf(0), one])
-        bottom, top = (1 / (1 + mpmath.exp(2 * (z - h) / w)) for z in (min(deepest, h + CONSTANT * w / 2), mpf(0)))
-        return [Piece(variable, bottom, top, nu)]
+        h, w, above, below = solid.thickness, solid.transition, solid.E_coating, solid.E_substrate
+        share = lambda z: 1 / (1 + mpmath.exp(2 * (z - h) / w))  # noqa: E731  # one line
+        return [Piece(deepest, mpf(0), lambda z: below + (above - below) * share(z), solid.nu_coating)]
     curve = scipy.interpolate.PchipInterpolator(solid.depths, solid.moduli)
-    pieces = []
-    for i, (a, b) in enumerate(pairwise(solid.depths)):
-        if deepest > a:
-            E = [mpf(c) for c in curve.c[::-1, i].tolist()]
-            pieces.append(Piece(_of([one], E), min(deepest, mpf(b)) - mpf(a), mpf(0), nu))
-    return pieces[::-1]
+    cubics = curve.c[::-1].T.tolist()
+    between = [
+        Piece(
+            min(deepest, mpf(b)),
+            mpf(a),
+            lambda z, a=a, cubic=cubic: sum(c * (z - a) ** j for j, c in enumerate(cubic)),
+            solid.nu,
+        )
+        for (a, b), cubic in zip(pairwise(solid.depths), cubics, strict=True)
+    ]
+    return [piece for piece in between[::-1] if piece.bottom > piece.top]
 
 
-def _shifted(coefficients, y):
-    """Taylor coefficients at y of a polynomial."""
-    out = list(coefficients)
-    for i in range(len(out)):
-        for j in range(len(out) - 2, i - 1, -1):
-            out[j] += y * out[j + 1]
-    return out
+def _rates(piece, xi):
+    """Rates over the depth of the compliances of what is below it: U and W by the stresses T and S of a wave."""
+    nu = mpf(piece.nu)
+    across, shear, confined = nu / (1 - nu), 2 * (1 + nu), (1 + nu) * (1 - 2 * nu) / (1 - nu)
+
+    def rates(z, C):
+        E, (ut, us, ws) = piece.modulus(z), C
+        plane = E / (1 - nu**2)
+        return (
+            xi * (2 * us + shear / E - plane * ut**2),
+            xi * (ws - across * ut - plane * ut * us),
+            xi * (confined / E - 2 * across * us - plane * us**2),
+        )
+
+    return rates
 
 
-def _fixed(x):
-    return int(mpmath.nint(mpmath.ldexp(x, BITS)))
+def _midpoints(rates, z, C, h, count):
+    """The compliances at z + h by steps of the midpoint rule, an even number of them."""
+    step, before = h / count, C
+    at = [c + step * rate for c, rate in zip(C, rates(z, C), strict=True)]
+    for i in range(1, count):
+        moved = [c + 2 * step * rate for c, rate in zip(before, rates(z + i * step, at), strict=True)]
+        before, at = at, moved
+    return at
 
 
-def _step(variable, y, h, xi, Q, constants):
-    """Q = E (U, W)/(T, S) at y + h from that at y, all of them integers."""
-    P, m, N = (_shifted(c, y) for c in (variable.rate, variable.factor, variable.growth))
-    front = [_fixed(c * h**j / P[0]) for j, c in enumerate(P)]
-    on_A = [_fixed(xi * c * h ** (j + 1) / P[0]) for j, c in enumerate(m)]
-    on_B = [_fixed(c * h ** (j + 1) / P[0]) for j, c in enumerate(N)]
-    a, g, i, e = constants
-    unit = 1 << BITS
-    ends = []
-    for U, W, T, S in ((Q[0], Q[2], unit, 0), (Q[1], Q[3], 0, unit)):
-        series, driven = [(U, W, T, S)], []
-        for n in range(TERMS):
-            U, W, T, S = series[n]
-            driven.append((W + (g * T >> BITS), (i * S - a * U) >> BITS, (a * S + e * U) >> BITS, -T))
-            new = []
-            for q in range(4):
-                total = sum(c * driven[n - j][q] for j, c in enumerate(on_A[: n + 1]))
-                if q > 1:
-                    total -= sum(c * series[n - j][q] for j, c in enumerate(on_B[: n + 1]))
-                total -= sum(c * (n + 1 - j) * series[n + 1 - j][q] for j, c in enumerate(front[: n + 1]) if j)
-                new.append((total >> BITS) // (n + 1))
-            series.append(tuple(new))
-        ends.append([sum(term[q] for term in series) for q in range(4)])
-    (u1, w1, t1, s1), (u2, w2, t2, s2) = ends
-    det = t1 * s2 - t2 * s1
-    coefficients = (u1 * s2 - u2 * s1, u2 * t1 - u1 * t2, w1 * s2 - w2 * s1, w2 * t1 - w1 * t2)
-    return [(x << BITS) // det for x in coefficients]
+def _extrapolated(rates, z, C, h):
+    """The compliances at z + h by more and more midpoint steps, extrapolated; None if that does not end."""
+    last = []
+    for count in range(2, 2 * ROUNDS + 2, 2):
+        row = [_midpoints(rates, z, C, h, count)]
+        for order, old in enumerate(last, 1):
+            factor = mpf(count) / (count - 2 * order)
+            row.append([b + (b - a) / (factor**2 - 1) for a, b in zip(old, row[-1], strict=True)])
+        if last and max(map(abs, np.subtract(*row[-2:]))) < mpf(10) ** -DIGITS * max(map(abs, row[-1])):
+            return row[-1]
+        last = row
+    return None
 
 
 def relative_compliance(solid, xi):
-    """D = xi C E*/2 of the constants of the surface, with about 25 digits."""
-    with mpmath.workdps(45):
-        xi, Q = mpf(xi), None
-        for variable, y, top, ratio, jump in _pieces(solid, START / xi):
-            nu = mpf(ratio)
-            constants = [
-                _fixed(x) for x in (nu / (1 - nu), 2 * (1 + nu), (1 + nu) * (1 - 2 * nu) / (1 - nu), 1 / (1 - nu**2))
-            ]
-            if Q is None:  # a homogeneous solid below
-                n, m = _fixed(-2 * (1 - nu**2)), _fixed((1 + nu) * (1 - 2 * nu))
-                Q = [n, m, m, n]
-            else:
-                Q = [int(mpmath.nint(x * mpf(jump))) for x in Q]
-            while y != top:
-                reach = min((abs(y - root) for root in variable.roots), default=mpf(10) ** 9) / SHARE
-                p = _shifted(variable.rate, y)[0] / _shifted(variable.factor, y)[0]
-                h = min(reach, 2 * abs(p) / xi, abs(top - y))
-                ends_here = h == abs(top - y)
-                h = h if top > y else -h
-                Q = _step(variable, y, h, xi, Q, constants)
-                y = top if ends_here else y + h
-        return -mpmath.ldexp(mpf(Q[3]), -BITS) / (2 * (1 - nu**2))
+    """D = xi C E*/2 of the constants of the surface, with about 16 digits."""
+    with mpmath.workdps(DIGITS + 15):
+        xi, C = mpf(xi), None
+        for piece in _pieces(solid, START / xi):
+            nu, z = mpf(piece.nu), piece.bottom
+            if C is None:  # a homogeneous solid below
+                C = [c / piece.modulus(z) for c in (-2 * (1 - nu**2), (1 + nu) * (1 - 2 * nu), -2 * (1 - nu**2))]
+            h = 1 / xi
+            while z > piece.top:
+                # No longer than half the depth: nothing on the way up to the surface is passed over.
+                h = min(h, (z + solid.length) / 2, z - piece.top)
+                moved = _extrapolated(_rates(piece, xi), z, C, -h)
+                if moved is None:
+                    h /= 2
+                    continue
+                z, C = (piece.top if h == z - piece.top else z - h), moved
+                h *= 2
+        return -C[2] * piece.modulus(mpf(0)) / (2 * (1 - nu**2))
 
 
 def tabulated(solid):

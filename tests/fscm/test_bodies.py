@@ -27,14 +27,11 @@ from fscm._surface.mesh import PanelMesh
 from fscm._surface.response.body import compliance_of
 from fscm._surface.response.kernel import GradedKernel
 from fscm._surface.response.response import SurfaceResponse, response_of
-from fscm.accuracy import Mesh, Meshes
 from fscm.bodies import Bodies, scaled, tension_length
 from tests.marks import heavy
 from tests.refusals import refused
 from tests.solvers.layered_jkr import Stack
 
-#: Meshes finer than the default, which end farther out.
-FINE = Meshes(value=Mesh(16, 1e-9), end_height=1e7)
 LAW, SPHERE = LennardJones(1.0, 1.0), PowerPunch(2.0, 1.0)
 STACK = Stack(((1.0, 0.3, 0.5), (0.2, 0.45, 1.0)), (3.0, 0.2))
 LAYERS = Layers([1.0, 0.2, 3.0], [0.3, 0.45, 0.2], [0.5, 1.0])
@@ -197,36 +194,6 @@ def test_solid_and_punch_solid_can_be_exchanged(name: str) -> None:
     assert one.u_num < 1e-7 * one.value
 
 
-@pytest.mark.heavy
-@pytest.mark.parametrize("name", PAIRS)
-def test_a_pair_within_its_bound_of_a_finer_mesh(name: str) -> None:
-    first, second = PAIRS[name]
-    problem = Problem(first, PUNCH, LAW, second)
-    for quantity in ("pull_off_force", "zero_load_displacement"):
-        value, finer = solve(problem, quantity), solve(problem, quantity, FINE)
-        assert abs(value.value - finer.value) <= value.u_num + finer.u_num
-
-
-@pytest.mark.heavy
-def test_two_equal_graded_bodies_are_one_of_half_the_modulus() -> None:
-    value, pair = (
-        solve(Problem(Coating(E, 3.0 * E, 2.0, 0.0, 0.3), PUNCH, LAW, *others), "pull_off_force")
-        for E, others in ((0.5, ()), (1.0, (Coating(1.0, 3.0, 2.0, 0.0, 0.3),)))
-    )
-    assert pair.value == pytest.approx(value.value, abs=value.u_num + pair.u_num)
-
-
-@pytest.mark.heavy
-def test_homogeneous_bodies_of_any_kind_are_one() -> None:
-    """A power law beside layers of one material, whose images vanish, is a power law beside a homogeneous solid."""
-    power = PowerLaw(1.0, 3.0, 0.4, 0.3)
-    layers, plain = (
-        solve(Problem(power, PUNCH, LAW, solid), "pull_off_force")
-        for solid in (Layers([1.0, 1.0], [0.3, 0.3], [2.0]), Homogeneous(1.0, 0.3))
-    )
-    assert abs(layers.value - plain.value) <= layers.u_num + plain.u_num
-
-
 def _pull_off(tension: float, modulus: float = 0.5, R: float = 50.0, nu: float = 0.3) -> float:
     """In pi R w."""
     solution = solve(Problem(Homogeneous(modulus, nu, tension), PowerPunch(2.0, R), LAW), "pull_off_force")
@@ -239,11 +206,6 @@ def test_a_small_surface_tension() -> None:
     plain, small, twice = (_pull_off(Y) for Y in (0.0, 1e-5, 2e-5))
     assert (plain - twice) / (plain - small) == pytest.approx(2.0, rel=1e-3)
     assert 0.0 < plain - small < 1e-5
-
-
-@pytest.mark.heavy
-def test_a_negligible_surface_tension() -> None:
-    assert _pull_off(1e-11) == pytest.approx(_pull_off(0.0), rel=1e-10)
 
 
 @pytest.mark.parametrize(("ratio", "error"), [(50.0, 0.04), *heavy((200.0, 0.01), (1000.0, 0.003))])
@@ -269,16 +231,6 @@ def test_a_bead_on_pdms() -> None:
     jkr = 1.5 * math.pi * 5e-6 * 0.05
     assert -0.03 < force.value / jkr - 1.0 < -0.015
     assert force.u_num < 1e-8 * force.value
-
-
-@pytest.mark.heavy
-@pytest.mark.parametrize("k", [0.0, 0.2, 0.6, 0.9])
-@pytest.mark.parametrize("tension", [1e-4, 0.1, 10.0])
-def test_a_surface_with_tension_within_its_bound_of_a_finer_mesh(k: float, tension: float) -> None:
-    problem = Problem(PowerLaw(0.5, 5.0, k, 0.3, tension), PowerPunch(2.0, 50.0), LAW)
-    for quantity in ("pull_off_force", "zero_load_displacement"):
-        value, finer = solve(problem, quantity), solve(problem, quantity, FINE)
-        assert abs(value.value - finer.value) <= value.u_num + finer.u_num
 
 
 def test_units_and_parts_of_a_pair() -> None:

@@ -53,20 +53,6 @@ def test_values_on_finer_meshes_are_within_the_bounds(
         assert solution.u_num < most
 
 
-def test_the_derivatives_of_the_tail() -> None:
-    """Against central differences in the radius and in the displacement."""
-    problem, T, displacement, h = Problem(1.1, 0.3, 0.8, law=Mie(m=3, n=2)), 40.0, -1.5, 1e-5
-    tail = tail_of(problem, T, displacement)
-    neighbours = {
-        "rate": [tail_of(problem, T * (1.0 + x), displacement) for x in (h, -h)],
-        "slope": [tail_of(problem, T, displacement + x) for x in (h, -h)],
-    }
-    for name in ("load", "displacement"):
-        for derivative, (after, before) in neighbours.items():
-            difference = (getattr(after, name) - getattr(before, name)) / (2.0 * h)
-            assert getattr(tail, f"{name}_{derivative}") == pytest.approx(difference, rel=1e-7)
-
-
 def test_a_shape_that_is_not_yet_a_power_at_the_end_of_the_mesh_is_in_the_bound() -> None:
     """r^2 - r at f = 1e6 is off its power by 1e-3; the force moved by 2e-7 with the end, u_num was 1e-12."""
     problem = Problem(2, 0.3, 0.3, punch=PowerSum([-1, 1], [1, 2]), law=Mie(m=3, n=1.5))

@@ -3,15 +3,7 @@
 import numpy as np
 import pytest
 
-from fscm import (
-    Coating,
-    NotConverged,
-    PowerSum,
-    Problem,
-    RoundedCone,
-    TabulatedLaw,
-    solve,
-)
+import fscm
 from fscm._path.arc_length import parameter_of, rates_of
 from fscm._path.continuation import moved
 from fscm._path.pull_off_path import pull_off_path
@@ -24,8 +16,8 @@ from fscm.stability import stability_of
 from tests.fscm.solved_once import analysis_of
 from tests.refusals import refused
 
-SOFT_BELOW = Coating(5.0, 1.0, 0.7, 0.1, 0.3)
-GRADED = Problem(2, 0.0, 0.3, graded=SOFT_BELOW)
+SOFT_BELOW = fscm.Coating(5.0, 1.0, 0.7, 0.1, 0.3)
+GRADED = fscm.Problem(2, 0.0, 0.3, graded=SOFT_BELOW)
 
 
 def test_rates_along_the_path_are_exact():
@@ -42,7 +34,7 @@ def test_rates_along_the_path_are_exact():
 def test_the_error_of_the_kernel_is_a_part_of_the_bound():
     parts = analysis_of(GRADED).solution("pull_off_force").parts
     assert 0.0 < parts["kernel"] < 1e-7
-    assert solve(Problem(2, 0, 1.0), "pull_off_force").parts["kernel"] == 0.0
+    assert fscm.solve(fscm.Problem(2, 0, 1.0), "pull_off_force").parts["kernel"] == 0.0
 
 
 def test_a_refined_mesh_keeps_the_response_between_its_old_panels():
@@ -63,18 +55,18 @@ def test_a_refined_mesh_keeps_the_response_between_its_old_panels():
 
 def test_the_short_path_is_for_power_laws_alone():
     """On layers, for a law of the user and under another punch the load may have several minima."""
-    assert pull_off_path(Problem(2, 0.0, 1.0), Meshes()) is not None
+    assert pull_off_path(fscm.Problem(2, 0.0, 1.0), Meshes()) is not None
     gaps = np.geomspace(0.75, 20.0, 100)
-    law = TabulatedLaw(gaps, gaps**-9 - gaps**-3, tail_exponent=3)
-    assert pull_off_path(Problem(2, 0.0, 1.0, law=law), Meshes()) is None
+    law = fscm.TabulatedLaw(gaps, gaps**-9 - gaps**-3, tail_exponent=3)
+    assert pull_off_path(fscm.Problem(2, 0.0, 1.0, law=law), Meshes()) is None
     assert pull_off_path(GRADED, Meshes()) is None
-    assert pull_off_path(Problem(1, 0.2, 1.0, punch=RoundedCone(2.0)), Meshes()) is None
+    assert pull_off_path(fscm.Problem(1, 0.2, 1.0, punch=fscm.RoundedCone(2.0)), Meshes()) is None
 
 
 def test_what_needs_a_power_law_is_refused_in_one_sentence():
-    refused(r"k = 0.4 is outside \[0, 0\]", Problem, 2, 0.4, 1.0, graded=SOFT_BELOW)
-    refused("is no graded solid", Problem, 2, 0.0, 1.0, graded=3.0)
+    refused(r"k = 0.4 is outside \[0, 0\]", fscm.Problem, 2, 0.4, 1.0, graded=SOFT_BELOW)
+    refused("is no graded solid", fscm.Problem, 2, 0.0, 1.0, graded=3.0)
     assert 0.0 < stability_of(analysis_of(GRADED).event("pull_off").value).margin < 1.0
-    rough = PowerSum([1.0, -2.0, 1.05], [2, 3, 4])
-    with pytest.raises(NotConverged, match="power-law modulus only"):
-        Analysis(Problem(4, 0.0, 1.0, graded=SOFT_BELOW, punch=rough)).event("zero_load")
+    rough = fscm.PowerSum([1.0, -2.0, 1.05], [2, 3, 4])
+    with pytest.raises(fscm.NotConverged, match="power-law modulus only"):
+        Analysis(fscm.Problem(4, 0.0, 1.0, graded=SOFT_BELOW, punch=rough)).event("zero_load")

@@ -8,18 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from fscm import (
-    Analysis,
-    EquilibriumPath,
-    NotConverged,
-    Problem,
-    displacement_cycle,
-    equilibria,
-    profile,
-    solve,
-    solve_together,
-    trace,
-)
+import fscm
 from fscm._path.arc_length import parameter_of, rates_of
 from fscm._path.continuation import equilibrium_path, moved
 from fscm._path.jumps import Branch, jumps_between
@@ -42,7 +31,7 @@ def test_work_equals_change_of_energy(n: float, k: float, mu: float) -> None:
     The work is the Gauss integral over the continuation parameter of P d(delta), at states solved there.
     """
     points = []
-    for point in equilibrium_path(Problem(n, k, mu), 10, 1e-6, longest_step=0.2):
+    for point in equilibrium_path(fscm.Problem(n, k, mu), 10, 1e-6, longest_step=0.2):
         points.append(point)
         if point.state.anchor.in_contact and point.state.load > 0:
             break
@@ -63,7 +52,7 @@ def test_work_equals_change_of_energy(n: float, k: float, mu: float) -> None:
 
 @pytest.mark.parametrize("mu", [1.0, *heavy(3.0)])
 def test_a_path_has_its_events_and_bounds_that_hold(mu: float) -> None:
-    problem = Problem(2, 0.4, mu)
+    problem = fscm.Problem(2, 0.4, mu)
     path, analysis = path_of(problem), analysis_of(problem)
     assert path.load.min() == pytest.approx(-analysis.solution("pull_off_force").value, abs=1e-7)
     folds = np.flatnonzero(np.diff(path.displacement) < 0)
@@ -73,7 +62,7 @@ def test_a_path_has_its_events_and_bounds_that_hold(mu: float) -> None:
     assert max(path.u_load, path.u_displacement) < 1e-5
     # States at the same central gap, solved to full accuracy.
     for i in (3, len(path.load) // 2, -5):
-        (state,) = equilibria(problem, "central_gap", float(path.central_gap[i]))
+        (state,) = fscm.equilibria(problem, "central_gap", float(path.central_gap[i]))
         # In contact the central gap hardly moves: compare along the curve, not at equal gap.
         slope = np.gradient(path.load, path.displacement)[i]
         off = state.load - path.load[i] - slope * (state.displacement - path.displacement[i])
@@ -81,20 +70,20 @@ def test_a_path_has_its_events_and_bounds_that_hold(mu: float) -> None:
 
 
 def test_bad_controls_and_angles_are_refused() -> None:
-    problem = Problem(2, 0.4, 1.0)
+    problem = fscm.Problem(2, 0.4, 1.0)
     for control, value, message in (
         ("gap", 1.0, "unknown"),
         ("load", math.nan, "finite"),
         ("central_gap", -1.0, "singular"),
     ):
-        refused(message, equilibria, problem, control, value)
+        refused(message, fscm.equilibria, problem, control, value)
     for degrees in (0.0, -5.0, 181.0, math.nan):
-        refused("largest_turn", trace, problem, largest_turn=degrees)
+        refused("largest_turn", fscm.trace, problem, largest_turn=degrees)
 
 
 def test_profiles_at_pull_off() -> None:
     """Eq. 4 closes on the profiles; the contact is flat and the edge carries the strength (Fig. 5)."""
-    surface = profile(Problem(2, 0.4, 1.0))
+    surface = fscm.profile(fscm.Problem(2, 0.4, 1.0))
     closure = surface.gap + surface.displacement - surface.radius**2 / 2 - surface.deformation
     assert np.max(np.abs(closure) / (1 + surface.gap)) < 1e-10
     assert surface.pressure.min() == pytest.approx(-1.0264, abs=1e-3)
@@ -103,14 +92,14 @@ def test_profiles_at_pull_off() -> None:
 
 @pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.9, 100.0), (2.0, 0.99, 1.0), (2.0, 0.95, 20.0)])
 def test_an_edge_too_narrow_is_refused_with_the_largest_tabor_number(n: float, k: float, mu: float) -> None:
-    with pytest.raises(NotConverged, match=r"the largest Tabor number at n = 2, k = .* is mu = "):
-        solve(Problem(n, k, mu), "pull_off_force")
+    with pytest.raises(fscm.NotConverged, match=r"the largest Tabor number at n = 2, k = .* is mu = "):
+        fscm.solve(fscm.Problem(n, k, mu), "pull_off_force")
 
 
 def test_the_drawn_curve_turns_slowly():
     """The loop at n = 5, mu = 2 has several folds: 180 degrees adds no points, and then the line has corners."""
-    problem = Problem(5.0, 0.4, 2.0)
-    sparse, dense = trace(problem, largest_turn=180.0), trace(problem)
+    problem = fscm.Problem(5.0, 0.4, 2.0)
+    sparse, dense = fscm.trace(problem, largest_turn=180.0), fscm.trace(problem)
 
     def largest_turn(path):
         depth = -path.load.min()
@@ -166,17 +155,17 @@ def test_each_jump_lands_on_the_next_branch_with_its_displacement(
 
 
 def test_a_jump_without_a_branch_to_land_on_is_told() -> None:
-    with pytest.raises(NotConverged, match=r"displacement 9, at which a jump-in begins"):
+    with pytest.raises(fscm.NotConverged, match=r"displacement 9, at which a jump-in begins"):
         jumps_between(_branches((-math.inf, 9.0), (0.0, 3.0)), inward=True)
 
 
 @pytest.fixture(scope="module")
-def film() -> Analysis:
+def film() -> fscm.Analysis:
     """A sphere on a stiff film on a soft solid: the film alone jumps out of contact before the solid below does."""
     return stiff_on_soft()[0]
 
 
-def test_a_film_jumps_twice_on_retreat(film: Analysis) -> None:
+def test_a_film_jumps_twice_on_retreat(film: fscm.Analysis) -> None:
     jumps = [*film.jumps("jump_in"), *film.jumps("jump_out")]
     assert [len(film.jumps(name)) for name in ("jump_in", "jump_out")] == [1, 2]
     assert [0.4 * fold.value.displacement for fold, _ in jumps] == pytest.approx(FILM_JUMPS, abs=1e-4)
@@ -187,7 +176,7 @@ def test_a_film_jumps_twice_on_retreat(film: Analysis) -> None:
         assert fold.value.energy > landing.value.energy
 
 
-def test_the_hysteresis_of_a_film_is_what_its_three_jumps_lose(film: Analysis) -> None:
+def test_the_hysteresis_of_a_film_is_what_its_three_jumps_lose(film: fscm.Analysis) -> None:
     jumps = [*film.jumps("jump_in"), *film.jumps("jump_out")]
     losses = [fold.value.energy - landing.value.energy for fold, landing in jumps]
     energy = film.solution("hysteresis_energy")
@@ -203,8 +192,8 @@ def test_a_recorded_jump_passes_over_what_cannot_be_held(held: list[bool], retre
     """Of a part between two folds that is unstable twice the displacement rises, too."""
     displacement = np.array([-9.0, 0.0, -3.0, -1.0, -2.5, 1.0])
     blank, marks = np.zeros(6), np.array(held, bool)
-    cycle = displacement_cycle(
-        EquilibriumPath(blank, displacement, np.arange(6.0), blank, blank, 0.0, 0.0, (), marks, marks)
+    cycle = fscm.displacement_cycle(
+        fscm.EquilibriumPath(blank, displacement, np.arange(6.0), blank, blank, 0.0, 0.0, (), marks, marks)
     )
     jumps = np.flatnonzero(np.diff(cycle.unloading[0]) == 0.0)
     assert cycle.unloading[0, jumps].tolist() == retreat
@@ -220,7 +209,7 @@ def test_a_recorded_jump_passes_over_what_cannot_be_held(held: list[bool], retre
 @pytest.mark.heavy
 def test_an_edge_below_the_rounding_of_its_radius(k: float, mu: float, zero_load_displacement: float) -> None:
     """JKR-n-k: it is right to 5e-7 here.  A mesh that does not resolve the edge was wrong by 2e-3."""
-    solutions = solve_together(Problem(2.0, k, mu), ("pull_off_force", "zero_load_displacement"))
+    solutions = fscm.solve_together(fscm.Problem(2.0, k, mu), ("pull_off_force", "zero_load_displacement"))
     for solution, jkr in zip(solutions.values(), (0.5 * (3.0 + k), zero_load_displacement), strict=True):
         assert solution.value == pytest.approx(jkr, rel=5e-7)
         assert solution.u_num < 1e-6 * jkr

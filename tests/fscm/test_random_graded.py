@@ -10,18 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fscm import (
-    Coating,
-    Exponential,
-    LennardJones,
-    NoSuchEvent,
-    OffsetPowerLaw,
-    PowerLaw,
-    PowerPunch,
-    Problem,
-    TabulatedModulus,
-    solve_together,
-)
+import fscm
 from fscm._surface.response import images, panels, patches, response
 from fscm.accuracy import Mesh, Meshes
 
@@ -43,15 +32,15 @@ def _solid(rng):
     kind, nu, length = int(rng.integers(5)), float(rng.uniform(0.0, 0.5)), _between(rng, 0.2, 5.0)
     ratio = _between(rng, 0.1, 10.0)
     if kind == 0:
-        return OffsetPowerLaw(1.0, 1.0, float(rng.uniform(0.0, 0.8)), length, nu)
+        return fscm.OffsetPowerLaw(1.0, 1.0, float(rng.uniform(0.0, 0.8)), length, nu)
     if kind == 1:
-        return Exponential(1.0, ratio, length, nu)
+        return fscm.Exponential(1.0, ratio, length, nu)
     if kind == 2:
-        return Coating(1.0, ratio, length, length * float(rng.uniform(0.1, 0.5)), nu, float(rng.uniform(0.0, 0.5)))
+        return fscm.Coating(1.0, ratio, length, length * float(rng.uniform(0.1, 0.5)), nu, float(rng.uniform(0.0, 0.5)))
     if kind == 3:
-        return Coating(1.0, ratio, length, 0.0, nu, float(rng.uniform(0.0, 0.5)))
+        return fscm.Coating(1.0, ratio, length, 0.0, nu, float(rng.uniform(0.0, 0.5)))
     depths = np.concatenate([[0.0], np.cumsum(length * rng.uniform(0.3, 1.5, 3))])
-    return TabulatedModulus(depths.tolist(), [1.0, *(_between(rng, 0.3, 3.0) for _ in range(3))], nu)
+    return fscm.TabulatedModulus(depths.tolist(), [1.0, *(_between(rng, 0.3, 3.0) for _ in range(3))], nu)
 
 
 def problems():
@@ -60,13 +49,13 @@ def problems():
     problems = []
     for _ in range(COUNT):
         n = float(rng.choice([1.0, 1.5, 2.0, 3.0]))
-        problems.append(Problem(n, 0.0, _between(rng, 0.1, 3.0), graded=_solid(rng)))
+        problems.append(fscm.Problem(n, 0.0, _between(rng, 0.1, 3.0), graded=_solid(rng)))
     return problems
 
 
 def _body(rng):
     """A solid, half of them power laws and half of them with surface tension, over lengths of 1e-3 to 10 radii."""
-    solid = _solid(rng) if rng.random() < 0.5 else PowerLaw(1.0, 1.0, float(rng.uniform(0.0, 0.8)), 0.3)
+    solid = _solid(rng) if rng.random() < 0.5 else fscm.PowerLaw(1.0, 1.0, float(rng.uniform(0.0, 0.8)), 0.3)
     return replace(solid, surface_tension=_between(rng, 1e-3, 10.0) if rng.random() < 0.5 else 0.0)
 
 
@@ -75,9 +64,9 @@ def problems_of_bodies():
     rng = np.random.default_rng(20261128)
     problems = []
     while len(problems) < COUNT_OF_BODIES:
-        punch = PowerPunch(float(rng.choice([1.0, 1.5, 2.0, 3.0])), 1.0)
+        punch = fscm.PowerPunch(float(rng.choice([1.0, 1.5, 2.0, 3.0])), 1.0)
         bodies = [_body(rng) for _ in range(int(rng.integers(1, 3)))]
-        problem = Problem(bodies[0], punch, LennardJones(_between(rng, 0.1, 3.0), 1.0), *bodies[1:])
+        problem = fscm.Problem(bodies[0], punch, fscm.LennardJones(_between(rng, 0.1, 3.0), 1.0), *bodies[1:])
         if problem.dimensionless.graded is not None:
             problems.append(problem)
     return problems
@@ -128,12 +117,12 @@ def test_events_of_random_bodies_are_honest(number, finer):
 
 
 def _check(problem, names, finer):
-    solutions = solve_together(problem, names)
+    solutions = fscm.solve_together(problem, names)
     finer()
-    exact = solve_together(problem, names, FINE)
+    exact = fscm.solve_together(problem, names, FINE)
     for name in names:
-        assert isinstance(solutions[name], NoSuchEvent) == isinstance(exact[name], NoSuchEvent), name
-        if not isinstance(exact[name], NoSuchEvent):
+        assert isinstance(solutions[name], fscm.NoSuchEvent) == isinstance(exact[name], fscm.NoSuchEvent), name
+        if not isinstance(exact[name], fscm.NoSuchEvent):
             error = abs(solutions[name].value - exact[name].value)
             assert error <= solutions[name].u_num + ROUNDING * abs(exact[name].value), (problem, name, error)
             assert solutions[name].u_num < 1e-5 * (1.0 + abs(exact[name].value)), (problem, name)

@@ -6,19 +6,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from fscm import (
-    SENSITIVE,
-    Coating,
-    MeasuredPunch,
-    Mie,
-    NoSuchEvent,
-    Problem,
-    RoundedCone,
-    ValueSensitivity,
-    sensitivity,
-    solve,
-    solve_together,
-)
+import fscm
 from tests.marks import heavy
 from tests.refusals import refused
 
@@ -51,35 +39,35 @@ def close(value, expected, relative, scale=0.0):
 
 
 def test_a_power_law_by_all_its_numbers():
-    problem = Problem(2, 0.4, 1.0)
-    rates = sensitivity(problem, "pull_off_force")
-    assert rates.solution.value == solve(problem, "pull_off_force").value
+    problem = fscm.Problem(2, 0.4, 1.0)
+    rates = fscm.sensitivity(problem, "pull_off_force")
+    assert rates.solution.value == fscm.solve(problem, "pull_off_force").value
     assert list(rates.gradient) == ["mu", "k", "n"]
     numbers = {"n": 2.0, "k": 0.4, "mu": 1.0}
     for name, slope in rates.gradient.items():
 
         def value(x, name=name):
-            return solve(Problem(**numbers | {name: x}), "pull_off_force").value
+            return fscm.solve(fscm.Problem(**numbers | {name: x}), "pull_off_force").value
 
         assert close(slope, difference(value, numbers[name]), DIFFERENCE), name
 
 
-@pytest.mark.parametrize("quantity", ["jump_in_gap", *heavy(*SENSITIVE)])
+@pytest.mark.parametrize("quantity", ["jump_in_gap", *heavy(*fscm.SENSITIVE)])
 def test_every_quantity_by_the_tabor_number(quantity):
     # The third derivative of a gap at an extreme of the displacement is large near the critical number.
-    expected = five_points(lambda mu: solve(Problem(2, 0.3, mu), quantity).value, 2.0)
-    assert close(sensitivity(Problem(2, 0.3, 2.0), quantity).gradient["mu"], expected, FINE)
+    expected = five_points(lambda mu: fscm.solve(fscm.Problem(2, 0.3, mu), quantity).value, 2.0)
+    assert close(fscm.sensitivity(fscm.Problem(2, 0.3, 2.0), quantity).gradient["mu"], expected, FINE)
 
 
 def test_another_law_and_another_punch():
-    problem = Problem(1.0, 0.0, 1.5, RoundedCone(1.0), Mie(m=12, n=6))
-    rates = sensitivity(problem, "pull_off_force")
+    problem = fscm.Problem(1.0, 0.0, 1.5, fscm.RoundedCone(1.0), fscm.Mie(m=12, n=6))
+    rates = fscm.sensitivity(problem, "pull_off_force")
     for posed, at in (
-        (lambda x: replace(problem, law=Mie(m=x, n=6)), 12.0),
-        (lambda x: replace(problem, punch=RoundedCone(x)), 1.0),
+        (lambda x: replace(problem, law=fscm.Mie(m=x, n=6)), 12.0),
+        (lambda x: replace(problem, punch=fscm.RoundedCone(x)), 1.0),
     ):
         slope = rates.derivative(posed, at, at)
-        expected = difference(lambda x, posed=posed: solve(posed(x), "pull_off_force").value, at)
+        expected = difference(lambda x, posed=posed: fscm.solve(posed(x), "pull_off_force").value, at)
         assert close(slope, expected, DIFFERENCE, scale=0.1)
 
 
@@ -88,30 +76,30 @@ def test_the_state_follows_the_kinks_of_a_measured_punch():
     r = np.linspace(0.0, 4.0, 6)
 
     def posed(x):
-        return Problem(2, 0.0, 1.0, MeasuredPunch((x * r).tolist(), (r**2 / 2).tolist()))
+        return fscm.Problem(2, 0.0, 1.0, fscm.MeasuredPunch((x * r).tolist(), (r**2 / 2).tolist()))
 
-    slope = sensitivity(posed(1.0), "pull_off_force").derivative(posed, 1.0, 1.0)
+    slope = fscm.sensitivity(posed(1.0), "pull_off_force").derivative(posed, 1.0, 1.0)
     # A radius that is stretched by x is that of a sphere of radius x^2: the force is proportional to about x^2.
-    expected = difference(lambda x: solve(posed(x), "pull_off_force").value, 1.0)
+    expected = difference(lambda x: fscm.solve(posed(x), "pull_off_force").value, 1.0)
     assert close(slope, expected, DIFFERENCE)
 
 
 def coated(E_coating=1.0, E_substrate=9.0, thickness=1.0, nu=0.3):
-    return Problem(2, 0.0, 2.0, graded=Coating(E_coating, E_substrate, thickness, 0.1, nu))
+    return fscm.Problem(2, 0.0, 2.0, graded=fscm.Coating(E_coating, E_substrate, thickness, 0.1, nu))
 
 
 @lru_cache(maxsize=4)
 def quantities_of_a_coated_solid(name, value):
-    return solve_together(coated(**{name: value}), tuple(SENSITIVE))
+    return fscm.solve_together(coated(**{name: value}), tuple(fscm.SENSITIVE))
 
 
 AT = {"thickness": 1.0, "E_coating": 1.0, "E_substrate": 9.0, "nu": 0.3}
 
 
 def test_a_coating_that_is_slightly_thicker_changes_the_force():
-    thin, thicker = (Problem(2, 0.0, 0.5, graded=Coating(1.0, 9.0, x, 0.0, 0.3)) for x in (1.0, 1.0 + STEP))
-    rates = sensitivity(thin, "pull_off_force", "quick")
-    change = solve(thicker, "pull_off_force", "quick").value - rates.solution.value
+    thin, thicker = (fscm.Problem(2, 0.0, 0.5, graded=fscm.Coating(1.0, 9.0, x, 0.0, 0.3)) for x in (1.0, 1.0 + STEP))
+    rates = fscm.sensitivity(thin, "pull_off_force", "quick")
+    change = fscm.solve(thicker, "pull_off_force", "quick").value - rates.solution.value
     assert rates.change(thicker) == pytest.approx(change, rel=3.0 * STEP)
 
 
@@ -119,8 +107,8 @@ def test_a_coating_that_is_slightly_thicker_changes_the_force():
 @pytest.mark.parametrize("name", AT)
 def test_quantities_of_a_coated_solid(name):
     rule = difference if name == "thickness" else five_points
-    for quantity in SENSITIVE:
-        slope = sensitivity(coated(), quantity).derivative(lambda x: coated(**{name: x}), AT[name], AT[name])
+    for quantity in fscm.SENSITIVE:
+        slope = fscm.sensitivity(coated(), quantity).derivative(lambda x: coated(**{name: x}), AT[name], AT[name])
 
         def value(x, quantity=quantity):
             return quantities_of_a_coated_solid(name, x)[quantity].value
@@ -129,14 +117,14 @@ def test_quantities_of_a_coated_solid(name):
 
 
 def test_the_incompressible_linear_solid_has_no_neighbours():
-    rates = sensitivity(Problem(2, 1.0, 0.1), "pull_off_force")
+    rates = fscm.sensitivity(fscm.Problem(2, 1.0, 0.1), "pull_off_force")
     # A paraboloid has the same force at any Tabor number.
     assert abs(rates.gradient["mu"]) < IDENTITY
-    refused("no neighbours", rates.change, Problem(2, 0.9, 0.1))
+    refused("no neighbours", rates.change, fscm.Problem(2, 0.9, 0.1))
 
 
 def test_quantities_without_a_sensitivity():
-    refused("hysteresis_energy is none of those", sensitivity, Problem(2, 0, 1.0), "hysteresis_energy")
-    refused("unknown quantity", ValueSensitivity, Problem(2, 0, 1.0), "force")
-    with pytest.raises(NoSuchEvent):
-        sensitivity(Problem(2, 0, 0.1), "jump_in_gap")
+    refused("hysteresis_energy is none of those", fscm.sensitivity, fscm.Problem(2, 0, 1.0), "hysteresis_energy")
+    refused("unknown quantity", fscm.ValueSensitivity, fscm.Problem(2, 0, 1.0), "force")
+    with pytest.raises(fscm.NoSuchEvent):
+        fscm.sensitivity(fscm.Problem(2, 0, 0.1), "jump_in_gap")

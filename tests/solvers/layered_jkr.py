@@ -1,14 +1,15 @@
 """JKR contact with a layered half-space, independent of `fscm` and of `fem_reference`.
 
-A rigid axisymmetric punch adheres without friction to isotropic layers on a half-space; adhesion has no range (work of
+A rigid paraboloid adheres without friction to isotropic layers on a half-space; adhesion has no range (work of
 adhesion w). Its Hankel transform is p(xi) = int_0^a phi(t) cos(xi t) dt, so the pressure vanishes beyond the contact
 radius a. The surface compliance is 2 c(xi) / (E1* xi), with E1* of the surface layer and c = 1 for equal layers, and
 the Abel transform of the displacement within the contact gives the Fredholm equation of the second kind
 
     phi(x) + (1/pi) int_{-a}^{a} k(x - t) phi(t) dt = (E1*/pi) (delta - s(x)),  k(s) = int_0^inf (c - 1) cos(xi s) dxi,
 
-s(x) = d/dx int_0^x r f(r) / sqrt(x^2 - r^2) dr for the profile f. The load is 2 pi int_0^a phi, and the edge is in
-equilibrium at pi phi(a)^2 / (2 a E1*) = w with phi(a) < 0 (Sneddon 1965; Maugis, Contact, Adhesion and Rupture, ch. 4).
+s(x) = d/dx int_0^x r f(r) / sqrt(x^2 - r^2) dr = x^2/R for the paraboloid f = r^2/(2 R). The load is
+2 pi int_0^a phi, and the edge is in equilibrium at pi phi(a)^2 / (2 a E1*) = w with phi(a) < 0 (Sneddon 1965;
+Maugis, Contact, Adhesion and Rupture, ch. 4).
 SI units, or any others that agree; tension is negative.
 """
 
@@ -19,7 +20,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
 from scipy.optimize import minimize_scalar
-from scipy.special import gamma
 
 FAR_DECAY = 24.0  # exp(-2 FAR_DECAY) = 1e-21: c - 1 beyond xi = FAR_DECAY / thickness of the surface layer
 PHASE = 4 * np.pi  # of cos(xi s) in one panel of at least 20 Gauss points: error below J_40(2 pi) = 1e-28
@@ -157,7 +157,7 @@ class Equilibrium:
 
 
 class LayeredJKR:
-    """JKR path of the punch f(r) = r^n / (n Q) on a stack; n = 2 and Q = R is the paraboloid of radius R.
+    """JKR path of the paraboloid f(r) = r^2 / (2 R) on a stack.
 
     Parameters
     ----------
@@ -165,16 +165,16 @@ class LayeredJKR:
         Layers and substrate.
     work
         Work of adhesion.
-    Q, n
-        Profile of the punch.
+    R
+        Radius of the paraboloid.
     reach
         Largest contact radius.
     points
         Gauss points in each panel of the contact.
     """
 
-    def __init__(self, stack: Stack, work: float, Q: float, reach: float, n: float = 2.0, points: int = 16):
-        self.stack, self.work, self.Q, self.n, self.reach, self.points = stack, work, Q, n, reach, points
+    def __init__(self, stack: Stack, work: float, R: float, reach: float, points: int = 16):
+        self.stack, self.work, self.R, self.reach, self.points = stack, work, R, reach, points
 
     @cached_property
     def kernel(self) -> CompressedKernel:
@@ -182,15 +182,12 @@ class LayeredJKR:
 
     def abel_profile(self, x: np.ndarray) -> np.ndarray:
         """s(x) = d/dx int_0^x r f(r) / sqrt(x^2 - r^2) dr."""
-        return abel_factor(self.Q, self.n) * np.abs(x) ** self.n
+        return x**2 / self.R
 
     def panels(self, a: float) -> np.ndarray:
-        """Panels of [0, a], halved towards the edge down to half a thickness, towards 0 where r^n is not smooth."""
+        """Panels of [0, a], halved towards the edge down to half a thickness."""
         octaves = max(1, int(np.ceil(np.log2(2 * a / self.kernel.h))))
-        edges = a * (1 - 2.0 ** -np.arange(octaves + 1.0))
-        if self.n % 1:
-            edges = np.concatenate([[0.0], edges[1] * 2.0 ** -np.arange(12.0, 0, -1), edges[1:]])
-        return np.append(edges, a)
+        return np.append(a * (1 - 2.0 ** -np.arange(octaves + 1.0)), a)
 
     def solutions(self, a: float) -> tuple[np.ndarray, np.ndarray]:
         """(int_0^a phi, phi(a)) in units of E1*/pi, for the displacement 1 and for the profile."""
@@ -237,7 +234,7 @@ class LayeredJKR:
     def scan(self, steps_per_octave: int = STEPS_PER_OCTAVE) -> list[Equilibrium]:
         """States from far below the thinnest layer and every contact radius of a half-space up to `reach`."""
         lengths = [layer[2] for layer in self.stack.layers]
-        lengths += [half_space_radius(medium, self.work, self.Q, self.n) for medium in self.stack.media]
+        lengths += [half_space_radius(medium, self.work, self.R) for medium in self.stack.media]
         octaves = np.log2(self.reach / (SMALLEST * min(lengths)))
         radii = self.reach * 2.0 ** -np.linspace(octaves, 0, int(np.ceil(octaves * steps_per_octave)) + 1)
         return [self.state(a) for a in radii]
@@ -260,21 +257,15 @@ class LayeredJKR:
         return self.state(float(np.exp(result.x)))
 
 
-def abel_factor(Q: float, n: float) -> float:
-    """s(x) / x^n of the profile r^n / (n Q)."""
-    return float(np.sqrt(np.pi) * gamma(n / 2 + 1) / gamma(n / 2 + 0.5) / (n * Q))
+def half_space_radius(medium: Medium, work: float, R: float) -> float:
+    """Contact radius at pull-off from a half-space: a^3 = 9 pi w R^2 / (8 E*)."""
+    return float(np.cbrt(9 * np.pi * work * R**2 / (8 * medium.plane_strain)))
 
 
-def half_space_radius(medium: Medium, work: float, Q: float, n: float) -> float:
-    """Contact radius at pull-off from a half-space: there n s(a) = (3/2) sqrt(2 pi w a / E*)."""
-    edge = 1.5 * np.sqrt(2 * np.pi * work / medium.plane_strain)
-    return float((edge / (n * abel_factor(Q, n))) ** (1 / (n - 0.5)))
-
-
-def jkr(stack: Stack, work: float, Q: float, n: float = 2.0, points: int = 16) -> LayeredJKR:
-    """The punch on the stack, with contact radii up to `LARGEST` of that at pull-off from the softest half-space."""
-    reach = LARGEST * max(half_space_radius(medium, work, Q, n) for medium in stack.media)
-    return LayeredJKR(stack, work, Q, reach, n, points)
+def jkr(stack: Stack, work: float, R: float, points: int = 16) -> LayeredJKR:
+    """The paraboloid on the stack, with contact radii up to `LARGEST` of that at pull-off from the softest medium."""
+    reach = LARGEST * max(half_space_radius(medium, work, R) for medium in stack.media)
+    return LayeredJKR(stack, work, R, reach, points)
 
 
 @dataclass(frozen=True)
@@ -286,12 +277,12 @@ class Minimum:
     error: float
 
 
-def minima_with_error(stack: Stack, work: float, Q: float, n: float = 2.0) -> list[Minimum]:
+def minima_with_error(stack: Stack, work: float, R: float) -> list[Minimum]:
     """All minima of the load; error: change of the load from 12 to 16 Gauss points at the same contact radius.
 
     The load is stationary there, so the error of the contact radius is of second order.
     """
-    fine, coarse = jkr(stack, work, Q, n), jkr(stack, work, Q, n, points=12)
+    fine, coarse = jkr(stack, work, R), jkr(stack, work, R, points=12)
     return [
         Minimum(state.contact_radius, state.load, abs(coarse.state(state.contact_radius).load - state.load))
         for state in fine.minima()

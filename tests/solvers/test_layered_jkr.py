@@ -1,9 +1,11 @@
-"""JKR contact with layers: exact limits, identities, and the digits of three stiff coatings on a soft substrate."""
+"""JKR contact with layers: exact limits, identities, digits of stiff coatings, and the references that approach it."""
+
+import math
 
 import numpy as np
 import pytest
-from scipy.special import gamma
 
+import fscm
 from tests.solvers.layered_jkr import Medium, Stack, half_space_radius, jkr, minima_with_error
 
 RADIUS, WORK = 5e-6, 0.05
@@ -20,7 +22,7 @@ forces by another method: 120 rings of uniform pressure, compliance from the Han
 
 def coated(modulus_ratio: float, thickness_ratio: float, poisson: float = 0.4) -> Stack:
     """One coating on the soft substrate; its thickness in contact radii at pull-off from the substrate."""
-    thickness = thickness_ratio * half_space_radius(Medium(*SOFT), WORK, RADIUS, 2.0)
+    thickness = thickness_ratio * half_space_radius(Medium(*SOFT), WORK, RADIUS)
     return Stack(((modulus_ratio * SOFT[0], poisson, thickness),), SOFT)
 
 
@@ -50,21 +52,21 @@ def test_minima_of_stiff_coatings(coating) -> None:
     assert all(minimum.error < -1e-10 * minimum.load for minimum in minima)
 
 
-@pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 3.0])
-def test_power_law_punches_on_equal_moduli(n: float) -> None:
-    """P = 2 E* (n a s(a) / (n + 1) - sqrt(2 pi w a^3 / E*)), least where n s(a) = 3/2 sqrt(2 pi w a / E*)."""
-    Q, edge = RADIUS ** (n - 1), np.sqrt(2 * np.pi * WORK / Medium(*SOFT).plane_strain)
-    sneddon = np.sqrt(np.pi) * gamma(n / 2 + 1) / gamma(n / 2 + 0.5) / (n * Q)
-    radius = (1.5 * edge / (sneddon * n)) ** (1 / (n - 0.5))
-    load = 2 * Medium(*SOFT).plane_strain * (sneddon * radius ** (n + 1) * n / (n + 1) - edge * radius**1.5)
-    assert jkr(STACKS["equal"], WORK, Q, n).state(radius).load == pytest.approx(load, rel=1e-9)
+def test_equal_moduli_are_a_half_space() -> None:
+    """P = 4 E* a^3 / (3 R) - (8 pi w E* a^3)^(1/2), at its least -(3/2) pi w R."""
+    E, radius = Medium(*SOFT).plane_strain, half_space_radius(Medium(*SOFT), WORK, RADIUS)
+    path = jkr(STACKS["equal"], WORK, RADIUS)
+    for a in radius * np.array([0.3, 1.0, 2.0]):
+        load = 4 * E * a**3 / (3 * RADIUS) - np.sqrt(8 * np.pi * WORK * E * a**3)
+        assert path.state(a).load == pytest.approx(load, rel=1e-9)
+    assert path.state(radius).load == pytest.approx(-1.5 * np.pi * WORK * RADIUS, rel=1e-9)
 
 
 @pytest.mark.parametrize("name", STACKS)
 def test_edge_and_load_belong_to_one_energy(name: str) -> None:
     """d^2 U / da d delta both ways: the derivative of the load is the product of the values of phi at the edge."""
     path = jkr(STACKS[name], WORK, RADIUS)
-    for a in np.array([0.03, 0.3, 2.0]) * half_space_radius(Medium(*SOFT), WORK, RADIUS, 2.0):
+    for a in np.array([0.03, 0.3, 2.0]) * half_space_radius(Medium(*SOFT), WORK, RADIUS):
         _, edge = path.solutions(a)
         step = 1e-2 * a
         nearby = [path.solutions(a + i * step)[0] for i in (-2, -1, 1, 2)]
@@ -82,3 +84,38 @@ def test_compliance_of_extreme_contrasts(ratio: float) -> None:
     moduli = [medium.plane_strain for medium in single.media]
     assert single.relative_compliance(xi)[0] == pytest.approx(moduli[0] / moduli[1], rel=1e-6)
     assert single.relative_compliance(xi)[-1] == pytest.approx(1.0, abs=1e-12)
+
+
+NU = 0.3
+
+
+def pull_off(ratio, thickness):
+    """By JKR in pi w R, of a coating on a substrate so many times as stiff; thickness in (w R^2/E*)^(1/3)."""
+    stack = Stack(((1.0 - NU**2, NU, thickness),), ((1.0 - NU**2) * ratio, NU))
+    return -min(state.load for state in minima_with_error(stack, 1.0, 1.0)) / math.pi
+
+
+def limit(mu, forces):
+    """The constant beside mu^-2 ln mu, mu^-2, mu^-3 ln mu and mu^-3, and the bound that those of the forces give it."""
+    log = np.log(mu)
+    terms = np.stack([np.ones_like(mu), log / mu**2, 1.0 / mu**2, log / mu**3, 1.0 / mu**3], axis=1)
+    weights = np.linalg.inv(terms)[0]
+    return weights @ forces[:, 0], np.abs(weights) @ forces[:, 1]
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(("ratio", "thickness"), [(1.0, 0.5), (4.0, 0.5), (0.25, 0.5), (100.0, 0.3)])
+def test_a_coated_solid_approaches_its_own_limit(ratio, thickness):
+    """The cohesive zone is about L mu^(-3/2) wide, and its tension decays so slowly that a logarithm remains."""
+    mu = np.array([2.0, 4.0, 8.0, 16.0, 32.0, 64.0])
+    solids = [fscm.Coating(1.0, ratio, thickness * x**0.5, 0.0, NU) for x in mu]
+    solutions = [
+        fscm.solve(fscm.Problem(2.0, 0.0, x, graded=solid), "pull_off_force")
+        for x, solid in zip(mu, solids, strict=True)
+    ]
+    forces = np.array([(solution.value, solution.u_num) for solution in solutions])
+    (before, _), (value, u_forces) = limit(mu[:-1], forces[:-1]), limit(mu[1:], forces[1:])
+    bound = abs(value - before) + u_forces
+    assert abs(value - pull_off(ratio, thickness)) <= bound < 1e-5
+    # A coating that is one in a thousand thicker is told apart.
+    assert ratio == 1.0 or abs(value - pull_off(ratio, 1.001 * thickness)) > bound

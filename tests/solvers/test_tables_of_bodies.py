@@ -1,4 +1,4 @@
-"""The potential of a punch under a law that is no power, by both references: a ball exactly, other faces by curvature."""
+"""The potential of a punch under a law that is no power, by both references: a ball exactly, others by curvature."""
 
 import numpy as np
 import pytest

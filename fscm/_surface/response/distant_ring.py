@@ -23,7 +23,7 @@ from fscm._typing import Array
 __all__ = ["DistantRing"]
 
 #: The images are interpolated in log t, on intervals of this ratio of the radii, with this degree: measured, to 5e-14
-#: on coatings with contrasts of 1e-4 to 1e4 and on offset power laws (`tests/fscm/test_distant_ring.py`).
+#: on coatings with contrasts of 1e-4 to 1e4 and on offset power laws (`tests/fscm/test_tail.py`).
 _RATIO, _DEGREE = 4.0, 23
 #: Radius up to which the images are used, in units of the inverse of their least wave number: at least 1e6 times the
 #: deepest change of the constants, so that the response beyond is a power of the radius.  Measured there: both ways

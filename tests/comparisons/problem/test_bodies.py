@@ -1,18 +1,21 @@
-"""Curved solids, friction, and what a problem of two bodies is before it is solved."""
+"""Curved solids, friction, surface tension, and two bodies: what their problems are, and their values."""
 
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from comparisons.cli.main import main
 from comparisons.model import NotApplicable
 from comparisons.models.fem_model import LargeStrain
 from comparisons.problem import Problem, Section
 from comparisons.problem.evaluation import evaluated
 from comparisons.problem.reading import load_problem
 from comparisons.registry import create
+from comparisons.runs.csv_format import read_table
 from comparisons.runs.tasks import evaluate
 from tests.comparisons.problems import on_solid
+from tests.marks import heavy
 
 ELASTIC = {"E": 1e9, "nu": 0.3}
 BODY = Section("homogeneous", ELASTIC)
@@ -131,3 +134,58 @@ CURVE = Path(__file__).parents[3] / "docs" / "examples" / "measured_curve.csv"
 def test_what_needs_the_integral_equation_refuses_friction(command, written, refused):
     path = str(written(', friction = "bonded"'))
     refused([word.format(path) for word in command], 'friction = "bonded"')
+
+
+EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
+SPHERES, BEAD = EXAMPLES / "two_spheres.toml", EXAMPLES / "pdms_bead.toml"
+
+SOFT = on_solid("homogeneous", {"E": 5e8, "nu": 0.3})
+HALVES = replace(PLAIN, punch_solid=BODY)
+
+
+@pytest.mark.parametrize("model", ["fscm", "jkr", "atlas", *heavy("fem")])
+def test_two_equal_bodies_are_one_of_half_the_modulus(model):
+    force, of_one = (evaluate(model, "pull_off_force", problem) for problem in (HALVES, SOFT))
+    assert abs(force.value - of_one.value) <= force.u_num + of_one.u_num
+
+
+@pytest.mark.heavy
+def test_jkr_with_surface_tension_is_the_limit_of_the_fscm():
+    bead = load_problem(BEAD)
+    errors = []
+    for z0 in (3e-8, 1e-8):
+        problem = bead.with_value("law.z0", z0)
+        force, limit = (evaluate(model, "pull_off_force", problem).value for model in ("fscm", "jkr-surface-tension"))
+        errors.append(limit / force - 1.0)
+    assert errors[1] / errors[0] == pytest.approx(1.0 / 3.0, abs=0.1)
+    assert abs(errors[1]) < 0.01
+
+
+def test_commands_take_the_examples(tmp_path, capsys):
+    spheres, bead = ["--problem", str(SPHERES)], ["--problem", str(BEAD)]
+    assert main(["describe", str(SPHERES)]) == 0
+    text = capsys.readouterr().out
+    assert "of a homogeneous solid" in text
+    # The errors of the shape are those of one sphere on a plane.
+    assert "a paraboloid for the sphere  unknown" in text
+    assert "--large-strain" not in text
+    assert main(["solve", "--model", "fscm", "--quantity", "pull_off_force", *spheres]) == 0
+    curve = ["curve", "--model", "jkr-surface-tension", *bead, "--csv", str(tmp_path / "curve.csv")]
+    assert main(curve) == 0
+    capsys.readouterr()
+    main(["curve", "--model", "jkr", *bead, "--csv", str(tmp_path / "none.csv")])
+    assert "not-applicable" in capsys.readouterr().err
+    vary = ["--vary", "punch_solid.E=1, 70 GPa", "--model", "jkr", "--quantity", "pull_off_displacement"]
+    assert main(["sweep", *spheres, *vary, "--out", str(tmp_path / "sweep")]) == 0
+    table = read_table(tmp_path / "sweep" / "results.csv")
+    assert sorted(table["punch_solid.E [Pa]"]) == [1e9, 7e10]
+    assert len(set(table["value"])) == 2
+
+
+@pytest.mark.heavy
+def test_describe_states_the_surface_tension(capsys):
+    assert main(["describe", str(BEAD), "--uncertain"]) == 0
+    text = capsys.readouterr().out
+    assert "with solid.surface_tension = 0.02 N/m" in text
+    assert "jkr-surface-tension" in text
+    assert "solid.surface_tension  20 +- 2 mN/m" in text

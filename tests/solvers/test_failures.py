@@ -1,8 +1,11 @@
-"""What both solvers say of a result, and of an argument that is none."""
+"""What both references say of a result, of an argument that is none, and of a failure, with its remedy."""
 
+import ast
 import operator
+import pickle
 from fractions import Fraction
 from math import isclose, radians, tan
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -14,10 +17,59 @@ from uncertainties import ufloat
 import comparisons
 import fem_reference
 import fscm
+from fscm.errors import RingsForm
 from fscm.solution import Parts
+from tests.fem_reference.solved_together import sphere_on
 from tests.refusals import refused
 
 ureg = pint.UnitRegistry()
+both = pytest.mark.parametrize("package", [fscm, fem_reference], ids=lambda package: package.__name__)
+
+
+def calls(package):
+    """Names of modules and the calls in them that make a failure; finite strain has no names of failures."""
+    return [
+        (path.name, node)
+        for path in sorted(Path(package.__file__).parent.rglob("*.py"))
+        if path.parent.name != "_large_strain"
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("NotConverged", "RingsForm")
+    ]
+
+
+@both
+def test_whatever_does_not_converge_names_its_failure(package):
+    named = {
+        argument.attr
+        for _, call in calls(package)
+        for argument in call.args
+        if isinstance(argument, ast.Attribute) and getattr(argument.value, "id", "") == "Failure"
+    }
+    assert [name for name, call in calls(package) if len(call.args) < 2] == []
+    assert named == {failure.name for failure in package.Failure}
+
+
+@pytest.mark.parametrize(
+    ("package", "problem"),
+    [
+        (fscm, fscm.Problem(n=2, k=0.999, mu=1)),
+        (fem_reference, sphere_on(fem_reference.Coating(1e-12, 1.0, 1.0, 0, 0.3))),
+    ],
+)
+def test_a_failure_ends_the_message_with_its_remedy(package, problem):
+    with pytest.raises(package.NotConverged) as refused:
+        package.solve(problem, "pull_off_force", "quick")
+    assert refused.value.failure is package.Failure.MESH
+    assert str(refused.value) == f"{refused.value.reason}; {package.Failure.MESH.value}"
+
+
+@pytest.mark.parametrize("kind", [fscm.NotConverged, RingsForm, fem_reference.NotConverged])
+def test_a_failure_passes_between_processes(kind):
+    failure = fem_reference.Failure.MESH if kind is fem_reference.NotConverged else fscm.Failure.RINGS
+    error = pickle.loads(pickle.dumps(kind("no edge", failure)))
+    assert (type(error), error.reason, error.failure) == (kind, "no edge", failure)
+    assert str(kind("only a reason")) == "only a reason"
+
 
 FSCM = fscm.Problem(n=2, k=0.4, mu=1)
 FEM = fem_reference.Problem(
