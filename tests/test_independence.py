@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+from tests.paths import ROOT
+
 PACKAGES = ("fscm", "fem_reference", "comparisons")
 #: Functions whose first argument is the name of a module.
 BY_NAME = {"__import__", "files", "import_module", "importorskip", "_script"}

@@ -10,15 +10,14 @@ import tomllib
 import zipfile
 from fnmatch import fnmatch
 from importlib.metadata import packages_distributions
-from pathlib import Path
 
 import pytest
 import yaml
 
 from comparisons.runs.environment import NOT_INSTALLED, code_digest
+from tests.paths import ROOT
 from tests.test_independence import PACKAGES, imports_of
 
-ROOT = Path(__file__).resolve().parent.parent
 CONFIGURATION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = CONFIGURATION["project"]
 RUNTIME, EXTRAS = PROJECT["dependencies"], PROJECT["optional-dependencies"]

@@ -1,7 +1,6 @@
 """README: its length, its two commands, and the numbers that it prints."""
 
 import re
-from pathlib import Path
 
 import pandas as pd
 import pytest
@@ -9,8 +8,8 @@ import pytest
 from comparisons.judging.gates import gates_text, load_gates, of_tier
 from comparisons.judging.selection import relevant
 from comparisons.runs.cases import grids, grids_for
+from tests.paths import ROOT
 
-ROOT = Path(__file__).resolve().parent.parent
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 LARGEST = pd.read_csv(ROOT / "results" / "baseline" / "largest_kappa.csv")
 PRINTED = re.findall(

@@ -5,7 +5,6 @@ import re
 import shlex
 from contextlib import chdir, redirect_stdout
 from functools import cache
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -15,8 +14,8 @@ import fscm
 from comparisons.cli import main as cli
 from comparisons.judging.gates import load_gates
 from comparisons.runs.cases import load_grids
+from tests.paths import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 EXAMPLES = sorted((DOCS / "examples").glob("*.py"))
 PROBLEMS = DOCS / "examples" / "problems"

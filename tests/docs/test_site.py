@@ -6,7 +6,6 @@ import subprocess
 import sys
 from importlib import import_module, util
 from inspect import getmembers, isclass, isfunction
-from pathlib import Path
 from pkgutil import walk_packages
 
 import pytest
@@ -16,8 +15,8 @@ import fem_reference
 import fscm
 from comparisons.problem.kinds import KINDS, SECTIONS
 from comparisons.runs.environment import NOT_INSTALLED
+from tests.paths import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 PACKAGES = ("fscm", "fem_reference", "comparisons")
 

@@ -3,7 +3,8 @@
 import re
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.paths import ROOT
+
 GLOSSARY = ROOT / "docs" / "ARCHITECTURE.md"
 SUFFIXES = {".py", ".md", ".toml", ".json", ".html", ".js", ".css", ".in", ".cff"}
 #: The glossary itself, and the record of what was renamed.

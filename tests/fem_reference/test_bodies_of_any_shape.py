@@ -1,6 +1,7 @@
 """The potential of a punch of any profile by the finite elements: its quadrature, its bound, a sphere, large strain."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from fem_reference import (
 )
 from fem_reference._azimuth import azimuth
 from fem_reference._face import Fineness
+from fem_reference._vertical_line import energy_above
 from fem_reference.interaction import interaction_of
 from fem_reference.punch import radius_at_height
 from tests.solvers.test_bodies_of_any_shape import SHAPES
@@ -44,6 +46,15 @@ def test_integrals_around_the_axis_are_those_of_equal_angles(orders):
         around = np.mean(square**-s, axis=1), np.mean(np.cos(phi) * square**-s, axis=1)
         assert g == pytest.approx(around[0] * t ** (s - 0.5), rel=1e-12)
         assert k == pytest.approx(around[1] * t ** (s - 0.5) / (1.0 - t), rel=1e-11)
+
+
+def test_an_energy_has_what_lies_beyond_its_last_piece():
+    """Of a traction 1/(1 + gap)^1.1, a thousandth is left where the pieces end."""
+    slow = SimpleNamespace(
+        traction=lambda rho, gap: (1.0 + gap) ** -1.1, slopes=lambda rho, gap: (None, -1.1 * (1.0 + gap) ** -2.1)
+    )
+    gap = np.array([-0.1, 3.0])
+    assert energy_above(slow, np.zeros(2), gap, -1.0) == pytest.approx(10.0 * (1.0 + gap) ** -0.1, rel=1e-9)
 
 
 def pressed(punch, law, E=0.91, interaction="body"):

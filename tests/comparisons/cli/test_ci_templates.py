@@ -3,15 +3,14 @@
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 import yaml
 
 from comparisons.cli.main import _parser, main
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT
+from tests.paths import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 ACTION = ROOT / ".github" / "actions" / "fscm-bench" / "action.yml"
 GITLAB = ROOT / "docs" / "ci" / "gitlab.yml"
 

@@ -10,8 +10,8 @@ from comparisons.cli.main import main
 from comparisons.problem.variation import parse_variation, parse_variations, problems_of
 from comparisons.runs.csv_format import read_table
 from comparisons.runs.record import read_record
+from tests.paths import PAD
 
-PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad.toml"
 COATED = PAD.with_name("coated_solid.toml")
 VARY = ("--vary", "punch.R=1, 2 um", "--vary", "law.work_of_adhesion=20:60:3 mJ/m^2")
 

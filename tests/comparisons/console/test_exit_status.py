@@ -22,8 +22,8 @@ from comparisons.registry import create
 from comparisons.runs.atomic_files import write_json
 from comparisons.runs.csv_format import write_table
 from tests.comparisons.external.conftest import comes_true, has_ended
+from tests.paths import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 LIST = ["list", "quantities"]
 NO_ROOM = os.strerror(errno.ENOSPC)
 

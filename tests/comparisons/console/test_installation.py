@@ -4,7 +4,6 @@ import os
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pandas as pd
 import pytest
@@ -14,8 +13,8 @@ from comparisons.console.exit_status import EXTRAS, FAILED, WRONG_INPUT
 from comparisons.console.progress import log, note
 from comparisons.output.terminal import rich_table
 from tests.comparisons.grid_text import grid_text
+from tests.paths import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 ENTRY = ROOT / "comparisons" / "start_entry"
 
 

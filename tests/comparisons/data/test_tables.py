@@ -1,13 +1,13 @@
 """Tables of data: columns, numbers printed in the paper, and the cases that its statements are about."""
 
 import csv
-from pathlib import Path
 
 import pytest
 
 from comparisons.data.columns import column
 from comparisons.data.paper_statements import PaperStatement
 from comparisons.data.paper_values import PaperValue
+from tests.paths import ROOT
 
 
 @pytest.mark.parametrize(
@@ -52,8 +52,6 @@ def test_a_case_is_one_of_the_paper_or_beyond_it(entries, own, beyond):
     assert [statement.is_own(case) for case in CASES] == own
     assert [statement.is_beyond(case) for case in CASES] == beyond
 
-
-ROOT = Path(__file__).resolve().parents[3]
 
 #: Folders of committed tables.
 FOLDERS = ("results/baseline", "comparisons/data", "fscm/interpolation/data")

@@ -3,7 +3,6 @@
 import csv
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,10 +14,10 @@ from comparisons.external.replies import curve_of, result_of
 from comparisons.model import ComputationFailed, HasCurve, Model, NotApplicable
 from comparisons.problem import Problem
 from comparisons.registry import create
+from tests.paths import ROOT
 
 from .conftest import EXAMPLE, ROWS, comes_true, has_ended, row_of
 
-ROOT = Path(__file__).resolve().parents[3]
 FILE_SOURCE = f"{EXAMPLE / 'double_hertz.py'}:DoubleHertz"
 QUANTITY = "pull_off_force"
 CASE = Problem.dimensionless(2, 0.4, 1)

@@ -3,14 +3,12 @@
 import json
 import re
 from importlib.resources import files
-from pathlib import Path
 
 import yaml
 
 from comparisons.output.citation import Work, as_bibtex, methods, works
 from tests.comparisons.records import record_of_run
-
-ROOT = Path(__file__).resolve().parents[3]
+from tests.paths import ROOT
 
 RECORD = record_of_run() | {
     "package": {"version": "0.1.0", "commit": "0123456789abcdef", "dirty": False, "code_sha256": "f" * 64},

@@ -1,14 +1,11 @@
 """Tables of a figure, from calls that are made here, and the committed ones."""
 
-from pathlib import Path
-
 import pandas as pd
 import pytest
 
 from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.cache import make_calls
-
-ROOT = Path(__file__).parents[3]
+from tests.paths import ROOT
 
 
 @pytest.fixture(scope="module")

@@ -2,7 +2,6 @@
 
 import re
 import shlex
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -18,8 +17,8 @@ from comparisons.paper.paper_figure import FIGURES
 from comparisons.paper.statements.judgement import FALSE, IN_PART, REFERENCES, decisive, judged
 from comparisons.paper.statements.kinds import FAILS, Evidence, comparisons_of
 from comparisons.paper.tasks import JUMPS
+from tests.paths import ROOT
 
-ROOT = Path(__file__).parents[3]
 FOLDER = ROOT / PAPER_BASELINE
 STATEMENTS = {statement.id: statement for statement in paper_statements()}
 FINDINGS = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")

@@ -6,7 +6,6 @@ import shlex
 import shutil
 from dataclasses import replace
 from hashlib import sha256
-from pathlib import Path
 
 import pytest
 
@@ -14,8 +13,7 @@ from comparisons.cli.main import main
 from comparisons.pipeline.board import entry_of
 from comparisons.runs.record import _own_sum
 from comparisons.runs.store import rows_in
-
-PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad.toml"
+from tests.paths import PAD
 
 
 @pytest.fixture(scope="module")

@@ -16,8 +16,8 @@ from comparisons.runs.record import read_record
 from comparisons.runs.tasks import plan
 from tests.comparisons.conftest import GATES
 from tests.comparisons.grid_text import grid_text
+from tests.paths import PAD
 
-PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad.toml"
 MODELS, QUANTITIES = ["ten-percent", "refuses", "fails"], ["pull_off_force", "jump_in_gap"]
 GRID = grid_text(MODELS, "exact", QUANTITIES, n=[1, 2], k=[0, 0.4], mu=[0.1, 1])
 

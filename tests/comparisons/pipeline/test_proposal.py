@@ -12,8 +12,8 @@ import yaml
 
 from comparisons.pipeline.proposal import SUBMISSIONS, changes, checked_folder
 from comparisons.pipeline.proposal import main as check
+from tests.paths import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 TODAY = date(2026, 11, 28)
 WORDS = 'authors = ["{author}"]\ncitation = "none"\nlicence = "MIT"\nmodel = "model.py:Model"\n'
 

@@ -16,6 +16,7 @@ from comparisons.runs.csv_format import read_table
 from comparisons.runs.tasks import evaluate
 from tests.comparisons.problems import on_solid
 from tests.marks import heavy
+from tests.paths import PROBLEMS
 
 ELASTIC = {"E": 1e9, "nu": 0.3}
 BODY = Section("homogeneous", ELASTIC)
@@ -136,8 +137,7 @@ def test_what_needs_the_integral_equation_refuses_friction(command, written, ref
     refused([word.format(path) for word in command], 'friction = "bonded"')
 
 
-EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
-SPHERES, BEAD = EXAMPLES / "two_spheres.toml", EXAMPLES / "pdms_bead.toml"
+SPHERES, BEAD = PROBLEMS / "two_spheres.toml", PROBLEMS / "pdms_bead.toml"
 
 SOFT = on_solid("homogeneous", {"E": 5e8, "nu": 0.3})
 HALVES = replace(PLAIN, punch_solid=BODY)

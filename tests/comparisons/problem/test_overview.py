@@ -2,7 +2,6 @@
 
 import json
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,8 +18,7 @@ from comparisons.registry import MODELS
 from comparisons.runs.tasks import evaluate
 from tests.comparisons.problems import on_solid
 from tests.comparisons.rows import row
-
-EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
+from tests.paths import PROBLEMS
 
 
 def test_one_problem_file_is_described(refused):
@@ -29,7 +27,7 @@ def test_one_problem_file_is_described(refused):
 
 
 def test_a_power_law_has_errors_of_closed_forms(capsys):
-    assert main(["describe", str(EXAMPLES / "graded_pad.toml"), "--format", "json"]) == 0
+    assert main(["describe", str(PROBLEMS / "graded_pad.toml"), "--format", "json"]) == 0
     content = json.loads(capsys.readouterr().out)
     solid, law = fscm.PowerLaw(2e9, 1e-6, 0.4, 0.3), fscm.LennardJones(0.05, 4e-10)
     pad = fscm.Problem(solid, fscm.PowerPunch(2.0, 2.5e-6), law)

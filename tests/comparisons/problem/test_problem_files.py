@@ -3,7 +3,6 @@
 import json
 import math
 from itertools import cycle, product
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -19,10 +18,8 @@ from comparisons.problem.reading import load_problem
 from comparisons.problem.variation import problems_of
 from comparisons.quantities import QUANTITIES
 from comparisons.runs.tasks import evaluate
+from tests.paths import PROBLEMS
 from tests.refusals import refused
-
-EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
-
 
 SECTIONS = {
     "solid": {
@@ -187,7 +184,7 @@ def test_entries_of_a_list_count_from_one_and_problems_of_files_stand_after_thos
 
 
 def test_the_json_is_the_contract(capsys):
-    file = EXAMPLES / "graded_pad.toml"
+    file = PROBLEMS / "graded_pad.toml"
     command = ["solve", "--model", "jkr", "--quantity", "pull_off_force", "--problem", str(file)]
     assert main([*command, "--format", "json"]) == 0
     content = json.loads(capsys.readouterr().out)

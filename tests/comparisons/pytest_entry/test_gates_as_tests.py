@@ -1,17 +1,15 @@
 """The plugin of pytest: gates as tests, and nothing at all without its options."""
 
-from pathlib import Path
-
 import pytest
 
 from comparisons.pipeline.run import named_verdicts
+from tests.paths import ROOT
 
 from ..conftest import GATES, with_entries
 from ..grid_text import PAD, grid_text
 
 pytest_plugins = ["pytester"]
 
-ROOT = Path(__file__).resolve().parents[3]
 PLUGIN = "fscm_bench_pytest"
 
 

@@ -9,7 +9,6 @@ import shutil
 import subprocess
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -22,6 +21,7 @@ from comparisons.output.report.stored_run import read_folder
 from comparisons.output.style import model_styles
 from comparisons.registry import MODELS
 from comparisons.runs.csv_format import read_table, write_table
+from tests.paths import PAD
 
 from .hostile_run import SCRIPT, seal, write_run
 
@@ -228,7 +228,6 @@ def test_the_same_folder_gives_the_same_bytes(laid_out, tmp_path):
     assert tuple(path.read_text(encoding="utf-8") for path in written) == render(laid_out, "page-rows.js")
 
 
-PAD = Path(__file__).parents[4] / "docs" / "examples" / "problems" / "graded_pad.toml"
 RADIUS, WORK = "punch.R [m]", "law.work_of_adhesion [J/m^2]"
 HOSTILE = "# </script><script>window.hostile = 1</script> <img src=x onerror=\"window.hostile='image'\">\n"
 SCALE = {"N": 1.0, "nN": 1e-9, "µN": 1e-6, "nm": 1e-9, "pm": 1e-12}
