@@ -8,18 +8,6 @@ import pytest
 
 import fem_reference
 import fem_reference._body_of_revolution as potential
-from fem_reference import (
-    Ball,
-    CustomPunch,
-    LennardJones,
-    Mie,
-    NeoHookean,
-    PowerLaw,
-    PowerPunch,
-    Problem,
-    solve,
-    solve_large_strain,
-)
 from fem_reference._azimuth import azimuth
 from fem_reference._face import Fineness
 from fem_reference._vertical_line import energy_above
@@ -30,7 +18,7 @@ from tests.solvers.test_bodies_of_any_shape import SHAPES
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_the_quadrature_is_that_of_a_finer_one(shape):
-    body = interaction_of(SHAPES[shape](fem_reference), Mie(1.0, 1.0, 12.0, 3.3), "body")
+    body = interaction_of(SHAPES[shape](fem_reference), fem_reference.Mie(1.0, 1.0, 12.0, 3.3), "body")
     r = np.concatenate([[0.0], np.geomspace(1e-4, 40.0, 30), [2.0, 6.0, 12.0]])
     for gap in (-0.15, 0.5, 20.0):
         powers, finer = (force._powers(r, np.full(r.size, gap)) for force in (body, body.finer))
@@ -58,17 +46,17 @@ def test_an_energy_has_what_lies_beyond_its_last_piece():
 
 
 def pressed(punch, law, E=0.91, interaction="body"):
-    return Problem(PowerLaw(E, 1.0, 0.0, 0.3), punch, law, interaction=interaction)
+    return fem_reference.Problem(fem_reference.PowerLaw(E, 1.0, 0.0, 0.3), punch, law, interaction=interaction)
 
 
 def test_the_bound_has_the_error_of_the_potential(monkeypatch):
-    law = LennardJones(1e-3, 5e-2)
-    exact = solve(pressed(PowerPunch(2.0, 1.0), law), "pull_off_force", "quick")
+    law = fem_reference.LennardJones(1e-3, 5e-2)
+    exact = fem_reference.solve(pressed(fem_reference.PowerPunch(2.0, 1.0), law), "pull_off_force", "quick")
     # Another problem for the caches.
-    problem = pressed(CustomPunch(lambda r: 0.5 * r * r, 2.0, lambda r: r), law)
+    problem = pressed(fem_reference.CustomPunch(lambda r: 0.5 * r * r, 2.0, lambda r: r), law)
     coarse = potential.BodyOfRevolution(problem.punch, law, Fineness(nodes=4, ratio=0.5, roughness=1e-2, beyond=1e-4))
-    monkeypatch.setattr(Problem, "force", property(lambda _: coarse))
-    rough = solve(problem, "pull_off_force", "quick")
+    monkeypatch.setattr(fem_reference.Problem, "force", property(lambda _: coarse))
+    rough = fem_reference.solve(problem, "pull_off_force", "quick")
     difference = abs(rough.value - exact.value)
     assert 10.0 * exact.u_num < difference <= rough.u_num + exact.u_num
 
@@ -77,14 +65,15 @@ def sphere_of(ball, law):
     """The same profile as a function, which grows far away as `Problem` finds it."""
     far = radius_at_height(ball, 1e4 * law.z0)
     growth = far * float(ball.slope(np.array(far))) / float(ball.height(np.array(far)))
-    return CustomPunch(ball.height, growth, ball.slope, kinks=ball.kinks)
+    return fem_reference.CustomPunch(ball.height, growth, ball.slope, kinks=ball.kinks)
 
 
 @pytest.mark.heavy
 def test_the_pull_off_of_a_sphere_by_quadrature_is_that_of_a_ball():
-    law = Mie(1e-3, 5e-2, 12.0, 9.0)
+    law = fem_reference.Mie(1e-3, 5e-2, 12.0, 9.0)
     ball, sphere = (
-        solve(pressed(punch, law), "pull_off_force", "quick") for punch in (Ball(1.0), sphere_of(Ball(1.0), law))
+        fem_reference.solve(pressed(punch, law), "pull_off_force", "quick")
+        for punch in (fem_reference.Ball(1.0), sphere_of(fem_reference.Ball(1.0), law))
     )
     assert sphere.value == pytest.approx(ball.value, abs=ball.u_num + sphere.u_num)
 
@@ -92,11 +81,11 @@ def test_the_pull_off_of_a_sphere_by_quadrature_is_that_of_a_ball():
 @pytest.mark.heavy
 @pytest.mark.parametrize("nu", [0.3, 0.5])
 def test_at_finite_strain_a_sphere_by_quadrature_is_a_ball(nu):
-    law = Mie(1e-3, 2e-2, 12.0, 9.0)
-    gel = NeoHookean(1.0 - nu**2, nu)
+    law = fem_reference.Mie(1e-3, 2e-2, 12.0, 9.0)
+    gel = fem_reference.NeoHookean(1.0 - nu**2, nu)
     ball, sphere = (
-        solve_large_strain(Problem(gel, punch, law), "pull_off_force", interaction="body")
-        for punch in (Ball(1.0), sphere_of(Ball(1.0), law))
+        fem_reference.solve_large_strain(fem_reference.Problem(gel, punch, law), "pull_off_force", interaction="body")
+        for punch in (fem_reference.Ball(1.0), sphere_of(fem_reference.Ball(1.0), law))
     )
     assert sphere.value == pytest.approx(ball.value, abs=ball.u_num + sphere.u_num)
 
@@ -105,7 +94,9 @@ def test_at_finite_strain_a_sphere_by_quadrature_is_a_ball(nu):
 @pytest.mark.parametrize("shape", ["cone", "paraboloid"])
 def test_a_stiff_solid_of_finite_strain_is_one_of_small_strain(shape):
     """The strain changes the force by its own size."""
-    punch, law = SHAPES[shape](fem_reference), LennardJones(1e-3, 1.0)
-    small = solve(pressed(punch, law), "pull_off_force", "quick")
-    finite = solve_large_strain(Problem(NeoHookean(0.91, 0.3), punch, law), "pull_off_force", interaction="body")
+    punch, law = SHAPES[shape](fem_reference), fem_reference.LennardJones(1e-3, 1.0)
+    small = fem_reference.solve(pressed(punch, law), "pull_off_force", "quick")
+    finite = fem_reference.solve_large_strain(
+        fem_reference.Problem(fem_reference.NeoHookean(0.91, 0.3), punch, law), "pull_off_force", interaction="body"
+    )
     assert finite.value == pytest.approx(small.value, rel=2e-3)

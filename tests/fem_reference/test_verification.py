@@ -6,20 +6,7 @@ from scipy import integrate, special
 
 from fem_reference._elastic.mesh import edge_grid
 from fem_reference.solid import PowerLaw
-from fem_reference.verification import manufactured
-from fem_reference.verification.checks import (
-    DEFAULT,
-    EXPONENTS,
-    FINE,
-    FINE_RING,
-    POISSON,
-    RING,
-    disc_checks,
-    far_field_checks,
-    gaussian_checks,
-    limit_checks,
-    ring_checks,
-)
+from fem_reference.verification import checks, manufactured
 from fem_reference.verification.element_checks import element_checks, manufactured_checks
 from fem_reference.verification.reference_solutions import (
     gaussian_displacement,
@@ -33,8 +20,8 @@ from tests.refusals import refused
 QUADRATURE_TOLERANCE = 1e-8
 
 
-def _assert_all_pass(checks):
-    failed = [f"{r.name} ({r.case}): {r.error:.2e} > {r.limit:.1e}" for r in checks if not r.passed]
+def _assert_all_pass(results):
+    failed = [f"{r.name} ({r.case}): {r.error:.2e} > {r.limit:.1e}" for r in results if not r.passed]
     assert not failed, "\n".join(failed)
 
 
@@ -87,17 +74,16 @@ def test_the_checks_of_the_elements_can_fail(monkeypatch):
     """A stress of another Poisson ratio than the stiffness has is solved by another field."""
     exact = manufactured._load
     monkeypatch.setattr(manufactured, "_load", lambda basis, E, nu, field: exact(basis, E, nu + 0.01, field))
-    checks = manufactured_checks() + element_checks()
-    broken = {check.name for check in checks if not check.passed}
+    broken = {check.name for check in manufactured_checks() + element_checks() if not check.passed}
     assert broken == {"manufactured solution, graded", "patch test"}
 
 
 def test_nearly_incompressible_solid():
-    _assert_all_pass(gaussian_checks(DEFAULT, "default", (0.4,), (0.49,)))
+    _assert_all_pass(checks.gaussian_checks(checks.DEFAULT, "default", (0.4,), (0.49,)))
 
 
 def test_disc_hertz_and_flat_punch():
-    _assert_all_pass(disc_checks((0.4,)))
+    _assert_all_pass(checks.disc_checks((0.4,)))
 
 
 @pytest.mark.parametrize("k", [0.0, 0.4])
@@ -112,21 +98,21 @@ def test_closed_form_of_the_ring_is_that_of_many_rings(k):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize(
-    "checks",
+    "material_checks",
     [
-        lambda: gaussian_checks(DEFAULT, "default", EXPONENTS, POISSON),
-        lambda: gaussian_checks(FINE, "fine", EXPONENTS, POISSON),
-        lambda: gaussian_checks(FINE, "fine", (0.0, 0.4), (0.49,)),
-        lambda: ring_checks(RING, "ring", EXPONENTS, POISSON),
-        lambda: ring_checks(FINE_RING, "fine ring", EXPONENTS, POISSON),
-        lambda: disc_checks(EXPONENTS),
-        far_field_checks,
-        limit_checks,
+        lambda: checks.gaussian_checks(checks.DEFAULT, "default", checks.EXPONENTS, checks.POISSON),
+        lambda: checks.gaussian_checks(checks.FINE, "fine", checks.EXPONENTS, checks.POISSON),
+        lambda: checks.gaussian_checks(checks.FINE, "fine", (0.0, 0.4), (0.49,)),
+        lambda: checks.ring_checks(checks.RING, "ring", checks.EXPONENTS, checks.POISSON),
+        lambda: checks.ring_checks(checks.FINE_RING, "fine ring", checks.EXPONENTS, checks.POISSON),
+        lambda: checks.disc_checks(checks.EXPONENTS),
+        checks.far_field_checks,
+        checks.limit_checks,
     ],
     ids=["gaussian", "fine gaussian", "nearly incompressible", "ring", "fine ring", "disc", "far field", "limits"],
 )
-def test_every_material(checks):
-    _assert_all_pass(checks())
+def test_every_material(material_checks):
+    _assert_all_pass(material_checks())
 
 
 def test_impossible_grids_and_exponents_are_refused():
