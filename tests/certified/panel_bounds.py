@@ -7,17 +7,7 @@ from dataclasses import dataclass
 from flint import arb, arb_poly, ctx
 
 from tests.certified.approximate_states import ApproximateStates
-from tests.certified.panel_functions import (
-    BITS,
-    Panel,
-    absolute,
-    least,
-    monomials,
-    panels,
-    powers,
-    product,
-    shift_bits,
-)
+from tests.certified.panel_functions import BITS, Panel, absolute, least, monomials, panels, powers, product, shift_bits
 from tests.certified.sphere_form import cubic_coefficients
 
 

@@ -5,23 +5,12 @@ from dataclasses import replace
 
 import pytest
 
-from fem_reference import (
-    Coating,
-    Homogeneous,
-    Layers,
-    LennardJones,
-    PowerLaw,
-    PowerPunch,
-    Problem,
-    solve,
-    solve_large_strain,
-)
+from fem_reference import Homogeneous, LennardJones, PowerLaw, PowerPunch, Problem, solve, solve_large_strain
 from fem_reference._contact.mesh_lengths import scales
 from tests.refusals import refused
 
 FORCE = "pull_off_force"
 PARTS = PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
-COATED, LAYERED = Coating(10.0, 1.0, 1.0, 0.0, 0.2, 0.45), Layers((1.0, 5.0, 2.0), (0.3, 0.2, 0.4), (0.5, 0.7))
 
 #: Relative rounding of two computations that differ in the order of sums only (measured: up to 1e-15).
 ROUNDING = 1e-12
@@ -51,11 +40,6 @@ def test_two_power_laws_of_one_exponent_scale_and_bodies_can_be_exchanged():
     solution, exchanged = _force(graded, uniform), _force(uniform, graded)
     assert exchanged.value == pytest.approx(solution.value, rel=ROUNDING)
     assert min(solution.iterations, exchanged.iterations) > 5
-
-
-@pytest.mark.heavy
-def test_layered_on_layered():
-    assert _force(COATED, LAYERED).value == pytest.approx(_force(LAYERED, COATED).value, rel=ROUNDING)
 
 
 def test_a_small_surface_tension_changes_little_and_a_large_one_makes_a_liquid():

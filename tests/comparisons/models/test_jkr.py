@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from functools import partial
 
@@ -140,23 +139,6 @@ def result_of(problem: Problem, model: str, quantity: str = "pull_off_force") ->
 RELEASES = {"jkr-sphere": lambda a: 1 / mp.sqrt(1 - a**2), "jkr-sphere-projected": lambda a: 1}
 
 
-@pytest.mark.parametrize(
-    ("model", "softness", "share"),
-    [
-        ("jkr-sphere-projected", 1e-4, 0.998005),
-        ("jkr-sphere-projected", 1e-3, 0.990819),
-        ("jkr-sphere-projected", 5e-3, 0.973699),
-        ("jkr-sphere", 1e-3, 1.002354),
-        ("jkr-sphere", 5e-3, 1.007085),
-        ("jkr-sphere", 1e-2, 1.011551),
-    ],
-)
-def test_pull_off(model: str, softness: float, share: float) -> None:
-    result = result_of(ball(softness), model)
-    assert result.value / (1.5 * math.pi) == pytest.approx(share, abs=6e-7)
-    assert 0.0 < result.u_num < 1e-12 * result.value
-
-
 @pytest.mark.parametrize(("model", "last", "refused"), [("jkr-sphere", 0.18, 0.19), ("jkr-sphere-projected", 8.9, 9.1)])
 def test_a_ball_without_a_minimum_of_the_load_is_refused(model: str, last: float, refused: float) -> None:
     """The load has a minimum up to a contact of 0.91 and of 0.95 of the radius."""
@@ -167,7 +149,7 @@ def test_a_ball_without_a_minimum_of_the_load_is_refused(model: str, last: float
 
 @pytest.mark.parametrize("model", RELEASES)
 @pytest.mark.parametrize("softness", [1e-6, 1e-3, 1e-2])
-def test_displacements_of_a_ball_are_those_of_the_extremes_of_its_curve(model: str, softness: float) -> None:
+def test_events_of_a_ball_are_those_of_the_extremes_of_its_curve(model: str, softness: float) -> None:
     """Sneddon's sphere in 30 digits, the radius and the work of adhesion 1: roots of derivatives, without theta."""
     g = RELEASES[model]
 
@@ -184,6 +166,8 @@ def test_displacements_of_a_ball_are_those_of_the_extremes_of_its_curve(model: s
             exact = delta(mp.findroot(slope, share * jkr))
             result = result_of(ball(softness), model, f"{event}_displacement")
             assert abs(result.value - exact) <= result.u_num < 1e-13
+        force, result = -load(mp.findroot(slopes["pull_off"], jkr)) / softness, result_of(ball(softness), model)
+        assert abs(result.value - force) <= result.u_num < 1e-12 * force
 
 
 @pytest.mark.parametrize("model", RELEASES)
