@@ -145,7 +145,7 @@ def test_forces_of_the_surface_tension():
 def test_pyamg_and_a_direct_solve_and_the_condensation_agree(tension, bonded):
     """Three routes to the displacement of the surface; conjugate gradients iterate."""
     spec = MeshSpec(0.1, 0.05, 64.0, 1.3, 4)
-    solid = ScaledSolid(PowerLaw(1.0, 1.0, 0.4, 0.3, tension), bonded=bonded)
+    solid = ScaledSolid(fem_reference.PowerLaw(1.0, 1.0, 0.4, 0.3, tension), bonded=bonded)
     half_space = assemble_half_space(spec.grid(), solid, spec.order)
     load = np.zeros(half_space.elements.size)
     load[half_space.surface[:3]] = 1.0, 0.5, 0.2
