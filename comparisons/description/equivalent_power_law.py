@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.description.choice import LIMITS, simplest_within
 from comparisons.description.forces import change_of, force_content, reference_force
-from comparisons.description.overview import LIMITS, model_errors, simplest_within
+from comparisons.description.overview import model_errors
 from comparisons.model import ComputationFailed
 from comparisons.problem import Problem
 from comparisons.problem.equivalent_solid import (

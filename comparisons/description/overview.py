@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from comparisons.description.assumptions import total_errors
+from comparisons.description.choice import LIMITS, is_within, simplest_within
 from comparisons.description.forces import change_of, force_content
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import REFERENCES
@@ -14,25 +15,6 @@ from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
 Json = dict[str, Any]
-
-#: Errors for which a model is recommended.
-LIMITS = (0.01, 0.05)
-
-#: Order in which a closed form is recommended: limits, asymptote, models of the transition.  Every other one, a fit or
-#: another cohesive stress, comes after them: it may be right in one problem because errors cancel.
-SIMPLEST_FIRST = (
-    "jkr",
-    "jkr-sphere",
-    "jkr-sphere-projected",
-    "jkr-surface-tension",
-    "dmt",
-    "bradley",
-    "semi-rigid",
-    "md-improved",
-    "md-original",
-    "md-jin",
-    "double-hertz-n-k",
-)
 
 
 def model_errors(problem: Problem, force: Row) -> list[Json]:
@@ -52,23 +34,6 @@ def model_errors(problem: Problem, force: Row) -> list[Json]:
     changes = {name: change_of(evaluate(name, "pull_off_force", problem), force) for name in names}
     errors = [{"model": name, "error": change[0], "u_num": change[1]} for name, change in changes.items() if change]
     return sorted(errors, key=lambda row: abs(row["error"]))
-
-
-def _is_within(row: Json, limit: float) -> bool:
-    return abs(row["error"]) + row["u_num"] <= limit
-
-
-def simplest_within(errors: Sequence[Json], limit: float) -> str | None:
-    """Return the simplest closed form whose error is certainly within a limit, in the order of `SIMPLEST_FIRST`.
-
-    Examples
-    --------
-    >>> errors = [{"model": "schwarz", "error": 1e-4, "u_num": 0.0}, {"model": "jkr", "error": 0.02, "u_num": 0.0}]
-    >>> simplest_within(errors, 0.05), simplest_within(errors, 0.01), simplest_within(errors, 1e-5)
-    ('jkr', 'schwarz', None)
-    """
-    within = [row["model"] for row in errors if _is_within(row, limit)]
-    return next((name for name in (*SIMPLEST_FIRST, *within) if name in within), None)
 
 
 def overview(problem: Problem, force: Row, assumed: Json | None = None) -> Json:
@@ -114,7 +79,7 @@ def _recommended(errors: Sequence[Json], force: Row, assumed: Json | None, limit
         return simplest_within(errors, limit) or force.model
     if not assumed["recommendable"]:
         return None
-    shares_too_much = assumed["total"]["error"] is not None and not _is_within(assumed["total"], limit)
+    shares_too_much = assumed["total"]["error"] is not None and not is_within(assumed["total"], limit)
     return simplest_within(errors, limit) or (None if shares_too_much else force.model)
 
 
@@ -125,7 +90,7 @@ def _regime(errors: Sequence[Json]) -> str:
     limits = [
         row["model"]
         for row in errors
-        if row["model"] in ("bradley", "jkr", "jkr-sphere-projected") and _is_within(row, LIMITS[-1])
+        if row["model"] in ("bradley", "jkr", "jkr-sphere-projected") and is_within(row, LIMITS[-1])
     ]
     if len(limits) == 2:
         return "the rigid limit (Bradley) and the limit of JKR are both within 5 % of the pull-off force"

@@ -91,7 +91,7 @@ class Baseline:
         if self.names == ("load",):
             return {"load": self.load / self.range}
         numbers = dict.fromkeys(self.names, 0.0)
-        slopes = [slope for slope in map(self._slope, self._far_parts()) if slope is not None]
+        slopes = self._slopes(self.record.load)
         if not slopes:
             return numbers | {"load": self.load / self.range}
         tilt = float(np.mean([slope for slope, _, _ in slopes]))
@@ -124,21 +124,26 @@ class Baseline:
                 parts.append(mask & (self._x <= farthest))
         return [part for part in parts if part.sum() >= _FEWEST]
 
-    def _slope(self, mask: NDArray[np.bool_]) -> tuple[float, float, float] | None:
-        """Slope of the load over x, its standard error, and the load at x = 0."""
-        x, load = self._x[mask], self.record.load[mask]
-        spread = x - x.mean()
-        size = float(spread @ spread)
-        if size == 0.0:
-            return None
-        slope = float(spread @ load) / size
-        residual = load - load.mean() - slope * spread
-        error = math.sqrt(float(residual @ residual) / (len(x) - 2) / size)
-        return slope, error, float(load.mean()) - slope * float(x.mean())
+    def _slopes(self, loads: Array) -> list[tuple[float, float, float]]:
+        """Slope of the loads over x on each branch, its standard error, and the load at x = 0."""
+        slopes = []
+        for mask in self._far_parts():
+            x, load = self._x[mask], loads[mask]
+            spread = x - x.mean()
+            size = float(spread @ spread)
+            if size > 0.0:
+                slope = float(spread @ load) / size
+                residual = load - load.mean() - slope * spread
+                error = math.sqrt(float(residual @ residual) / (len(x) - 2) / size)
+                slopes.append((slope, error, float(load.mean()) - slope * float(x.mean())))
+        return slopes
 
     @cached_property
     def is_sloped(self) -> bool:
         """Whether the points without contact show a slope."""
-        slopes = [slope for slope in map(self._slope, self._far_parts()) if slope is not None]
+        return self.have_slope(self.record.load)
+
+    def have_slope(self, loads: Array) -> bool:
+        """Return whether loads, shape (m,), or what a fit leaves of them, have a slope where there is no contact."""
         # A slope that is less than the noise over the whole record changes nothing.
-        return any(abs(slope) > max(_CERTAIN * error, self.record.noise) for slope, error, _ in slopes)
+        return any(abs(slope) > max(_CERTAIN * error, self.record.noise) for slope, error, _ in self._slopes(loads))

@@ -295,7 +295,7 @@ def _described(
     deep = _deep(problem, position)
     remarks = [
         *record.remarks,
-        *_baseline_remark(search, values),
+        *_baseline_remark(search, values, errors),
         *(jump.remark() for jump in jumps),
         *filter(None, [branches_remark(by_branch, {key.name: key.unit for key in search.keys})]),
         *filter(None, [runs_remark(errors[used], record.approach[used], search.noise)]),
@@ -329,10 +329,11 @@ def _prior(key: Key) -> float | None:
     return None if key.deviation is None else key.uncertainty(key.start, key.deviation)
 
 
-def _baseline_remark(search: Search, values: dict[str, float]) -> list[str]:
+def _baseline_remark(search: Search, values: dict[str, float], errors: Array) -> list[str]:
     if "tilt" not in values:
         sloped = "the load without contact changes with the position: fit with --baseline linear"
-        return [sloped] if search.baseline.is_sloped else []
+        # Attraction of long range changes the load, too, but the model has it.
+        return [sloped] if search.baseline.have_slope(errors) else []
     change = float(f"{values['tilt'] * search.load_range:.2g}")
     return [f"the load without contact is linear: it changes by {si_text(change, 0.0, 'N')} over the travel"]
 

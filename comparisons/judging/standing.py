@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from comparisons.description.overview import LIMITS, simplest_within
+from comparisons.description.choice import LIMITS, simplest_within
 from comparisons.domain import NO_LIMITS, Domain, Range
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS, create

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 from numpy.polynomial import Polynomial
 
+from fem_reference import LennardJones, PowerPunch
 from fem_reference._contact.states import Point
 
 
@@ -15,7 +16,8 @@ class AnalyticBranch:
     def __init__(self, displacement, load, touching=True):
         self.displacement, self.load, self.touching = displacement, Polynomial(load), touching
         self.rate = displacement.deriv() if isinstance(displacement, Polynomial) else displacement.derivative()
-        self.contact = SimpleNamespace(law=SimpleNamespace(z0=1.0), punch=None, energy=lambda y: self.work(y[0]))
+        parts = {"law": LennardJones(1.0, 1.0), "punch": PowerPunch(2.0, 1.0)}
+        self.contact = SimpleNamespace(**parts, energy=lambda y: self.work(y[0]))
 
     def largest_step(self, parameter):
         return math.inf

@@ -90,7 +90,7 @@ class _States:
     def at(self, radius):
         x = math.log(radius)
         state = SimpleNamespace(load=LOAD(x) + self.height * _bump(x), displacement=x)
-        contact = SimpleNamespace(law=SimpleNamespace(z0=1.0), punch=PowerPunch(2.0, 1.0))
+        contact = SimpleNamespace(law=LennardJones(1.0, 1.0), punch=PowerPunch(2.0, 1.0))
         return _Point(radius, state, SimpleNamespace(contact=contact, touching=True))
 
 

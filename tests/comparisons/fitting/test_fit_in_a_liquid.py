@@ -51,3 +51,5 @@ def test_the_double_layer_is_found(E, R, start, free):
         assert value.determined
         assert abs(value.value - true[name]) < 4.0 * value.u < 0.2 * true[name]
     assert fitted.residual < 1.3 * NOISE
+    # The double layer changes the load far away: that is no tilt of the instrument.
+    assert not any("--baseline" in remark for remark in fitted.remarks)

@@ -9,9 +9,9 @@ import pytest
 import fscm
 from comparisons.cli.main import main
 from comparisons.description import forces as module
+from comparisons.description.choice import SIMPLEST_FIRST, simplest_within
 from comparisons.description.equivalent_power_law import equivalent_power_law
 from comparisons.description.forces import reference_force
-from comparisons.description.overview import SIMPLEST_FIRST, simplest_within
 from comparisons.problem.evaluation import REFERENCES
 from comparisons.problem.reading import load_problem
 from comparisons.registry import MODELS
