@@ -19,7 +19,7 @@ FACES = {
 
 @both
 def test_a_ball_under_any_law_is_that_of_its_atoms(package):
-    law, name = package.LennardJones(1.0, 1.0), "BodyUnderLaw" if package is fscm else "BodyUnderTable"
+    law, name = package.LennardJones(1.0, 1.0), "BallUnderLaw" if package is fscm else "BodyUnderTable"
     under_any_law = getattr(package.interaction, name)
     ball = package.Ball(20.0)
     exact, force = package.interaction.interaction_of(ball, law, "body"), under_any_law(ball, law)
