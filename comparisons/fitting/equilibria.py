@@ -34,7 +34,8 @@ from fscm.interpolation.curve.pieces import LARGEST_LOAD
 from fscm.interpolation.curve.series import SPHERE
 
 #: Ratio of neighbouring Tabor numbers of the grid.  The load between them is within 1e-3 of the pull-off force of a
-#: path of its own (measured worst 8e-4, n = 2, k = 0, mu = 4.7, at the fold of the approach).
+#: path of its own (measured worst 8e-4, n = 2, k = 0, mu = 4.7, at the fold of the approach), or 2e-3 where the
+#: neighbours have other numbers of folds (n = 2, k = 0, mu = 23, on the part of the approach that no machine shows).
 _RATIO = 1.25
 
 #: Points of a path between two of its landmarks, and between two states that were computed.
@@ -42,6 +43,11 @@ _POINTS, _BETWEEN = 240, 8
 
 #: Points of a series.  Measured: loads between them are within 1e-5 of the pull-off force.
 _OF_SERIES = 1200
+
+#: Ratio of the loads in units of w R at which paths end: a fit has two of them.  With fewer steps each curve of a map
+#: has paths of its own; with an end at 1e4 for all, loads between Tabor numbers are up to twice as far off (measured at
+#: nine problems, n from 1 to 5, mu from 0.1 to 45).
+_ENDS = 100.0
 
 #: Longest step between two states, and degrees: a spline needs fewer than a polygon.  Measured: loads are within 1e-3
 #: of those of a path with a third of the step (eleven problems, n from 0.8 to 5, k up to 0.8, mu from 0.05 to 15).
@@ -109,8 +115,8 @@ def by_fscm(problem: Problem, largest: float, exact: bool = False) -> Equilibria
 
 
 def _end(problem: Problem, largest: float) -> float:
-    """The power of two above a load in N: few different ends of paths."""
-    return float(2.0 ** math.ceil(math.log2(max(largest / problem.units["load"], 2.0))))
+    """The power of `_ENDS` above a load in N, so that paths are shared: one step takes a tenth of a path more."""
+    return float(_ENDS ** max(math.ceil(math.log(largest / problem.units["load"], _ENDS)), 1))
 
 
 def has_series(problem: Problem, largest: float) -> bool:

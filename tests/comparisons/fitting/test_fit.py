@@ -153,7 +153,7 @@ def test_a_thin_stiff_film_on_a_soft_solid_is_fitted():
 
 @pytest.mark.parametrize(("mu", "share"), [(2.7, 3e-4), (12.0, 1e-3), *heavy((0.3, 3e-4), (7.0, 3e-4))])
 def test_series_and_grid_of_tabor_numbers_are_as_good_as_a_path(mu, share):
-    """Loads differ by less than a share of the pull-off force from those of the path of the problem itself.
+    """Loads differ from those of the path of the problem itself by less than a share of the larger of force and load.
 
     Series end at a Tabor number of 10.
     """
@@ -161,7 +161,23 @@ def test_series_and_grid_of_tabor_numbers_are_as_good_as_a_path(mu, share):
     own, between = (Machine.of(by_fscm(problem, 1e-9, exact), math.inf) for exact in (True, False))
     x = np.linspace(max(own.contact[0, 0], between.contact[0, 0]), own.contact[0, -1], 400)[4:-1]
     loads = [np.interp(x, *machine.contact) for machine in (own, between)]
-    assert np.abs(loads[0] - loads[1]).max() < share * -own.contact[1].min()
+    scale = np.maximum(np.abs(loads[0]), -own.contact[1].min())
+    assert np.abs((loads[0] - loads[1]) / scale).max() < share
+
+
+def test_curves_of_a_map_share_the_paths_between_tabor_numbers(monkeypatch):
+    """Loads of other size, and Tabor numbers between the same ones of the grid, need no path of their own."""
+    traced, trace = [], fscm.trace
+    monkeypatch.setattr(
+        fscm, "trace", lambda posed, *args, **keys: traced.append(posed.mu) or trace(posed, *args, **keys)
+    )
+    blunt = replace(of_tabor_number(1.0), punch=Section("power-law", {"n": 3.0, "Q": 1e-14}))
+    low, high = (blunt.with_value("solid.E0", E).posed.mu for E in (1e8, 1e9))
+    for number, largest in ((0.051, 3.0), (0.051, 60.0), (0.054, 15.0)):
+        problem = blunt.with_value("solid.E0", 1e8 * (number / low) ** (1.0 / math.log10(high / low)))
+        assert problem.posed.mu == pytest.approx(number)
+        by_fscm(problem, largest * problem.units["load"])
+    assert len(traced) == len(set(traced)) == 4
 
 
 def test_points_between_states_have_the_folds_of_the_states_alone():
