@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 
 from comparisons.description.equivalent_ball import BALL, PARABOLOID
-from comparisons.description.forces import change_of
+from comparisons.description.forces import change_of, fscm_force
 from comparisons.description.shared_errors import ASSUMPTIONS, Json, error_of, estimates, together
 from comparisons.model import ComputationFailed, NotApplicable
-from comparisons.models.fem_model import LargeStrain
-from comparisons.models.fscm_model import FullSelfConsistent
+from comparisons.models.fscm_model import SharedAnalysis
 from comparisons.models.jkr_sphere import LARGEST_CONTACT
 from comparisons.problem import Problem, Section
 from comparisons.runs.rows import Row
@@ -78,10 +77,13 @@ def _solved(problem: Problem, force: Row, by_solution: bool) -> dict[str, Json]:
     exact, errors = _exact(problem), {}
     if problem.punch.kind != PARABOLOID and not by_solution:
         return {}
-    small = force if exact is problem else evaluate("fscm", "pull_off_force", exact)
+    small = force if exact is problem else fscm_force(exact)
     if exact is not problem:
         errors["geometry"] = error_of(change_of(force, small), reason=small.reason)
     if by_solution:
+        # Imported here: finite elements take longer to import than the rest of a description.
+        from comparisons.models.fem_model import LargeStrain
+
         vertical_gaps: Any = LargeStrain("derjaguin")
         vertical = evaluate(vertical_gaps, "pull_off_force", exact)
         errors["strain"] = error_of(change_of(small, vertical), reason=vertical.reason)
@@ -93,7 +95,7 @@ def _solved(problem: Problem, force: Row, by_solution: bool) -> dict[str, Json]:
 
 def _measures(problem: Problem) -> Json:
     """Contact radius and slopes at pull-off, by the FSCM."""
-    surface = FullSelfConsistent().pull_off_profile(problem)
+    surface = SharedAnalysis().pull_off_profile(problem)
     radius, gap, tension = surface.radius, surface.gap, -surface.pressure
     edge = int(np.argmax(tension))
     near_edge = tension > _EDGE * tension[edge]
@@ -139,7 +141,7 @@ def total_errors(problem: Problem, errors: Sequence[Json], assumed: Json | None)
     total = {row["model"]: together({"model": row | {"basis": "bound"}, **assumptions_known}) for row in errors}
     # JKR of the exact sphere does not share the error of the shape, and has the true area of contact.
     exact = _exact(problem)
-    force = evaluate("fscm", "pull_off_force", exact)
+    force = fscm_force(exact)
     shared = {name: error for name, error in assumptions_known.items() if name != "geometry"}
     for name in ("jkr-sphere", "jkr-sphere-projected"):
         change = change_of(evaluate(name, "pull_off_force", exact), force)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import ClassVar
 
 import fscm
@@ -52,8 +53,11 @@ class FullSelfConsistent(SolverModel):
             if problem.posed.k == 1.0:
                 return gibson_profile(problem.posed)
             _check_size(problem)
-            event = fscm.Analysis(problem.posed).event("pull_off")
+            event = self._analysis(problem.posed).event("pull_off")
         return surface_of(radial_field(event.check), radial_field(event.value))
+
+    def _analysis(self, problem: fscm.Problem) -> fscm.Analysis:
+        return fscm.Analysis(problem)
 
     def _result(self, problem: Problem, quantity: str) -> Result:
         _check_size(problem)
@@ -67,6 +71,28 @@ class FullSelfConsistent(SolverModel):
         curve = curve_of(path)
         curve.columns.update({name: getattr(path, name).astype(float) for name in _MARKS})
         return curve
+
+
+class SharedAnalysis(FullSelfConsistent):
+    """The same model where several questions are about one problem: they share its path and its events.
+
+    The time of a result is without what was shared.
+    """
+
+    def _analysis(self, problem: fscm.Problem) -> fscm.Analysis:
+        return _kept_analysis(problem)
+
+    def _result(self, problem: Problem, quantity: str) -> Result:
+        if problem.posed.k == 1.0:
+            return super()._result(problem, quantity)
+        _check_size(problem)
+        return result_of(self._analysis(problem.posed).solution(quantity))
+
+
+#: Its problem and that with the exact sphere: what a description asks about.
+@lru_cache(maxsize=2)
+def _kept_analysis(problem: fscm.Problem) -> fscm.Analysis:
+    return fscm.Analysis(problem)
 
 
 def _check_size(problem: Problem) -> None:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+import fscm.analysis
 from comparisons.cli.main import main
 from comparisons.description import assumptions as module
 from comparisons.description.assumptions import SMALL, assumptions
@@ -13,6 +14,7 @@ from comparisons.description.forces import reference_force
 from comparisons.description.overview import overview
 from comparisons.description.shared_errors import ASSUMPTIONS, estimates
 from comparisons.description.text import description_text
+from comparisons.models import fem_model, fscm_model
 from comparisons.problem import Section
 from tests.comparisons.problems import on_solid
 from tests.comparisons.rows import row
@@ -68,6 +70,18 @@ def test_a_bead_on_a_soft_solid(bead):
     assert errors["jkr-sphere-projected"] == pytest.approx(projected, abs=1e-4)
 
 
+def test_a_description_traces_each_problem_once(monkeypatch):
+    """A bead, as a paraboloid and as an exact sphere: force, profile and total errors share a path each."""
+    fscm_model._kept_analysis.cache_clear()
+    traced, deepest = [], fscm.analysis.deepest_minimum
+    monkeypatch.setattr(fscm.analysis, "deepest_minimum", lambda *path: traced.append(1) or deepest(*path))
+    content = described(replace(BEAD, law=replace(BEAD.law, values={**BEAD.law.values, "z0": 1e-6})))
+    assert content["pull_off_force"]["model"] in ("atlas", "fscm")
+    assert content["assumptions"]["geometry"]["basis"] == "bound"
+    assert content["total_errors"]
+    assert len(traced) == 2
+
+
 @pytest.mark.parametrize("by_solution", [False, True])
 def test_finite_strain_is_proposed_until_it_was_tried(bead, by_solution):
     strain = {"error": None, "u_num": None, "basis": "unknown", "reason": "unknown"}
@@ -85,7 +99,8 @@ def quickly(monkeypatch):
     def assumed(problem, by_solution=False, contact_radius=1e-9, **forces):
         monkeypatch.setattr(module, "_measures", lambda _: {"contact_radius": contact_radius, "measures": []})
         forces.setdefault("vertical", forces.get("fem-large-strain"))
-        monkeypatch.setattr(module, "LargeStrain", lambda interaction: "vertical")
+        monkeypatch.setattr(fem_model, "LargeStrain", lambda interaction: "vertical")
+        monkeypatch.setattr(module, "fscm_force", lambda _: row("fscm", value=forces.get("fscm"), u_num=1e-9))
         monkeypatch.setattr(module, "evaluate", lambda model, *_: row(model, value=forces.get(model), u_num=1e-9))
         return assumptions(problem, FORCE, by_solution)
 
