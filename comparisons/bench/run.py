@@ -14,6 +14,7 @@ from typing import NamedTuple
 import pandas as pd
 
 from comparisons.bench.cold_starts import COLD_STARTS
+from comparisons.bench.kinds import KINDS_OF_PROBLEMS
 from comparisons.bench.part import Part
 from comparisons.bench.work_precision import WORK_PRECISION
 from comparisons.data.file_names import BASELINE_FOLDER, BENCH, BENCH_SUMMARY
@@ -26,7 +27,7 @@ from comparisons.runs.environment import environment
 from comparisons.runs.folder_lock import locked
 
 #: Parts by name, in the order in which they are measured: the shortest first.
-PARTS = {part.name: part for part in (COLD_STARTS, WORK_PRECISION)}
+PARTS = {part.name: part for part in (COLD_STARTS, WORK_PRECISION, KINDS_OF_PROBLEMS)}
 
 #: Folder of the committed benchmark, in a clone of the repository.
 BENCH_BASELINE = BASELINE_FOLDER / "bench"

@@ -1,4 +1,4 @@
-"""Error against CPU time: the pull-off force of a sphere on a homogeneous half-space by both references and the scheme.
+"""Error against CPU time: pull-off force of a sphere on a homogeneous half-space by both references and two schemes.
 
 A measurement has the CPU time of the first pull-off force of a process and of a further one, and memory.  The error is
 that against the certified pull-off force.
@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 import fem_reference
 import fscm
+from comparisons.bench import greenwood
 from comparisons.bench.part import Numbers, Part
 from comparisons.models.fem_model import FiniteElements
 from comparisons.output.style import COLOURS, MARKERS, new_figure, styled
@@ -30,11 +31,12 @@ CERTIFIED = {
     1.0: (1.6706647764763, 1.6e-12),
 }
 
-#: Settings of each solver: accuracies, and segments of the scheme of the paper, which has 2500.
+#: Settings of each solver: accuracies, segments of the scheme of the paper, which has 2500, and rings of Greenwood's.
 _SETTINGS = {
     "fscm": ("1e-04", "1e-05", "1e-06", "1e-07", "1e-08", "1e-09", "1e-10"),
     "fem": ("quick", "default", "fine"),
     "fscm-stieltjes": ("250", "500", "1000", "2500"),
+    "greenwood": ("50", "100", "200"),
 }
 #: Measured with `full` only.
 _FULL = "2500"
@@ -42,10 +44,10 @@ _FULL = "2500"
 #: Computations of one measurement: the least CPU time of them counts, because other programs only add to it.
 _REPEATS = 3
 #: A computation that takes so many seconds of CPU is not repeated: a disturbance is then a small part of it.
-_LONG = 1.0
+LONG = 1.0
 
 #: The first problem of a process is a neighbouring one: its Tabor number differs by this factor.
-_NEIGHBOUR = 1.1
+NEIGHBOUR = 1.1
 #: Repetitions have Tabor numbers that differ by this much, so that no stored solution serves them.
 _APART = 1e-6
 
@@ -78,7 +80,11 @@ def _by_stieltjes(problem: fscm.Problem, segments: str) -> Numbers:
     return {"value": -event.load, "u_num": None, "unknowns": int(segments)}
 
 
-_SOLVERS = {"fscm": _by_fscm, "fem": _by_elements, "fscm-stieltjes": _by_stieltjes}
+def _by_greenwood(problem: fscm.Problem, rings: str) -> Numbers:
+    return {"value": greenwood.pull_off_force(problem.mu, int(rings)), "u_num": None, "unknowns": int(rings)}
+
+
+_SOLVERS = {"fscm": _by_fscm, "fem": _by_elements, "fscm-stieltjes": _by_stieltjes, "greenwood": _by_greenwood}
 
 
 def cost_of_pull_off(n: float, k: float, mu: float, model: str, setting: str) -> Numbers:
@@ -91,20 +97,20 @@ def cost_of_pull_off(n: float, k: float, mu: float, model: str, setting: str) ->
     ----------
     n, k, mu : float
     model : str
-        fscm, fem or fscm-stieltjes.
+        fscm, fem, fscm-stieltjes or greenwood.
     setting : str
-        An accuracy (fscm, fem), or how many segments (fscm-stieltjes).
+        An accuracy (fscm, fem), how many segments (fscm-stieltjes), or rings (greenwood).
     """
     solved: list[Numbers] = []
     seconds: list[float] = []
     peak = None
-    for factor in (_NEIGHBOUR, *(1.0 + _APART * repetition for repetition in range(_REPEATS))):
+    for factor in (NEIGHBOUR, *(1.0 + _APART * repetition for repetition in range(_REPEATS))):
         begin = time.process_time()
         solved.append(_SOLVERS[model](fscm.Problem(n, k, factor * mu), setting))
         seconds.append(time.process_time() - begin)
         if len(solved) == 1:
             peak = peak_memory()
-        elif seconds[-1] > _LONG:
+        elif seconds[-1] > LONG:
             break
     return {**solved[1], "cpu_seconds": min(seconds[1:]), "cold_seconds": seconds[0], "megabytes": peak}
 

@@ -1,15 +1,19 @@
 """Parts of the benchmark: ratios, summaries and figures of those committed; measurements of tiny sizes."""
 
+import math
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.bench import cold_starts, work_precision
+import fscm
+from comparisons.bench import cold_starts, greenwood, kinds, work_precision
+from comparisons.bench.kinds import cost_of_kind
 from comparisons.bench.run import BENCH_BASELINE, PARTS
 from comparisons.bench.work_precision import CERTIFIED, cost_of_pull_off, peak_memory
 from comparisons.paper.cache import Outcome
+from comparisons.registry import create
 
 COMMITTED = Path(__file__).parents[3] / BENCH_BASELINE
 
@@ -107,3 +111,30 @@ def test_the_peak_of_the_memory_includes_what_is_free_again():
     large = np.ones(30_000_000)
     del large
     assert peak_memory() >= max(before, 240.0)
+
+
+def test_a_kind_of_problem_has_value_bound_and_times():
+    """A cone by the FSCM; without a value there is no time."""
+    numbers = cost_of_kind("n = 1, k = 0", 0.3, "fscm")
+    assert numbers["value"] == pytest.approx(fscm.solve(fscm.Problem(1, 0, 0.3), "pull_off_force").value, rel=1e-12)
+    assert 0.0 <= numbers["u_num"] < 1e-9
+    assert numbers["cpu_seconds"] > 0.0
+    with pytest.raises(RuntimeError, match="punch"):
+        cost_of_kind("measured punch", 50.0, "jkr")
+
+
+def test_every_planned_problem_is_admissible_and_a_factor_changes_it():
+    for settings in kinds.plan(full=True):
+        problem, softer = (kinds.KINDS[settings["problem"]].problem(settings["size"], factor) for factor in (1.0, 1.1))
+        assert create(settings["model"], problem.nu).skip(problem, "pull_off_force") is None
+        if problem.is_dimensionless:
+            assert softer.posed.mu == pytest.approx(1.1 * problem.posed.mu)
+        else:
+            assert softer.law["work_of_adhesion"] == pytest.approx(1.1 * problem.law["work_of_adhesion"])
+            assert math.isfinite(softer.posed.mu)
+
+
+def test_the_scheme_of_greenwood_is_within_a_thousandth():
+    """It leaves out what attracts behind f = 50: 6e-4 of the force."""
+    for mu, (force, _) in CERTIFIED.items():
+        assert greenwood.pull_off_force(mu, 100) == pytest.approx(force, rel=1e-3)
