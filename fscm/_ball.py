@@ -23,7 +23,7 @@ import scipy
 
 from fscm._ball_under_law import ball_under_law
 from fscm._typing import Array
-from fscm._whole_punch import WholePunch
+from fscm._whole_punch import WholePunchUnderMie
 from fscm.laws import LennardJones, Mie
 from fscm.punch import Ball, ScaledPunch
 
@@ -44,7 +44,7 @@ _LOG_PEAK = -2.5, 2.5
 
 
 @dataclass(frozen=True, slots=True)
-class BallUnderMie(WholePunch):
+class BallUnderMie(WholePunchUnderMie):
     """The potential of a ball whose atoms fill its radius.
 
     Parameters
@@ -74,16 +74,6 @@ class BallUnderMie(WholePunch):
         if isinstance(self.punch, ScaledPunch):
             return float(getattr(self.punch.punch, "R")) / self.punch.height_unit  # noqa: B009  # another shape has none
         return self.punch.R
-
-    @property
-    def exponents(self) -> tuple[float, float]:
-        """Of the repulsion and of the attraction of the law."""
-        return (9.0, 3.0) if isinstance(self.law, LennardJones) else (self.law.m, self.law.n)
-
-    @property
-    def _strength(self) -> float:
-        m, n = self.exponents
-        return (m - 1.0) * (n - 1.0) / (m - n) * self.law.work_of_adhesion / self.law.z0
 
     def falls_as(self, r: float) -> float:
         """Exponent of p ~ r^-q far away, at which the ball is a point."""

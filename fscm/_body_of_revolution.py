@@ -14,7 +14,7 @@ import numpy as np
 
 from fscm._potential_table import energy_table, power_table
 from fscm._typing import Array
-from fscm._whole_punch import WholePunch
+from fscm._whole_punch import WholePunchUnderMie
 from fscm.laws import LennardJones, Mie
 from fscm.punch import PunchShape
 
@@ -32,7 +32,7 @@ _ROUNDING, _SAFETY = 2.0**-49, 4.0
 
 
 @dataclass(frozen=True, slots=True)
-class BodyOfRevolution(WholePunch):
+class BodyOfRevolution(WholePunchUnderMie):
     """The potential of a punch without end (see the module): an `fscm.interaction.Interaction`.
 
     Parameters
@@ -53,16 +53,6 @@ class BodyOfRevolution(WholePunch):
 
     punch: PunchShape
     law: LennardJones | Mie
-
-    @property
-    def exponents(self) -> tuple[float, float]:
-        """Of the repulsion and of the attraction of the law."""
-        return (9.0, 3.0) if isinstance(self.law, LennardJones) else (self.law.m, self.law.n)
-
-    @property
-    def _strength(self) -> float:
-        m, n = self.exponents
-        return (m - 1.0) * (n - 1.0) / (m - n) * self.law.work_of_adhesion / self.law.z0
 
     def falls_as(self, r: float) -> float:
         """Exponent q of p ~ r^-q far away, where the punch is a slender body of the cross-section ~ z^(2/growth)."""

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Hashable
 from functools import lru_cache
 
 import numpy as np
 
 from fscm._typing import Array
-from fscm.laws import SurfaceLaw
+from fscm.laws import LennardJones, Mie, SurfaceLaw
 from fscm.punch import PunchShape, ScaledPunch, kinks_of
 
-__all__ = ["WholePunch", "aspect_of"]
+__all__ = ["WholePunch", "WholePunchUnderMie", "aspect_of"]
 
 #: The traction is nearly a power of the radius beyond so many sizes of the punch.
 _FAR = 1e4
@@ -24,7 +25,7 @@ def aspect_of(punch: PunchShape) -> float:
     return punch.radius / punch.height_unit if isinstance(punch, ScaledPunch) else 1.0
 
 
-class WholePunch:
+class WholePunch(ABC):
     """An `fscm.interaction.Interaction` by the potential of a punch, which a subclass knows.
 
     Attributes
@@ -44,25 +45,25 @@ class WholePunch:
         return aspect_of(self.punch)
 
     @property
+    @abstractmethod
     def exponents(self) -> tuple[float, float]:
         """Of the repulsion and of the attraction of the law; of the attraction alone where it is not a sum of two."""
-        raise NotImplementedError
 
+    @abstractmethod
     def traction(self, r: Array, H: Array) -> Array:
         """p(r, H)."""
-        raise NotImplementedError
 
+    @abstractmethod
     def slope(self, r: Array, H: Array) -> Array:
         """dp/dH at a fixed radius."""
-        raise NotImplementedError
 
+    @abstractmethod
     def energy(self, r: Array, H: Array) -> Array:
         """Integral of p from H to infinity at a fixed radius."""
-        raise NotImplementedError
 
+    @abstractmethod
     def falls_as(self, r: float) -> float:
         """Exponent q of p ~ r^-q far away."""
-        raise NotImplementedError
 
     @property
     def slope_falls_by(self) -> float:
@@ -92,6 +93,23 @@ class WholePunch:
         level = self.punch.height(r) - H
         moved = self.aspect * np.abs(r[1] - r[0]) + np.abs(level[1] - level[0])
         return np.asarray(np.minimum(np.abs(H[1] - H[0]), moved))
+
+
+class WholePunchUnderMie(WholePunch):
+    """One whose atoms attract and repel each other by powers of the distance."""
+
+    __slots__ = ()
+    law: LennardJones | Mie
+
+    @property
+    def exponents(self) -> tuple[float, float]:
+        """Of the repulsion and of the attraction of the law."""
+        return (9.0, 3.0) if isinstance(self.law, LennardJones) else (self.law.m, self.law.n)
+
+    @property
+    def _strength(self) -> float:
+        m, n = self.exponents
+        return (m - 1.0) * (n - 1.0) / (m - n) * self.law.work_of_adhesion / self.law.z0
 
 
 @lru_cache(maxsize=64)
