@@ -95,7 +95,7 @@ def _solved(problem: Problem, force: Row, by_solution: bool) -> dict[str, Json]:
 
 def _measures(problem: Problem) -> Json:
     """Contact radius and slopes at pull-off, by the FSCM."""
-    surface = SharedAnalysis().pull_off_profile(problem)
+    surface = SharedAnalysis().pull_off_surface(problem)
     radius, gap, tension = surface.radius, surface.gap, -surface.pressure
     edge = int(np.argmax(tension))
     near_edge = tension > _EDGE * tension[edge]

@@ -79,6 +79,16 @@ class SharedAnalysis(FullSelfConsistent):
     The time of a result is without what was shared.
     """
 
+    def pull_off_surface(self, problem: Problem) -> RadialField:
+        """Return the surface where P is smallest, without its uncertainty."""
+        refuse(self.skip(problem, "pull_off_gap"))
+        with translated(fscm):
+            if problem.posed.k == 1.0:
+                return gibson_profile(problem.posed)
+            _check_size(problem)
+            field = radial_field(self._analysis(problem.posed).event("pull_off").value)
+        return RadialField(field.radius, field.pressure, field.gap)
+
     def _analysis(self, problem: fscm.Problem) -> fscm.Analysis:
         return _kept_analysis(problem)
 
