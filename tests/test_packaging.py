@@ -127,24 +127,48 @@ def test_the_constraints_have_the_lowest_version_of_every_requirement():
     assert {line.replace("==", ">=") for line in lines} >= {*RUNTIME, *FOR_TESTS}
 
 
-def test_a_release_needs_authors_a_doi_and_the_version_of_its_tag(tmp_path):
+PAPER = ".github/joss/paper.md"
+#: What the release check says of a clone before its owner has written anything, by words of its sentences.
+MISSING = (
+    "[project.urls]",
+    "repository-code",
+    "family name",
+    "doi: 10",
+    "no author",
+    "no affiliation",
+    "AI usage",
+    "Acknow",
+)
+
+
+def test_a_release_needs_its_version_authors_affiliations_address_doi_and_what_the_owner_states(tmp_path):
     (tmp_path / ".github" / "joss").mkdir(parents=True)
-    for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff", ".github/release_check.py", ".github/joss/paper.md"):
+    for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff", ".github/release_check.py", PAPER):
         (tmp_path / name).write_bytes((ROOT / name).read_bytes())
     problems = runpy.run_path(str(tmp_path / ".github" / "release_check.py"))["problems"]
-    assert any("v0.0.9" in line and PROJECT["version"] in line for line in problems("v0.0.9", ""))
-    assert any("[project.urls]" in line and "https://a" in line for line in problems("", "https://a"))
+    tag, address = f"v{PROJECT['version']}", "https://a/b"
 
-    def named():
-        found = "\n".join(problems(f"v{PROJECT['version']}", ""))
-        return [word for word in ("CITATION.cff has no family", "paper.md has no family", "doi") if word in found]
+    def change(name, *pairs):
+        text = (tmp_path / name).read_text(encoding="utf-8")
+        for old, new in pairs:
+            assert old in text
+            text = text.replace(old, new)
+        (tmp_path / name).write_text(text, encoding="utf-8")
 
-    assert named() == ["CITATION.cff has no family", "paper.md has no family", "doi"]
-    citation, paper = tmp_path / "CITATION.cff", tmp_path / ".github" / "joss" / "paper.md"
-    text = citation.read_text().replace('  - name: "The fscm-bench developers"', "  - family-names: Doe")
-    citation.write_text(text.replace("\nlicense:", "\ndoi: 10.5281/zenodo.1\nlicense:"))
-    paper.write_text(paper.read_text().replace("authors: []", "authors:\n  - name: Jane Doe"))
-    assert named() == []
+    assert any("v0.0.9" in line and PROJECT["version"] in line for line in problems("v0.0.9", address))
+    found = problems(tag, address)
+    assert [[word for word in MISSING if word in line] for line in found] == [[word] for word in MISSING]
+    change("pyproject.toml", ("\n[project.scripts]", f'\n[project.urls]\nSource = "{address}"\n\n[project.scripts]'))
+    person, facts = "  - family-names: Doe", f"doi: 10.5281/zenodo.1\nrepository-code: {address}\nlicense:"
+    change("CITATION.cff", ('  - name: "The fscm-bench developers"', person), ("license:", facts))
+    owner = ("[to be stated by the owner", "The owner states [")
+    change(PAPER, ("authors: []", "authors:\n  - name: Jane Doe\n    affiliation: 1, 2"), owner)
+    change(PAPER, ("affiliations: []", "affiliations:\n  - index: 1\n    name: Some University"))
+    (left,) = problems(tag, address)
+    assert "Jane Doe" in left
+    change(PAPER, ("affiliation: 1, 2", "affiliation: 1"))
+    assert problems(tag, address) == []
+    assert [line for line in problems(tag, "https://c/d") if "https://c/d" in line and address in line]
 
 
 def test_the_recipe_of_conda_has_the_requirements_and_the_version_of_the_project():

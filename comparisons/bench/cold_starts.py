@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import resource
 import shutil
 import subprocess
 import sys
@@ -84,7 +83,14 @@ _FINISHED = {0, 1, 3}
 
 
 def plan(full: bool) -> list[Numbers]:
-    """Return the commands."""
+    """Return the commands.
+
+    Raises
+    ------
+    ValueError
+        If the system cannot tell their CPU time, before anything is measured.
+    """
+    _cpu_of_children()
     return [{"command": command} for command in _COMMANDS]
 
 
@@ -128,15 +134,23 @@ def _call(arguments: list[str], folder: Path) -> Numbers:
     """Call a command; the results of the call before it are removed."""
     for results in ("out", "results"):
         shutil.rmtree(folder / results, ignore_errors=True)
-    before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
-    done = subprocess.run(
-        [sys.executable, *arguments], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-    )
-    seconds, after = time.perf_counter() - begin, resource.getrusage(resource.RUSAGE_CHILDREN)
+    before, begin = _cpu_of_children(), time.perf_counter()
+    done = subprocess.run([sys.executable, *arguments], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    seconds, after = time.perf_counter() - begin, _cpu_of_children()
     if done.returncode not in _FINISHED:
-        raise RuntimeError(f"exit status {done.returncode}: {' '.join(done.stderr.splitlines()[-1:])}")
-    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return {"cpu_seconds": cpu, "seconds": seconds, "exit_status": done.returncode}
+        said = done.stderr.decode(errors="replace").splitlines()
+        raise RuntimeError(f"exit status {done.returncode}: {' '.join(said[-1:])}")
+    return {"cpu_seconds": after - before, "seconds": seconds, "exit_status": done.returncode}
+
+
+def _cpu_of_children() -> float:
+    """Return the CPU time of the processes that this one has started and that have ended, and of theirs."""
+    if sys.platform == "win32":
+        raise ValueError("Windows does not tell the CPU time of a command with its processes: --only work-precision")
+    import resource
+
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def ratios(rows: pd.DataFrame) -> pd.DataFrame:

@@ -17,6 +17,7 @@ from contextlib import contextmanager, suppress
 from typing import TextIO
 
 from comparisons.console.printable import printable
+from comparisons.console.readable import take_every_text
 
 #: Exit statuses: 0 done, and all gates pass; 1 a gate fails; 2 wrong input; 3 a gate is inconclusive; 4 a computation
 #: or an output failed, a gate is in error, or there was nothing to judge.
@@ -77,6 +78,9 @@ def guarded(command: Callable[[], int], program: str = "fscm-bench") -> int:
     if sys.stderr is None:
         # Closed by the parent process (2>&-): messages need a place, and no file may get descriptor 2.
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  # open to the end
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            take_every_text(stream)
     status = _status(command, program)
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:

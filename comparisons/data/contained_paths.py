@@ -30,7 +30,8 @@ def path_inside(folder: Path, name: str) -> Path:
     ValueError: the path '../pad.toml' leads out of the folder results
     """
     path, written = folder / name, PurePath(name)
-    leads_out = written.is_absolute() or ".." in written.parts or "\0" in name
+    # A drive, too: "D:pad.toml" is neither absolute nor below the folder.
+    leads_out = written.is_absolute() or written.drive or ".." in written.parts or "\0" in name
     # Not Path.resolve(), which raises RuntimeError at a loop of links in Python 3.11 and 3.12.
     root = os.path.realpath(folder)
     if leads_out or os.path.commonpath([root, os.path.realpath(path)]) != root:

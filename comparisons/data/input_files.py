@@ -19,6 +19,9 @@ LARGEST_TABLE = 50_000_000
 #: Most bytes of the rows that this program has stored, as a table or as the store: six million rows of 600 bytes.
 LARGEST_ROWS = 4_000_000_000
 
+#: A pipe without a writer would wait for one.  Windows lacks the flag, and has no pipes among its files.
+_AT_ONCE = getattr(os, "O_NONBLOCK", 0)
+
 _KINDS = {stat.S_IFIFO: "a pipe", stat.S_IFCHR: "a device", stat.S_IFBLK: "a device", stat.S_IFSOCK: "a socket"}
 
 
@@ -61,8 +64,7 @@ def regular_file(path: Path, largest: int) -> Iterator[tuple[IO[bytes], int]]:
         As `read_bytes`.
     """
     try:
-        # O_NONBLOCK: a pipe without a writer would wait for one.
-        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+        descriptor = os.open(path, os.O_RDONLY | _AT_ONCE)
     except ValueError as error:  # a name with a NUL
         raise OSError(errno.EINVAL, str(error), str(path)) from None
     try:

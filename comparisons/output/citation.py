@@ -75,7 +75,7 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
     cff = _shipped("citation.json")
     note = f"version {version_of(record['package']) if record else version}"
     facts = {"author": _names(cff["authors"]), "year": cff["date-released"][:4], "note": note}
-    cited = [Work("fscm-bench", cff | facts)]
+    cited = [Work("fscm-bench", cff | facts | {"url": cff.get("repository-code")})]
     for paper in cff["references"]:
         key = f"{paper['authors'][0].get('family-names', '')}-{paper['title'].split()[0]}".lower()
         pages = "--".join(str(paper[name]) for name in ("start", "end") if name in paper)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import count
+from itertools import accumulate, chain, count, cycle, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,9 +34,9 @@ _SIGNS = "○□△◇▽⬡▣☆"
 LINES: tuple[Any, ...] = ("-", "--", "-.", ":")
 LINES += ((0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (4, 1, 4, 1, 1, 1)), (0, (2, 2)))
 
-#: Dashes in Matplotlib -> in Bokeh, which has no names for the last ones.
-_DASHES: dict[Any, str] = {"-": "solid", "--": "dashed", "-.": "dotdash", ":": "dotted"}
-_DASHES |= {line: " ".join(str(2 * length) for length in line[1]) for line in LINES[len(_DASHES) :]}
+#: Dashes in Matplotlib -> the lengths of marks and gaps on a page, in pixels; none for a whole line.
+_DASHES: dict[Any, tuple[int, ...]] = {"-": (), "--": (6, 4), "-.": (7, 3, 2, 3), ":": (2, 3)}
+_DASHES |= {line: tuple(2 * length for length in line[1]) for line in LINES[len(_DASHES) :]}
 
 #: The model whose curve is broad and pale, below the others: where they are right they cover it.
 BROAD = "fscm"
@@ -51,8 +51,9 @@ class ModelStyle:
     colour : str
         In hexadecimal digits.
     line : str or tuple
-    dash : str
-        Its dashes in Matplotlib and Bokeh.
+        Its dashes in Matplotlib.
+    dashes : tuple of int
+        The same on a page: lengths of marks and gaps in pixels, none for a whole line.
     symbol, marker, sign : str
         Its marker in Matplotlib, in Bokeh and as a character.
     broad : bool
@@ -61,7 +62,7 @@ class ModelStyle:
 
     colour: str
     line: Any
-    dash: str
+    dashes: tuple[int, ...]
     symbol: str
     marker: str
     sign: str
@@ -71,6 +72,14 @@ class ModelStyle:
     def on_dark(self) -> str:
         """Its colour on a dark page."""
         return _ON_DARK.get(self.colour, self.colour)
+
+    @property
+    def background(self) -> str:
+        """A piece of its line as the background of an element, in CSS."""
+        ends = list(accumulate(self.dashes, initial=0))
+        colours = cycle(("currentColor", "transparent"))
+        parts = [f"{colour} {start}px {end}px" for colour, (start, end) in zip(colours, pairwise(ends), strict=False)]
+        return f"repeating-linear-gradient(90deg, {', '.join(parts or ['currentColor 0 100%'])})"
 
     @property
     def arguments(self) -> dict[str, Any]:
@@ -90,7 +99,11 @@ def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
     present = sorted(set(names))
     positions = {name: position for position, name in enumerate(MODELS) if name in present}
     taken = {*positions.values()}
-    free = (at for at in count() if at not in taken and at % len(COLOURS) not in _COLOURLESS)
+    # First the colours that no model of ours has here.
+    hues = _COLOURLESS | {at % len(COLOURS) for at in taken}
+    unused = [at for at in range(len(COLOURS)) if at not in hues]
+    others = (at for at in count() if at not in (*taken, *unused) and at % len(COLOURS) not in _COLOURLESS)
+    free = chain(unused, others)
     return {name: _style(positions[name] if name in positions else next(free), broad=name == BROAD) for name in present}
 
 

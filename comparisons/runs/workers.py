@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
@@ -58,8 +59,9 @@ class _Workers:
     """
 
     def __init__(self, count: int) -> None:
-        # Its start changes the mask of signals of the thread that starts it.
-        resource_tracker.ensure_running()
+        if sys.platform != "win32":
+            # Its start changes the mask of signals of the thread that starts it.
+            resource_tracker.ensure_running()
         self._threads = ThreadPoolExecutor(count, initializer=_block_interrupts)
         self._own = threading.local()
         self._pools: list[ProcessPoolExecutor] = []
@@ -128,7 +130,8 @@ def _interrupts_later() -> Iterator[None]:
 
 def _block_interrupts() -> None:
     # The processes that a thread starts inherit its mask: Ctrl-C is left to their parent, which ends them.
-    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    if sys.platform != "win32":
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
 
 
 def _whole(item: Item) -> Iterable[Item]:
@@ -202,6 +205,8 @@ def one_thread() -> None:
 def _start_worker() -> None:
     """Prepare a worker process: one thread, and an end as soon as the parent ends."""
     one_thread()
+    if sys.platform == "win32":  # which has no mask to inherit
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
     if parent := parent_process():
         threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
 

@@ -162,6 +162,26 @@ def test_links_and_names_of_modules_resolve():
     assert wrong == []
 
 
+#: What only Sphinx reads: directives as blocks and between colons, roles, targets and comments of MyST.
+OF_SPHINX = re.compile(r"^ *(?:```+|~~~+|:::+) *\{|^:::|\{[\w:-]+\}`|^\([\w-]+\)=$|^% |^\+\+\+", re.MULTILINE)
+#: The lists of pages, which a reader on GitHub has as folders.
+HIDDEN = re.compile(r"^```\{toctree\}\n.*?^```", re.MULTILINE | re.DOTALL)
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
+def test_a_page_is_readable_where_no_sphinx_is(path):
+    text = path.read_text(encoding="utf-8")
+    if path.name == "index.md":
+        text, count = HIDDEN.subn("", text)
+        assert count
+    assert OF_SPHINX.findall(text) == []
+
+
+@pytest.mark.parametrize("text", ["```{math}\nx\n```", ":::{note}\n", "see {ref}`a`", "(label)=\n", "% a comment\n"])
+def test_what_only_sphinx_reads_is_detected(text):
+    assert OF_SPHINX.search(text)
+
+
 #: Tutorial of the coated pad: what it prints, its commands, and the force (nN) that the text states.
 COATED_PAD = DOCS / "tutorial_coated_pad.md"
 SHOWN = blocks(COATED_PAD, "text")

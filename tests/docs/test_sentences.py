@@ -5,11 +5,13 @@ import re
 import pytest
 
 from tests.docs.test_documents import DOCUMENTS
+from tests.paths import ROOT
 
 #: Most words of a sentence.
 MOST_WORDS = 40
-#: Longer ones are left to the theory, whose sentences hold formulas, and to the record of changes.
-FORMULAS, RECORD = {"theory.md": 60}, {"CHANGELOG.md"}
+#: Longer ones are left to the record of changes.
+RECORD = {"CHANGELOG.md"}
+PAGES = [page for page in DOCUMENTS if page.name not in RECORD] + sorted((ROOT / ".github").rglob("*.md"))
 #: A reference to the literature, which is no sentence.
 REFERENCE = "Please cite"
 
@@ -41,8 +43,7 @@ def test_sentences_are_told_apart():
     assert words("a - b = 1, X") == 4
 
 
-@pytest.mark.parametrize("page", [page for page in DOCUMENTS if page.name not in RECORD], ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
 def test_no_sentence_is_long(page):
-    most = FORMULAS.get(page.name, MOST_WORDS)
-    long = [sentence for sentence in sentences(page.read_text(encoding="utf-8")) if words(sentence) > most]
+    long = [sentence for sentence in sentences(page.read_text(encoding="utf-8")) if words(sentence) > MOST_WORDS]
     assert [sentence for sentence in long if not sentence.startswith(REFERENCE)] == []

@@ -26,8 +26,10 @@ _MODELS, _SHOWN = ("md-original", "md-improved"), {"quantity": "pull_off_force",
 _COLUMNS = 4
 
 #: More panels are too small a part of a figure; room in the legend of a character, a line and its height in inches.
-_MOST_PANELS, _LEGEND_CHARACTER, _LEGEND_LINE = 24, 0.063, 0.6
+_MOST_PANELS, _LEGEND_CHARACTER, _LEGEND_LINE = 24, 0.063, 0.8
 _LEGEND_HEIGHT = 0.17
+#: Length of a line in the legend, in characters' heights: two periods of dash and dot.
+_LEGEND_SAMPLE = 4.0
 
 #: Characters of a line beside or above a panel.
 _LINE = 28
@@ -90,7 +92,9 @@ def draw_plots(drawn: Sequence[plots.Plot]) -> Figure:
                 plot, rows = panel
                 handles |= _panel(axes, plot, rows, styles)
         labels = [entries[model] for model in handles]
-        figure.legend(handles.values(), labels, loc="outside lower center", ncols=in_legend)
+        figure.legend(
+            handles.values(), labels, loc="outside lower center", ncols=in_legend, handlelength=_LEGEND_SAMPLE
+        )
     return figure
 
 

@@ -103,7 +103,8 @@ def render(page: Page, file: str = "report-rows.js") -> Rendered:
         # Only what the scripts of the page add has it: no text of the data is a script.
         "nonce": digest[:32],
         "model_styles": {
-            name: [style.colour, style.on_dark, style.dash, style.marker, style.broad] for name, style in styles.items()
+            name: [style.colour, style.on_dark, style.dashes, style.marker, style.broad]
+            for name, style in styles.items()
         },
     }
     content = {"page": page, "texts": TEXTS, "model_styles": styles, "data": data, "first_rows": _FIRST_ROWS}

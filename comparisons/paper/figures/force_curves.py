@@ -23,8 +23,8 @@ Ranges = dict[float, tuple[tuple[float, float], tuple[float, float]]]
 _CASE = {"n": 2.0, "k": 0.4, "mu": 3.0}
 _S_RANGES = {"central_gap": (-0.04, 7.0), "displacement": (-7.2, 7.6), "load": (-2.05, 0.55)}
 _S_AXES = (("central_gap", "displacement"), ("central_gap", "load"), ("displacement", "load"))
-#: In contact the central gap hardly moves; its scale is linear below and logarithmic beyond.
-_LINEAR_GAP, _GAP_TICKS = 0.05, (0.0, 0.05, 0.2, 1.0, 5.0)
+#: In contact the central gap hardly moves: its scale is linear near 0 and logarithmic beyond, without a kink between.
+_LINEAR_GAP, _GAP_TICKS = 0.015, (0.0, 0.05, 0.2, 1.0, 5.0)
 #: Where the letter of a point stands, in points of text from it, by panel: above, on the right, or beside a curve.
 _BESIDE = {
     "displacement": {"A": (-4, 5), "B": (0, -11), "A'": (5, 1), "B'": (-14, -6)},
@@ -55,7 +55,6 @@ def _s_curve(figure: Figure, curves: pd.DataFrame, points: pd.DataFrame, hystere
     points = points.set_index("name")
     path, jkr = of_model(curves, "fscm", "jkr")
     lattice = panels(figure, ("", "", case(**_CASE)))
-    lattice[2].fill(*loop(path, points), color=COLOURS[6], alpha=0.35, lw=0)
     for axes, (x, y), beside in zip(lattice, _S_AXES, _BESIDE.values(), strict=True):
         level(axes)
         axes.plot(path[x], path[y], color=COLOURS[0], label="fscm")
@@ -65,15 +64,15 @@ def _s_curve(figure: Figure, curves: pd.DataFrame, points: pd.DataFrame, hystere
                 str(name), (point[x], point[y]), beside.get(str(name), (4, 4)), textcoords="offset points", fontsize=8
             )
         if x == "central_gap":
-            axes.set_xscale("symlog", linthresh=_LINEAR_GAP)
+            axes.set_xscale("asinh", linear_width=_LINEAR_GAP)
             axes.set_xticks(_GAP_TICKS, [f"{gap:g}" for gap in _GAP_TICKS])
         axes.set(xlabel=LABELS[x], ylabel=LABELS[y], xlim=_S_RANGES[x], ylim=_S_RANGES[y])
     forces = lattice[2]
     forces.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label="jkr")
     for name in ("A", "B"):
         forces.plot(*points.loc[[name, f"{name}'"], ["displacement", "load"]].to_numpy().T, color=COLOURS[1], ls=":")
-    energy = hysteresis["value"].item()
-    forces.plot([], [], " ", label=f"loss $\\oint\\,\\bar P\\,d\\delta/z_0$ = {energy:.4f}")
+    loss = f"loss $\\oint\\,\\bar P\\,d\\delta/z_0$ = {hysteresis['value'].item():.4f}"
+    forces.fill(*loop(path, points), color=COLOURS[6], alpha=0.35, lw=0, zorder=0, label=loss)
     figure.legend(*forces.get_legend_handles_labels(), loc="outside lower center", ncols=3)
 
 

@@ -1,10 +1,12 @@
 """Input files that are no regular files, or too large: one sentence for every command that reads one."""
 
 import os
+from pathlib import PureWindowsPath
 
 import pytest
 
 from comparisons.cli.main import main
+from comparisons.data import contained_paths
 from comparisons.data.contained_paths import path_inside
 from comparisons.data.input_files import LARGEST_TEXT, read_bytes, read_text
 from tests.comparisons.grid_text import grid_text
@@ -77,6 +79,13 @@ def test_paths_in_a_folder_and_paths_that_lead_out(tmp_path):
             path_inside(folder, name)
     for name in ("a", "b/d", "./b//d", "c"):
         assert path_inside(tmp_path / "link", name) == tmp_path / "link" / name
+
+
+def test_a_drive_of_windows_leads_out(tmp_path, monkeypatch):
+    monkeypatch.setattr(contained_paths, "PurePath", PureWindowsPath)
+    for name in ("D:pad.toml", "C:\\pad.toml", "..\\pad.toml"):
+        with pytest.raises(ValueError, match="leads out of the folder"):
+            path_inside(tmp_path, name)
 
 
 @pytest.mark.parametrize("mark", ["", "\ufeff"])

@@ -6,6 +6,7 @@ from importlib.resources import files
 
 import yaml
 
+from comparisons.output import citation
 from comparisons.output.citation import Work, as_bibtex, methods, works
 from tests.comparisons.records import record_of_run
 from tests.paths import ROOT
@@ -47,6 +48,13 @@ def test_without_a_run_it_names_fscm_bench_and_the_paper():
     work = Work("a", {"author": "A, B. and others", "title": "T", "journal": "J", "year": "2022", "doi": "10.1/x_y"})
     assert work.text() == "A, B. et al. T. J (2022). doi:10.1/x_y."
     assert "doi = {10.1/x_y}" in work.bibtex()
+
+
+def test_the_doi_and_the_address_of_a_release_are_cited(monkeypatch):
+    released = citation._shipped("citation.json") | {"doi": "10.5281/zenodo.1", "repository-code": "https://a/b"}
+    monkeypatch.setattr(citation, "_shipped", lambda name: released)
+    entry = entries(as_bibtex(works("1.2.3")))["fscm-bench"]
+    assert (entry["doi"], entry["url"]) == ("10.5281/zenodo.1", "https://a/b")
 
 
 def test_a_run_names_its_versions_and_models():

@@ -84,6 +84,8 @@ def test_a_comparison_has_a_panel_for_each_case_and_a_legend_inside_the_figure()
     # A bar of the bound is too small to be seen: the legend states it.
     assert "jkr, u ≤ 1.0e-02 %" in [text.get_text() for text in legend.get_texts()]
     assert len({(line.get_color(), line.get_marker()) for line in legend.get_lines()}) == len(models)
+    # Two periods of dash and dot are longer than what their marker covers.
+    assert legend.handlelength >= 4
     # More panels than a figure has room for: the cases are points of one.
     (axes,) = draw_comparison(errors(["jkr"], np.arange(1.0, 14.0), np.arange(1.0, 15.0))).axes
     assert axes.get_xlabel() == "case"

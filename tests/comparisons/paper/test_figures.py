@@ -1,6 +1,7 @@
 """Figures of the paper: the data beside each picture against closed forms, limits, identities and the models."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pandas as pd
@@ -8,12 +9,15 @@ import pytest
 
 from comparisons.model import NotApplicable
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
+from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.figures import force_curves, pull_off_forces, studies
 from comparisons.paper.figures.force_curves import fig03_s_curve, loop
 from comparisons.paper.figures.surfaces import fig17_surface_models
+from comparisons.paper.registry import paper_figures
 from comparisons.paper.tasks import jumps, profile, quantity, surface
 from comparisons.problem import Problem
 from comparisons.registry import create
+from tests.paths import ROOT
 
 STRESSES = {"md-original": THEORETICAL_STRENGTH, "md-improved": eta(2.0)}
 
@@ -45,6 +49,28 @@ def test_the_named_points_are_events_and_their_loop_has_the_area_of_the_energy_l
     area = abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) / 2
     # The energy is the sum of two drops at constant displacement; the area is a sum over chords of the curve.
     assert area == pytest.approx(tables["hysteresis"]["value"].item(), rel=1e-3)
+
+
+def test_no_letter_of_a_named_point_is_on_a_curve_and_no_scale_has_a_kink():
+    folder = ROOT / PAPER_BASELINE
+    tables = {name: pd.read_csv(folder / f"fig03_s_curve_{name}.csv") for name in ("curves", "points", "hysteresis")}
+    (paper_figure,) = [figure for figure in paper_figures() if figure.stem == "fig03_s_curve"]
+    figure = paper_figure.draw(tables)
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        curves = [axes.transData.transform(line.get_xydata()) for line in axes.lines if len(line.get_xydata()) > 10]
+        for letter in axes.texts:
+            box = letter.get_window_extent()
+            inside = [points for points in curves if np.any(np.all((points > box.min) & (points < box.max), axis=1))]
+            assert (letter.get_text(), inside) == (letter.get_text(), [])
+        labels = [label.get_window_extent() for label in axes.get_xticklabels() if label.get_text()]
+        assert not any(left.overlaps(right) for left, right in pairwise(labels))
+        # A kink of the scale would be read as one of the curve.
+        x = np.linspace(*axes.get_xlim(), 20_000)
+        slope = np.diff(axes.transScale.transform(np.column_stack([x, x]))[:, 0])
+        assert np.abs(np.diff(slope) / slope[:-1]).max() < 0.1
+    (legend,) = figure.legends
+    assert [type(handle).__name__ for handle in legend.legend_handles] == ["Line2D", "Line2D", "Rectangle"]
 
 
 def test_a_curve_has_its_load_and_a_refused_one_is_named(made_of):

@@ -169,11 +169,22 @@ def test_plots_have_the_stored_points(laid_out, stored):
 
 def test_models_of_ours_and_external_ones_differ_by_colour_and_shape():
     styles = model_styles([*MODELS, *(f"mine-{number}" for number in range(300))]).values()
-    for shape in ("marker", "sign", "dash"):
+    for shape in ("marker", "sign", "dashes"):
         assert len({(style.colour, getattr(style, shape)) for style in styles}) == len(styles)
     # Beside whatever models of ours, an external one has a colour.
     for number in range(len(MODELS)):
         assert model_styles([*list(MODELS)[:number], "mine"])["mine"].colour not in ("#666666", "#000000")
+    # While a colour is left, it is that of no model of ours.
+    beside = model_styles(["jkr", "dmt", "md-improved", "mine"])
+    assert len({style.colour for style in beside.values()}) == len(beside)
+
+
+def test_the_legend_of_a_page_shows_the_dashes_of_a_line():
+    styles = model_styles(MODELS).values()
+    assert len({style.background for style in styles}) == len({style.dashes for style in styles}) > 4
+    for style in styles:
+        marks = re.findall(r"currentColor (\d+)px (\d+)px", style.background)
+        assert [int(end) - int(start) for start, end in marks] == list(style.dashes[::2])
 
 
 def test_a_run_without_verdicts_errors_or_curves_has_a_page(run_folder, tmp_path):
