@@ -18,13 +18,25 @@ from comparisons.fitting.search import DESCRIBED, Search
 from comparisons.model import Array, ComputationFailed
 from comparisons.problem.units import si_text
 
-__all__ = ["DISAGREES", "Jump", "branches_remark", "cause", "jumps_apart", "of_branches", "runs", "runs_remark"]
+__all__ = [
+    "DISAGREES",
+    "Jump",
+    "branches_remark",
+    "cause",
+    "jump_in_remark",
+    "jumps_apart",
+    "of_branches",
+    "runs",
+    "runs_remark",
+]
 
 #: Standard deviations from which on a jump is elsewhere, or two branches differ.  The position of a jump is even over
 #: the step of the record, 1.7 standard deviations to each side at most; the rest is for the error of the computed one.
 DISAGREES = 5.0
 #: Standard deviations by which residuals change their sign too seldom.
 _SELDOM = 6.0
+#: Ratio of the uncertainties without and with the jump-in from which on a value rests on it.
+_RESTS = 3.0
 #: Residuals over noise above which no cause in the model is likely.
 _FAR_OFF = 30.0
 
@@ -91,6 +103,37 @@ def jumps_apart(search: Search, result: Minimum, curves: Curves) -> list[Jump]:
         if deviations > DISAGREES:
             jumps.append(Jump(approach, deviations, distance / remaining * _step(search, approach)))
     return jumps
+
+
+def jump_in_remark(search: Search, result: Minimum, without: Callable[[], Minimum]) -> str | None:
+    """Say which value of an approach rests on where the surfaces snapped together: nothing else can contradict that.
+
+    Parameters
+    ----------
+    search : Search
+    result : Minimum
+    without : callable
+        Returns the minimum without that jump.
+    """
+    if search.baseline.has_both or True not in search.observed.jumps or True not in search.jumps:
+        return None
+    try:
+        alone = without()
+    except ComputationFailed:
+        alone = None
+    free = [key.name for key in search.keys if key.prior is None]
+    ratios = {
+        name: alone.deviations[name] / result.deviations[name] if alone and result.deviations[name] > 0.0 else math.inf
+        for name in free
+    }
+    name = max(free, key=ratios.__getitem__)
+    if ratios[name] < _RESTS:
+        return None
+    larger = f"{ratios[name]:.2g} times as large" if math.isfinite(ratios[name]) else "unknown"
+    return (
+        f"{name} rests on where the surfaces snapped together (without it u is {larger}): roughness, charges and "
+        "capillaries move that place, and only a retreat can show it"
+    )
 
 
 def _jump_residuals(search: Search, values: Mapping[str, float], curves: Curves) -> dict[bool, float]:

@@ -21,7 +21,15 @@ from comparisons.description.shared_errors import Json
 from comparisons.fitting.baseline import BaselineName
 from comparisons.fitting.curves import Curves
 from comparisons.fitting.equilibria import distance_of_hertz, distance_of_jkr, is_limit, is_without_adhesion
-from comparisons.fitting.evidence import Jump, branches_remark, cause, jumps_apart, of_branches, runs_remark
+from comparisons.fitting.evidence import (
+    Jump,
+    branches_remark,
+    cause,
+    jump_in_remark,
+    jumps_apart,
+    of_branches,
+    runs_remark,
+)
 from comparisons.fitting.least_squares import Minimum
 from comparisons.fitting.machine import Observations
 from comparisons.fitting.parameters import Key, changed, free_keys, uncertain_keys
@@ -240,7 +248,16 @@ def fit_record(
         search = Search(search.observed, problem, keys, baseline, tuple(kept))
         result, curves = search.best(Curves(model), [result.numbers], is_costly)
     by_branch = {} if is_costly else _by_branch(search, result, curves)
-    return _described(search, result, curves, len(free), jumps, by_branch)
+
+    def without_jump_in() -> Minimum:
+        alone = Search(search.observed, problem, keys, baseline, (False,))
+        return alone.best(Curves(curves.model), [result.numbers], is_costly)[0]
+
+    described = _described(search, result, curves, len(free), jumps, by_branch)
+    is_determined = all(row.determined for row in described.parameters.values())
+    if is_determined and (remark := jump_in_remark(search, result, without_jump_in)):
+        described.remarks.append(remark)
+    return described
 
 
 def _by_branch(search: Search, result: Minimum, curves: Curves) -> dict[str, dict[str, tuple[float, float]]]:

@@ -9,8 +9,12 @@ from scipy.optimize import least_squares
 import fscm
 from comparisons.fitting.baseline import Baseline
 from comparisons.fitting.equilibria import by_jkr, distance_of_hertz, is_without_adhesion
-from comparisons.fitting.evidence import runs
+from comparisons.fitting.evidence import jump_in_remark, runs
+from comparisons.fitting.least_squares import Minimum
 from comparisons.fitting.machine import Observations
+from comparisons.fitting.parameters import free_keys
+from comparisons.fitting.search import Search
+from comparisons.model import ComputationFailed
 from comparisons.problem.uncertain import Uncertainty
 
 from .synthetic import Instrument, contact, of_tabor_number
@@ -62,6 +66,42 @@ def test_a_jump_elsewhere_is_said_and_not_used(approach):
     else:
         assert _says(result, "parted", "nearer to")
         assert max(map(abs, deviations(problem, result))) < 4.0
+
+
+def test_what_rests_on_a_jump_is_among_the_remarks(monkeypatch):
+    """The fit hands over how to fit without the jump-in: the values of a good record stay where they are."""
+    problem, record = recorded(SOFT, points=100)
+    minima = []
+
+    def remark(search, result, without):
+        minima.append((result, without()))
+        return "rests on the jump"
+
+    monkeypatch.setattr("comparisons.fitting.fit.jump_in_remark", remark)
+    result = fitted(problem, record, branch="approach")
+    assert "rests on the jump" in result.remarks
+    ((minimum, alone),) = minima
+    assert all(abs(alone.numbers[name] - minimum.numbers[name]) < 3.0 * alone.deviations[name] for name in FREE)
+
+
+@pytest.mark.parametrize(("larger", "said"), [(1.5, False), (20.0, True), (None, True)])
+def test_a_value_rests_on_a_jump_without_which_it_is_not_known(larger, said):
+    def minimum(deviation):
+        numbers = dict.fromkeys(FREE, 0.0)
+        return Minimum(numbers, 1.0, 1.0, np.diag([deviation**2, 1e-6]))
+
+    def without():
+        if larger is None:
+            raise ComputationFailed("no values describe the curve")
+        return minimum(1e-2 * larger)
+
+    problem, record = recorded(SOFT)
+    search = Search(Observations.of(record.only("approach")), problem, free_keys(problem, FREE))
+    remark = jump_in_remark(search, minimum(1e-2), without)
+    assert (remark is not None and FREE[0] in remark) == said
+    # Nothing rests on a jump that does not count.
+    search.jumps = (False,)
+    assert jump_in_remark(search, minimum(1e-2), without) is None
 
 
 def test_branches_that_differ_are_said():
