@@ -68,35 +68,39 @@ class Contact:
 
     def pressure(self, y: Array) -> Array:
         """p at the Gauss points."""
-        return self.force.traction(y[-1] * self.compliance.trace.s, self.gap(y))
+        return self._pressure(y, self.gap(y))
 
-    def residual(self, y: Array) -> Array:
-        """Return w - factor X F, shape (m,)."""
+    def _pressure(self, y: Array, gap: Array) -> Array:
+        return self.force.traction(y[-1] * self.compliance.trace.s, gap)
+
+    def residual(self, y: Array, gap: Array | None = None) -> Array:
+        """Return w - factor X F, shape (m,); with the gap at the Gauss points, where that is known."""
         trace = self.compliance.trace
-        F = trace.phi.T @ (trace.weight * trace.s * self.pressure(y))
+        F = trace.phi.T @ (trace.weight * trace.s * self._pressure(y, self.gap(y) if gap is None else gap))
         return y[:-2] - self.compliance.factor(y[-1]) * (self.compliance.matrix @ F)
 
-    def tangent(self, y: Array) -> Array:
-        """Return the derivative of the residual, shape (m, m + 2)."""
+    def tangent(self, y: Array, gap: Array | None = None) -> Array:
+        """Return the derivative of the residual, shape (m, m + 2); with the gap as for `residual`."""
         trace, X, c = self.compliance.trace, self.compliance.matrix, float(y[-1])
-        load = trace.weight * trace.s * self.pressure(y)
-        change, drift = self._changes(y)
+        gap = self.gap(y) if gap is None else gap
+        load = trace.weight * trace.s * self._pressure(y, gap)
+        change, drift = self._changes(y, gap)
         rise = trace.s * self.punch.slope(c * trace.s)
         factor = self.compliance.factor(c)
         m = self.unknowns
         # X is symmetric: X M is the transpose of M X, and the columns of J are what a factorisation reads.
         J = np.empty((m, m + 2), order="F")
-        J[:, :m] = -factor * trace.mass_times(change, X).T
+        J[:, :m] = trace.mass_times(-factor * change, X).T
         J[np.arange(m), np.arange(m)] += 1.0
         vectors = trace.phi.T @ np.stack([change, change * rise + drift, load], axis=1)
         J[:, m] = factor * (X @ vectors[:, 0])
-        J[:, m + 1] = -X @ (factor * vectors[:, 1] + self.compliance.factor_slope(c) * vectors[:, 2])
+        J[:, m + 1] = X @ (-factor * vectors[:, 1] - self.compliance.factor_slope(c) * vectors[:, 2])
         return J
 
-    def _changes(self, y: Array) -> tuple[Array, Array]:
+    def _changes(self, y: Array, gap: Array) -> tuple[Array, Array]:
         """Derivatives of p by the gap, and by the size at a fixed gap, times the weights s ds."""
         trace = self.compliance.trace
-        by_radius, by_gap = self.force.slopes(y[-1] * trace.s, self.gap(y))
+        by_radius, by_gap = self.force.slopes(y[-1] * trace.s, gap)
         measure = trace.weight * trace.s
         return measure * by_gap, measure * trace.s * by_radius
 
@@ -120,7 +124,8 @@ class Contact:
     def load_gradient(self, y: Array) -> Array:
         """Return the derivative of the load with respect to y, shape (m + 2,)."""
         trace, c = self.compliance.trace, float(y[-1])
-        change, drift = self._changes(y)
+        gap = self.gap(y)
+        change, drift = self._changes(y, gap)
         r, w, far = self._tail(y)
         R = trace.extent * c
         edge = float(self.force.traction(np.array(R), self.punch.height(np.array(R)) - y[-2]))
@@ -128,7 +133,7 @@ class Contact:
         g[:-2] = c**2 * (change @ trace.phi)
         g[-2] = -(c**2) * change.sum() - float(w * r @ self.force.slopes(r, far)[1])
         g[-1] = (
-            2.0 * c * float(trace.weight * trace.s @ self.pressure(y))
+            2.0 * c * float(trace.weight * trace.s @ self._pressure(y, gap))
             + c**2 * float(change @ (trace.s * self.punch.slope(c * trace.s)) + drift.sum())
             - R * edge * trace.extent
         )

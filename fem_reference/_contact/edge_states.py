@@ -60,6 +60,9 @@ MOVES = 12
 #: Largest change of the radius in one of them, relative to it.
 LARGEST_MOVE = 0.1
 
+#: Distance between two states, in largest steps of their radius, up to which the cubic through both predicts a third.
+CUBIC_STEPS = 1.5
+
 #: Change of the logarithm of the radius between states whose values tell an extremum: the polynomial of degree 4 has it
 #: to 3e-7 for a load of the limit of a short range (by its fifth derivative), which changes the load by 2e-13.
 EXTREMUM_STEP = 0.02
@@ -199,10 +202,17 @@ class EdgeStates:
         if nearest.parameter not in self.states or element_length(nearest, radius) > wide:
             return None
         with suppress(NotConverged):
-            point = nearest.branch.solve(radius, nearest.predict(radius))
+            point = nearest.branch.solve(radius, nearest.predict(radius, self._beside(nearest, radius)))
             if point.state.iterations <= MOST_STEPS and edge_is_resolved(point, shared):
                 return point
         return None
+
+    def _beside(self, nearest: Point, radius: float) -> Point | None:
+        """The next nearest state on the mesh of the nearest one, if its edge is within one step."""
+        beside = [point for point in self.states.values() if point.branch is nearest.branch and point is not nearest]
+        second = min(beside, key=lambda point: abs(math.log(point.parameter / radius)), default=nearest)
+        step = abs(second.parameter - nearest.parameter)
+        return second if 0.0 < step <= nearest.branch.largest_step(nearest.parameter) * CUBIC_STEPS else None
 
     def _nearest(self, radius: float) -> Point:
         """The nearest state known."""

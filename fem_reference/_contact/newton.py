@@ -117,11 +117,11 @@ def newton(contact: Contact, y: Array, fixed: Control, varied: Control) -> State
     y = np.array(y, float)
     K = np.empty((m + 2, m + 2), order="F")
     G = np.empty(m + 2)
-    size = math.inf
+    size, gap = math.inf, contact.gap(y)
     for iteration in range(NEWTON_STEPS + 1):
-        G[:m] = contact.residual(y)
+        G[:m] = contact.residual(y, gap)
         G[m:] = fixed.value(contact, y), varied.value(contact, y)
-        K[:m] = contact.tangent(y)
+        K[:m] = contact.tangent(y, gap)
         K[m], K[m + 1] = fixed.gradient(contact, y), varied.gradient(contact, y)
         growth = float(linalg.norm(K[:m, :m], np.inf, check_finite=False))
         # Not lu_factor, which warns of a singular matrix: Newton stops there.
@@ -142,19 +142,28 @@ def newton(contact: Contact, y: Array, fixed: Control, varied: Control) -> State
             return State(y, contact.load(y), slope, rate, iteration, size)
         if not np.all(np.isfinite(step)):
             break
-        y = y - _damping(contact, y, step) * step
-        if contact.gap(y).min() <= law.singular_gap:
+        y, gap = _damped(contact, y, gap, step)
+        if gap.min() <= law.singular_gap:
             break
     raise NotConverged(f"Newton stopped at a residual of {size:.1e} lengths of the law", Failure.ITERATION)
 
 
-def _damping(contact: Contact, y: Array, step: Array) -> float:
-    """Largest factor that keeps every gap off the singular gap of the law and the size within reach."""
+def _damped(contact: Contact, y: Array, gap: Array, step: Array) -> tuple[Array, Array]:
+    """Take a step, or as much of it as keeps every gap off the singular one and the size within reach.
+
+    Returns
+    -------
+    y, gap : ndarray
+        The next point, and its gap.
+    """
     factor = 1.0
     if abs(step[-1]) > LARGEST_GROWTH * y[-1]:
         factor = LARGEST_GROWTH * y[-1] / abs(step[-1])
     singular = contact.law.singular_gap
-    lowest = min(FLOOR_SHARE * singular, 0.5 * (contact.gap(y).min() + singular))
-    while factor > SMALLEST_DAMPING and contact.gap(y - factor * step).min() < lowest:
+    lowest = min(FLOOR_SHARE * singular, 0.5 * (gap.min() + singular))
+    while True:
+        following = y - factor * step
+        gap = contact.gap(following)
+        if factor <= SMALLEST_DAMPING or not gap.min() < lowest:
+            return following, gap
         factor *= 0.5
-    return factor

@@ -59,11 +59,11 @@ class TailContact(Contact):
         decay = (trace.extent * c / r) ** (1.0 + self.depth_exponent)
         return 2.0 * math.pi * G * float((weight * r * decay) @ self.force.traction(r, H))
 
-    def residual(self, y: Array) -> Array:
+    def residual(self, y: Array, gap: Array | None = None) -> Array:
         """Return w - factor X F minus the displacement under the traction beyond the mesh, shape (m,)."""
         vertices = np.zeros(self.unknowns)
         vertices[: self._last + 1] = 1.0
-        return Contact.residual(self, y) - self._shift(y) * vertices
+        return Contact.residual(self, y, gap) - self._shift(y) * vertices
 
     def load_gradient(self, y: Array) -> Array:
         """Return the derivative of the load with respect to y, shape (m + 2,)."""

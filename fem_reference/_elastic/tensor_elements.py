@@ -173,24 +173,39 @@ def tensor_stiffness(grid: Grid, dofs: Dofs, solid: Solid) -> Iterator[tuple[Ind
         If the modulus is not positive, or Poisson's ratio outside its range.
     """
     mesh, order = dofs.topo, int(dofs.element.p)
-    along_r, along_z = factors(mesh, order)
-    radial = {name: M[:, along_r[:, None], along_r] for name, M in radial_integrals(grid.r, order).items()}
-    depth = {name: M[:, along_z[:, None], along_z] for name, M in depth_integrals(grid.z, solid, order).items()}
     columns, layers = element_places(mesh)
     rows = both_components(np.asarray(dofs.element_dofs)).T
-    size = rows.shape[1]
     order_of_layers = np.lexsort((layers, columns)).reshape(grid.r.size - 1, -1)
+    radial, depth = radial_integrals(grid.r, order), depth_integrals(grid.z, solid, order)
+    count = order_of_layers.shape[1]
+    along_z = [np.stack([depth[name].ravel() for _, name in pairs]) for pairs in BLOCKS.values()]
     # New memory costs as much as what is written into it.
-    block, term = np.empty((2, order_of_layers.shape[1], size // 2, size // 2))
-    K = np.empty((order_of_layers.shape[1], size, size))
+    products = np.empty((len(BLOCKS), (order + 1) ** 2, count * (order + 1) ** 2))
+    K = np.empty((count, rows.shape[1], rows.shape[1]))
+    places = _places(*factors(mesh, order), count, order + 1)
     for column, elements in enumerate(order_of_layers):
-        for (i, j), pairs in BLOCKS.items():
-            block[:] = 0.0
-            for name_r, name_z in pairs:
-                block += np.multiply(radial[name_r][column], depth[name_z], out=term)
-            K[:, i::2, j::2] = block
-        K[:, 1::2, 0::2] = np.swapaxes(K[:, 0::2, 1::2], 1, 2)
+        for product, pairs, of_depth in zip(products, BLOCKS.values(), along_z, strict=True):
+            of_radius = np.stack([radial[name][column].ravel() for name, _ in pairs], axis=1)
+            np.matmul(of_radius, of_depth, out=product)
+        np.take(products.ravel(), places, out=K, mode="clip")
         yield elements, rows[elements], K
+
+
+def _places(along_r: Index, along_z: Index, layers: int, n: int) -> Index:
+    """Places of the entries of the elements of a column among the products along r and z of each block.
+
+    A product has the pairs of functions along r as its rows, and layers and then pairs along z as its columns.
+    """
+    size = 2 * along_r.size
+    places = np.empty((layers, size, size), np.intp)
+    layer = np.arange(layers)[:, None, None]
+    for block, (i, j) in enumerate(BLOCKS):
+        first, second = (pair[:, None] * n + pair for pair in (along_r, along_z))
+        of_block = (block * n**2 + first) * layers * n**2 + layer * n**2 + second
+        places[:, i::2, j::2] = of_block
+        if i != j:
+            places[:, j::2, i::2] = np.swapaxes(of_block, 1, 2)
+    return places
 
 
 def charted_stiffness(

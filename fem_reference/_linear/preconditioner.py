@@ -17,6 +17,7 @@ from scipy import sparse
 from fem_reference._elastic.assembly import HalfSpace
 from fem_reference._elastic.scaling import unit_scaling
 from fem_reference._linear.algebraic_multigrid import pyamg
+from fem_reference._linear.block_tridiagonal import Border, border_of
 from fem_reference._linear.hierarchy import hierarchy_bytes, vertex_hierarchy
 from fem_reference._linear.strips import sparse_bytes, strips_of
 from fem_reference._typing import Array, Index
@@ -74,10 +75,19 @@ class ElasticPreconditioner:
         A.data *= np.repeat(self.scale, np.diff(A.indptr))
         A.data *= self.scale[A.indices]
         self.matrix: sparse.csr_array = A
-        columns, rows = _grid_positions(half_space)
-        self._columns, self._rows = (strips_of(self.matrix, np.repeat(index, 2)[free]) for index in (columns, rows))
+        columns, rows = (np.repeat(index, 2)[free] for index in _grid_positions(half_space))
+        border = self._border(half_space)
+        self._columns = strips_of(self.matrix, columns, rows, border)
+        self._rows = strips_of(self.matrix, rows, columns, border)
         self._vertices, self._coarse = self._build_coarse(half_space)
         self._vertex_columns = self.matrix[:, self._vertices[self._vertices >= 0]].tocsr()
+
+    def _border(self, half_space: HalfSpace) -> Border:
+        """The exterior, scaled, on the free rows of the boundary."""
+        present = np.isin(half_space.boundary, half_space.free)
+        rows = np.searchsorted(half_space.free, half_space.boundary[present])
+        scale = self.scale[rows]
+        return border_of(rows, scale[:, None] * half_space.exterior[np.ix_(present, present)] * scale)
 
     def _build_coarse(self, half_space: HalfSpace) -> tuple[Index, pyamg.MultilevelSolver]:
         """Galerkin matrix of the vertex functions, in 2 x 2 blocks, and its aggregation hierarchy."""

@@ -1,20 +1,22 @@
 """Exact solves of the strips of a tensor-product mesh, the smoother of the half-space (overlapping line Schwarz).
 
 Elements have every aspect ratio, and unknowns are coupled strongly along thin columns and along thin rows.  A strip is
-all between two grid lines four positions apart; every other strip is independent of the next, so one sparse
-factorisation solves half of them.  Strips are solved exactly, so that a residual is left on the lines between them
-only: it is kept and changed there, at a tenth of the cost of a product with the whole matrix.
+all between two grid lines four positions apart; every other strip is independent of the next, but for the exterior, so
+that one factorisation solves half of them: by small dense blocks (`block_tridiagonal`), or a sparse one.  Strips are
+solved exactly, so that a residual is left on the lines between them only: it is kept and changed there, at a tenth of
+the cost of a product with the whole matrix.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Any, Protocol
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import SuperLU, splu
 
+from fem_reference._linear.block_tridiagonal import BlockTridiagonal, Border, places_in, spread
 from fem_reference._typing import Array, Index
 from fem_reference.errors import Failure, NotConverged
 
@@ -46,6 +48,13 @@ def factorise(matrix: Any) -> SuperLU:
     return splu(columns, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
+class _Factors(Protocol):
+    """A factorised matrix."""
+
+    def solve(self, b: Array, /) -> Array:
+        """Solve for loads, shape (n,) or (n, q)."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Strips:
     """Every other strip of the mesh, factorised.
@@ -54,31 +63,42 @@ class Strips:
     ----------
     inside, lines : ndarray of int
         Unknowns in the strips, and on the grid lines between them.
-    factors : SuperLU
+    factors : SuperLU or BlockTridiagonal
         Of the matrix on `inside`.
     coupling : csr_array
         The matrix, rows `lines` and columns `inside`.
+    bytes_of_factors : int
     """
 
     inside: Index
     lines: Index
-    factors: SuperLU
+    factors: _Factors
     coupling: sparse.csr_array
+    bytes_of_factors: int
+    _places: tuple[Index, Index] = field(init=False)
+
+    def __post_init__(self) -> None:
+        size = self.inside.size + self.lines.size
+        object.__setattr__(self, "_places", (places_in(self.inside, size), places_in(self.lines, size)))
 
     def correct(self, x: Array, residual: Array) -> None:
         """Solve the strips exactly; update x and the residual, shape (N,) or (N, q), in place."""
-        change = self.factors.solve(residual[self.inside])
-        x[self.inside] += change
-        residual[self.inside] = 0.0
-        residual[self.lines] -= self.coupling @ change
+        change = self.factors.solve(residual.take(self.inside, axis=0))
+        left = residual.take(self.lines, axis=0) - self.coupling @ change
+        of_inside, of_lines = self._places
+        x += spread(change, of_inside)
+        residual[:] = spread(left, of_lines)
 
     @property
     def storage(self) -> int:
         """Bytes of factors, coupling and indices."""
-        return int(self.inside.nbytes + self.lines.nbytes + 12 * self.factors.nnz + sparse_bytes(self.coupling))
+        indices = sum(index.nbytes for index in (self.inside, self.lines, *self._places))
+        return indices + self.bytes_of_factors + sparse_bytes(self.coupling)
 
 
-def strips_of(matrix: sparse.csr_array, positions: Index) -> list[Strips]:
+def strips_of(
+    matrix: sparse.csr_array, positions: Index, along: Index | None = None, border: Border | None = None
+) -> list[Strips]:
     """Return both halves of the strips.
 
     Parameters
@@ -87,6 +107,10 @@ def strips_of(matrix: sparse.csr_array, positions: Index) -> list[Strips]:
         Symmetric positive definite.
     positions : ndarray of int, shape (N,)
         Position of each unknown across the lines, such as its column; unknowns on the same position are in one strip.
+    along : ndarray of int, shape (N,), optional
+        Position along the strips, even on grid lines and odd between them: the strips are then solved by dense blocks.
+    border : Border, optional
+        What couples the ends of all strips, and the last of them.
 
     Raises
     ------
@@ -104,11 +128,21 @@ def strips_of(matrix: sparse.csr_array, positions: Index) -> list[Strips]:
         between = positions % PERIOD == dropped
         inside, lines = np.flatnonzero(~between), np.flatnonzero(between)
         columns = matrix[:, inside].tocsr()
-        try:
-            factors = factorise(columns[inside])
-        except RuntimeError as error:
-            raise NotConverged(f"a strip of the mesh is singular ({error})", Failure.STIFFNESS) from error
-        strips.append(Strips(inside, lines, factors, columns[lines]))
+        within = columns[inside]
+        if along is None or border is None:
+            try:
+                sparse_factors = factorise(within)
+            except RuntimeError as error:
+                raise NotConverged(f"a strip of the mesh is singular ({error})", Failure.STIFFNESS) from error
+            factors: _Factors = sparse_factors
+            size = 12 * sparse_factors.nnz
+        else:
+            numbers = (positions[inside] + PERIOD - dropped) // PERIOD
+            dense = BlockTridiagonal(
+                within, numbers - numbers.min(), along[inside], border.within(inside, positions.size)
+            )
+            factors, size = dense, dense.nbytes
+        strips.append(Strips(inside, lines, factors, columns[lines], int(size)))
     return strips
 
 

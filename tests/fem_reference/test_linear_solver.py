@@ -15,7 +15,7 @@ from fem_reference._linear.conjugate_gradients import conjugate_gradients, produ
 from fem_reference._linear.linear_solver import solve_cg, solve_direct
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference.errors import Failure, NotConverged
-from fem_reference.solid import PowerLaw
+from fem_reference.solid import PowerLaw, ScaledSolid
 from fem_reference.verification.solver_study import FULL_STUDY, QUICK_STUDY, solver_table
 from tests.marks import heavy
 from tests.refusals import refused
@@ -165,6 +165,28 @@ def test_a_sweep_that_is_not_its_own_adjoint_is_refused(half_space, monkeypatch)
     assert symmetric.residual <= 1e-10
     monkeypatch.setattr(preconditioner, "_columns", _OneWay(columns))
     refused("not symmetric", solve_cg, half_space, _pressed(half_space), preconditioner, error=NotConverged)
+
+
+#: Half-spaces whose strips differ in what they hold: an even and an odd number of elements, a surface that is bonded or
+#: under tension, a degree without functions between lines of more than one, and a nearly incompressible exterior.
+HALF_SPACES = {
+    "even": (Grid(np.arange(5.0), np.array([0.0, 1.0, 2.0, 3.0, 4.0])), PowerLaw(1.0, 1.0, 0.0, 0.3), 4),
+    "odd": (Grid(np.arange(8.0), np.array([0.0, 0.1, 0.5, 2.0, 4.0, 7.0])), PowerLaw(1.0, 1.0, 0.6, 0.499), 3),
+    "one element": (Grid(np.array([0.0, 1.0]), np.array([0.0, 1.0])), PowerLaw(1.0, 1.0, 0.2, 0.3), 5),
+    "bonded": (edge_grid(extent=16.0, density=1.5), ScaledSolid(PowerLaw(1.0, 1.0, 0.4, 0.3), bonded=True), 2),
+    "tense": (edge_grid(extent=16.0, density=1.5), PowerLaw(1.0, 1.0, 0.0, 0.3, surface_tension=0.7), 3),
+}
+
+
+@pytest.mark.parametrize("name", HALF_SPACES)
+def test_strips_are_solved_exactly(name):
+    """With the exterior, which couples them all."""
+    half_space = assemble_half_space(*HALF_SPACES[name])
+    preconditioner = ElasticPreconditioner(half_space)
+    for strips in (*preconditioner._columns, *preconditioner._rows):
+        load = np.random.default_rng(3).normal(size=(strips.inside.size, 2))
+        forces = preconditioner.matrix[strips.inside][:, strips.inside] @ strips.factors.solve(load)
+        assert forces == pytest.approx(load, abs=1e-9)
 
 
 class _OneWay(list):

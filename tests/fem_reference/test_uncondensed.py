@@ -199,9 +199,8 @@ def test_the_whole_system_ends_where_its_condensation_does_from_any_start(soft_p
 
 
 def test_a_coarse_displacement_is_repaired_in_the_steps_that_follow(soft_path, lower, soft_system, monkeypatch):
-    """What the first step leaves of its load is a part of the load of the next one."""
-    monkeypatch.setattr(uncondensed, "LINEAR_TOLERANCE", 1e-4)
-    monkeypatch.setattr(uncondensed, "SHARPER", 1e-8)
+    """What the first displacement leaves of its load is a part of the load of the next one."""
+    monkeypatch.setattr(uncondensed, "ROUGH_TOLERANCE", 1e-2)
     row = TABLE["pull_off_force"]
     value = UncondensedEvents(soft_path, lower, lambda: soft_system).value(row)
     assert value.value == pytest.approx(row.value(soft_path.at), abs=ALGEBRA)
