@@ -36,6 +36,7 @@ MODELS = {
     "atlas": "comparisons.models.atlas:Atlas",
     "jkr-sphere": "comparisons.models.jkr_sphere:JKRSphere",
     "jkr-sphere-projected": "comparisons.models.jkr_sphere:JKRSphereProjected",
+    "jkr-profile": "comparisons.models.jkr_profile:JKRProfile",
     "jkr-surface-tension": "comparisons.models.jkr_surface_tension:JKRSurfaceTension",
     "fem-large-strain": "comparisons.models.fem_model:LargeStrain",
 }

@@ -14,6 +14,7 @@ SIMPLEST_FIRST = (
     "jkr",
     "jkr-sphere",
     "jkr-sphere-projected",
+    "jkr-profile",
     "jkr-surface-tension",
     "dmt",
     "bradley",
