@@ -5,9 +5,9 @@ the moment m of `plane_profile` and the constants of `graded_punch`, the contact
 
     lift = adhesion sqrt(G) a^s,    delta = g - lift,    P = (stiffness / G) [ (g - lift) a^(1+k) / (1+k) - m ],
 
-Griffith's balance at the edge.  The flat punch that is subtracted is the same for every profile (Zhou, Gao & He, J.
-Mech. Phys. Solids 59 (2011) 145-159; Willert, Facta Univ. Mech. Eng. 16 (2018) 9-18, in the limit of a large cohesive
-stress; the handbook of Popov, Hess and Willert).  For a power law it is `jkr`, for a ball `jkr-sphere-projected`.
+Griffith's balance at the edge.  The flat punch that is subtracted is the same for every profile (Jin, Guo & Zhang, J.
+Appl. Mech. 80 (2013) 061024; Willert, Facta Univ. Mech. Eng. 16 (2018) 9-18, in the limit of a large cohesive stress;
+the handbook of Popov, Hess and Willert).  For a power law it is `jkr`, for a ball `jkr-sphere-projected`.
 
 A contact on a disc is assumed: a profile that falls anywhere in the contact is refused.
 """
@@ -153,7 +153,7 @@ class JKRProfile(ContactBranch):
 
     name = "jkr-profile"
     citation = (
-        "Willert, Facta Univ. Mech. Eng. 16 (2018) 9-18; Zhou, Gao & He, J. Mech. Phys. Solids 59 (2011) 145-159; "
+        "Willert, Facta Univ. Mech. Eng. 16 (2018) 9-18; Jin, Guo & Zhang, J. Appl. Mech. 80 (2013) 061024; "
         "Popov, Hess & Willert, Handbook of Contact Mechanics (2019)"
     )
     domain = "problems in physical units, power-law solid, punch without waves, law without barrier; mu -> infinity"

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from importlib.resources import files
 from typing import Any, NamedTuple
 
+from comparisons.data.toml_text import shipped
 from comparisons.output.latex import escaped
+from comparisons.registry import MODELS
 from comparisons.runs.environment import DIGITS, version_of
 
 #: Entries of a work, in the order of BibTeX.
-_ENTRIES = ("author", "title", "journal", "volume", "pages", "year", "doi", "url", "note")
+_ENTRIES = ("author", "title", "journal", "publisher", "volume", "pages", "year", "doi", "url", "note")
 
 
 class Work(NamedTuple):
@@ -37,14 +39,15 @@ class Work(NamedTuple):
         entry = dict.fromkeys(_ENTRIES, "") | self.filled
         authors = entry["author"].strip("{}").replace(" and others", " et al.").replace(" and ", "; ")
         year = f"({entry['year']})" if entry["year"] else ""
-        where = " ".join(filter(None, [entry["journal"], entry["volume"], year, entry["pages"].replace("--", "-")]))
+        venue = entry["journal"] or entry["publisher"]
+        where = " ".join(filter(None, [venue, entry["volume"], year, entry["pages"].replace("--", "-")]))
         doi = f"doi:{entry['doi']}" if entry["doi"] else ""
         sentences = [authors, entry["title"], where, doi, entry["note"], entry["url"]]
         return " ".join(f"{sentence.rstrip('.')}." for sentence in sentences if sentence)
 
     def bibtex(self) -> str:
         """The work as an entry of BibTeX, in ASCII."""
-        kind = "article" if "journal" in self.filled else "misc"
+        kind = "article" if "journal" in self.filled else "book" if "publisher" in self.filled else "misc"
         lines = [f"  {name} = {{{_field(name, value)}}}," for name, value in self.filled.items()]
         return "\n".join([f"@{kind}{{{self.key},", *lines, "}"])
 
@@ -80,13 +83,24 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
         key = f"{paper['authors'][0].get('family-names', '')}-{paper['title'].split()[0]}".lower()
         pages = "--".join(str(paper[name]) for name in ("start", "end") if name in paper)
         cited.append(Work(key, paper | {"author": _names(paper["authors"]), "pages": pages}))
-    for name, model in ((record or {}).get("models") or {}).items():
+    used = (record or {}).get("models") or {}
+    cited += _of_models(used, {work.key for work in cited})
+    for name, model in used.items():
+        if name in MODELS:
+            continue
         title = f"Model {name}, version {model['version']}"
         cited.append(Work("model-" + re.sub("[^A-Za-z0-9-]", "-", name), {"title": title, "note": model["citation"]}))
     for library in _libraries(record) if record else ():
         facts = {"author": " and ".join(library["authors"]), "note": f"version {library['version']}"}
         cited.append(Work(library["package"], library | facts))
     return cited
+
+
+def _of_models(names: Iterable[str], known: Set[str]) -> list[Work]:
+    """Return the works of models of this package, each once, without those whose keys are known."""
+    listed = shipped("model_references.toml")
+    keys = dict.fromkeys(key for name in names if name in MODELS for key in listed["models"][name])
+    return [Work(key, listed["works"][key]) for key in keys if key not in known]
 
 
 def _shipped(name: str) -> Any:
