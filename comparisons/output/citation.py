@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from typing import Any, NamedTuple
 
 from comparisons.data.toml_text import shipped
 from comparisons.output.latex import escaped
-from comparisons.registry import MODELS
 from comparisons.runs.environment import DIGITS, version_of
 
 #: Entries of a work, in the order of BibTeX.
@@ -84,23 +83,18 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
         pages = "--".join(str(paper[name]) for name in ("start", "end") if name in paper)
         cited.append(Work(key, paper | {"author": _names(paper["authors"]), "pages": pages}))
     used = (record or {}).get("models") or {}
-    cited += _of_models(used, {work.key for work in cited})
+    listed = shipped("model_references.toml")
+    keys = dict.fromkeys(key for name in used for key in listed["models"].get(name, ()))
+    cited += [Work(key, listed["works"][key]) for key in keys if key not in {work.key for work in cited}]
     for name, model in used.items():
-        if name in MODELS:
-            continue
-        title = f"Model {name}, version {model['version']}"
-        cited.append(Work("model-" + re.sub("[^A-Za-z0-9-]", "-", name), {"title": title, "note": model["citation"]}))
+        if name not in listed["models"]:
+            title = f"Model {name}, version {model['version']}"
+            key = "model-" + re.sub("[^A-Za-z0-9-]", "-", name)
+            cited.append(Work(key, {"title": title, "note": model["citation"]}))
     for library in _libraries(record) if record else ():
         facts = {"author": " and ".join(library["authors"]), "note": f"version {library['version']}"}
         cited.append(Work(library["package"], library | facts))
     return cited
-
-
-def _of_models(names: Iterable[str], known: Set[str]) -> list[Work]:
-    """Return the works of models of this package, each once, without those whose keys are known."""
-    listed = shipped("model_references.toml")
-    keys = dict.fromkeys(key for name in names if name in MODELS for key in listed["models"][name])
-    return [Work(key, listed["works"][key]) for key in keys if key not in known]
 
 
 def _shipped(name: str) -> Any:
