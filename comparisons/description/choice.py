@@ -21,6 +21,7 @@ SIMPLEST_FIRST = (
     "semi-rigid",
     "md-improved",
     "md-original",
+    "md-profile",
     "md-jin",
     "double-hertz-n-k",
 )
