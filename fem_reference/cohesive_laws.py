@@ -120,10 +120,10 @@ class CohesiveTrapezoid:
     strength: float
     rise_end: float
     fall_start: float
-    peak_gap: float = field(init=False, compare=False)
-    _well: float = field(init=False, compare=False)
-    _length: float = field(init=False, compare=False)
-    _stress: float = field(init=False, compare=False)
+    peak_gap: float = field(init=False, compare=False, repr=False)
+    _well: float = field(init=False, compare=False, repr=False)
+    _length: float = field(init=False, compare=False, repr=False)
+    _stress: float = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         check_positive("work of adhesion", self.work_of_adhesion)

@@ -141,10 +141,10 @@ class CohesiveTrapezoid:
     strength: float = 1.0
     rise_end: float = 0.3
     fall_start: float = 0.7
-    peak_gap: float = field(init=False, compare=False)
-    _origin: float = field(init=False, compare=False)
-    _unit: float = field(init=False, compare=False)
-    _factor: float = field(init=False, compare=False)
+    peak_gap: float = field(init=False, compare=False, repr=False)
+    _origin: float = field(init=False, compare=False, repr=False)
+    _unit: float = field(init=False, compare=False, repr=False)
+    _factor: float = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         _check_positive(self, "work_of_adhesion", "strength")

@@ -93,15 +93,19 @@ def test_ends_of_a_plateau_that_are_out_of_order_are_refused(package: ModuleType
 
 
 def values(name: str, quantity: str, n: float, k: float, mu: float) -> list[tuple[float, float]]:
-    """Value and bound of both references, dimensionless."""
+    """Value and bound of both references, dimensionless, of a problem in physical units."""
     law = law_of(fem_reference, name)
     w, z0 = law.work_of_adhesion, law.z0
-    E0 = modulus_for(mu, n=n, k=k, nu=0.3, c0=z0, Q=z0 ** (n - 1.0), work_of_adhesion=w, z0=z0)
-    solid, punch = fem_reference.PowerLaw(E0, z0, k, 0.3), fem_reference.PowerPunch(n, z0 ** (n - 1.0))
-    elements = fem_reference.solve(fem_reference.Problem(solid, punch, law), quantity)
+    Q = z0 ** (n - 1.0)
+    E0 = modulus_for(mu, n=n, k=k, nu=0.3, c0=z0, Q=Q, work_of_adhesion=w, z0=z0)
     unit = {"pull_off_force": math.pi * w * z0, "hysteresis_energy": math.pi * w * z0**2}.get(quantity, z0)
-    integral = fscm.solve(fscm.Problem(n=n, k=k, mu=mu, law=law_of(fscm, name)), quantity)
-    return [(integral.value, integral.u_num), (elements.value / unit, elements.u_num / unit)]
+    solutions = [
+        package.solve(
+            package.Problem(package.PowerLaw(E0, z0, k, 0.3), package.PowerPunch(n, Q), law_of(package, name)), quantity
+        )
+        for package in (fscm, fem_reference)
+    ]
+    return [(solution.value / unit, solution.u_num / unit) for solution in solutions]
 
 
 #: Law, quantity, n, k and mu, and the largest bound of the elements, relative to 1 + |value|.  One length of elements
@@ -110,7 +114,7 @@ CASES = [
     ("exponential", "pull_off_force", 2.0, 0.0, 1.0, 1e-7),
     ("triangle", "pull_off_force", 2.0, 0.0, 3.0, 1e-4),
     *heavy(
-        *((name, quantity, 2.0, 0.0, 2.0, 1e-3) for name in LAWS for quantity in fem_reference.LOSSES),
+        *((name, "hysteresis_energy", 2.0, 0.0, 2.0, 1e-3) for name in LAWS),
         *((name, "pull_off_force", *case, 1e-3) for name in LAWS for case in [(1.0, 0.0, 1.0), (2.0, 0.4, 1.0)]),
         *((name, "pull_off_force", 2.0, 0.0, mu, 1e-3) for name in LAWS for mu in (0.05, 0.5, 10.0)),
         *((name, "jump_out_displacement", 2.0, 0.0, 2.0, 1e-3) for name in LAWS),
