@@ -24,6 +24,7 @@ from fem_reference.tabulated_law import TabulatedLaw
 __all__ = [
     "EDGE_PER_BALANCE",
     "EDGE_RISE",
+    "OTHER_LENGTHS",
     "WIDEST",
     "balance_length",
     "check_width",
@@ -37,7 +38,7 @@ __all__ = [
 #: Ratios of other lengths of the elements, whose differences tell the error by kinks of a law (measured: at most 0.44
 #: of the sum of both bounds in 44 values on seven solids, of which eight were up to 11 times outside by degrees alone).
 #: The round corners of a trapezoid are such kinks for the elements (by degrees alone 1.6 bounds outside, mu = 3).
-_OTHER_LENGTHS = (0.6, 0.8, 1.25)
+OTHER_LENGTHS = (0.6, 0.8, 1.25)
 
 #: Gap at the node s = 1 above the central gap before contact, in lengths of the law: small, so that the edge is the
 #: parameter before any pull-off (a flat punch, n = 5 and more, pulls off 0.1 z0 below the gap of peak tension).
@@ -110,7 +111,7 @@ FINEST_SCALE = 1e-3
 
 def other_lengths(law: SurfaceLaw) -> tuple[float, ...]:
     """Return the ratios of other lengths of the elements that tell the error by kinks of a law; none if smooth."""
-    return _OTHER_LENGTHS if isinstance(law, CohesiveTrapezoid | TabulatedLaw) else ()
+    return OTHER_LENGTHS if isinstance(law, CohesiveTrapezoid | TabulatedLaw) else ()
 
 
 def mesh_spec(
