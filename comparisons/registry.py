@@ -36,6 +36,8 @@ MODELS = {
     "atlas": "comparisons.models.atlas:Atlas",
     "jkr-sphere": "comparisons.models.jkr_sphere:JKRSphere",
     "jkr-sphere-projected": "comparisons.models.jkr_sphere:JKRSphereProjected",
+    "jkr-profile": "comparisons.models.jkr_profile:JKRProfile",
+    "md-profile": "comparisons.models.md_profile:MaugisDugdaleProfile",
     "jkr-surface-tension": "comparisons.models.jkr_surface_tension:JKRSurfaceTension",
     "fem-large-strain": "comparisons.models.fem_model:LargeStrain",
 }

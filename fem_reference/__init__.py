@@ -30,7 +30,18 @@ from typing import TYPE_CHECKING
 
 import lazy_loader
 
-from fem_reference import custom_solid, dlvo, laws, profiles, punch, solids, tabulated_law, tabulated_modulus
+from fem_reference import (
+    cohesive_laws,
+    custom_solid,
+    dlvo,
+    laws,
+    profiles,
+    punch,
+    solids,
+    tabulated_law,
+    tabulated_modulus,
+)
+from fem_reference.cohesive_laws import *
 from fem_reference.custom_solid import *
 from fem_reference.dlvo import *
 from fem_reference.laws import *
@@ -44,7 +55,7 @@ if TYPE_CHECKING:
     from fem_reference._lazy import *
 
 __getattr__, _, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
-_STATED = (custom_solid, dlvo, laws, profiles, punch, solids, tabulated_law, tabulated_modulus)
+_STATED = (cohesive_laws, custom_solid, dlvo, laws, profiles, punch, solids, tabulated_law, tabulated_modulus)
 __all__ += [name for module in _STATED for name in module.__all__]
 
 

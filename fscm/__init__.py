@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING
 import lazy_loader
 
 from fscm import (
+    cohesive_laws,
     custom_punch,
     custom_solid,
     dlvo,
@@ -39,6 +40,7 @@ from fscm import (
     tabulated_law,
     tabulated_modulus,
 )
+from fscm.cohesive_laws import *
 from fscm.custom_punch import *
 from fscm.custom_solid import *
 from fscm.dlvo import *
@@ -55,6 +57,7 @@ if TYPE_CHECKING:
 
 __getattr__, _, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
 _STATED = (
+    cohesive_laws,
     custom_punch,
     custom_solid,
     dlvo,

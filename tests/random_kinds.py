@@ -147,6 +147,16 @@ def _dlvo(package: ModuleType, rng: np.random.Generator) -> Any:
             return package.Dlvo(law.hamaker_constant, law.z0, law.double_layer, law.debye_length)
 
 
+def _exponential(package: ModuleType, rng: np.random.Generator) -> Any:
+    return package.CohesiveExponential(1.0, 1.0)
+
+
+def _trapezoid(package: ModuleType, rng: np.random.Generator) -> Any:
+    """The elements do not resolve shorter rises and falls."""
+    rise = float(rng.uniform(0.3, 0.5))
+    return package.CohesiveTrapezoid(1.0, 1.0, rise, float(rng.uniform(rise, 0.7)))
+
+
 def _rows(rng: np.random.Generator, fewest: int, most: int) -> tuple[np.ndarray, np.ndarray, float]:
     """Gaps and tractions of a law, some with a second well or a shoulder; and the exponent of the attraction."""
     m, n = _exponents(rng)
@@ -200,6 +210,8 @@ LAWS: dict[str, MakeLaw] = {
     "lennard-jones-9-3": _nine_three,
     "mie": _mie,
     "dlvo": _dlvo,
+    "cohesive-exponential": _exponential,
+    "cohesive-trapezoid": _trapezoid,
     "table": _table,
     "smoothed table": _smoothed_table,
 }

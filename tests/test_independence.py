@@ -57,7 +57,7 @@ ALLOWED = {
 LAYERS = {
     "fscm": (
         ("errors", "_typing", "_threads", "_validation", "_presentation", "_numbers", "_response_factor", "_law_curve"),
-        ("laws", "tabulated_law", "dlvo", "wells", "punch", "custom_punch", "measured_punch"),
+        ("laws", "tabulated_law", "cohesive_laws", "dlvo", "wells", "punch", "custom_punch", "measured_punch"),
         ("_whole_punch", "_chebyshev_tree", "_potential", "_potential_table"),
         ("_ball_under_law", "_ball", "_body_of_revolution", "_curved_face", "interaction"),
         ("solids", "layers", "tabulated_modulus", "custom_solid"),
@@ -76,7 +76,7 @@ LAYERS = {
     "fem_reference": (
         ("_typing", "_threads", "_validation", "_presentation", "_numbers", "errors", "_law_between_points"),
         ("solid", "solids", "tabulated_modulus", "custom_solid", "neo_hookean"),
-        ("punch", "profiles", "laws", "_wells", "tabulated_law", "dlvo"),
+        ("punch", "profiles", "laws", "_wells", "tabulated_law", "cohesive_laws", "dlvo"),
         (
             "_azimuth",
             "_face",

@@ -39,6 +39,7 @@ _COMMANDS = {
     "run": ("runs", "compute the standing cases and judge them"),
     "judge": ("runs", "judge stored results again, by the same gates or others, without computing"),
     "report": ("pages", "write one HTML page of a run"),
+    "supplement": ("pages", "write the supplement of a paper: tables, figures, Methods, references and data of a run"),
     "board": (
         "pages",
         "judge a folder of submitted models and write a web site: errors, verdicts, report cards, history",

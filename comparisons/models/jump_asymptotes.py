@@ -40,7 +40,10 @@ class JumpAsymptotes(ClosedForm):
     """
 
     name = "jump-asymptotes"
-    citation = "Zhu, Zheng, Huang & Yu, Eqs. 43-55 and Sec. 3.3; the energy of the cycle: docs/theory.md"
+    citation = (
+        "Zhu, Zheng, Huang & Yu, Eqs. 43-55 and Sec. 3.3; n = 2, k = 0: Ciavarella, Greenwood & Barber, J. Mech. Phys. "
+        "Solids 98 (2017) 236-244; the energy of the cycle: docs/theory.md"
+    )
     domain = "n > 2/3, 0 <= k <= 1; where the asymptote of the jump-in lies above that of the jump-out"
     undefined: ClassVar[str] = "its branches are those of semi-rigid and jkr, which have their own values"
 

@@ -69,7 +69,10 @@ class SemiRigid(ClosedForm):
     """
 
     name = "semi-rigid"
-    citation = "Zhu, Zheng, Huang & Yu, Eqs. 40-48; Greenwood, Philos. Mag. 89 (2009) 945-965"
+    citation = (
+        "Zhu, Zheng, Huang & Yu, Eqs. 40-48; Greenwood, Philos. Mag. 89 (2009) 945-965; n = 2, k = 0: Wu, J. Adhes. 86 "
+        "(2010) 1071-1085; Ciavarella, Greenwood & Barber, J. Mech. Phys. Solids 98 (2017) 236-244"
+    )
     domain = "n > (1-k)/3, 0 <= k <= 1; asymptotic for a jump-in at a large central gap"
     undefined: ClassVar[str] = "it describes only the approach up to the jump-in, where deformations are small"
 

@@ -40,6 +40,27 @@ def exact(value: float) -> str:
     return repr(float(value)).removesuffix(".0")
 
 
+def short_percent(kappa: float) -> str:
+    """Return an error in percent with its sign and three digits.
+
+    Examples
+    --------
+    >>> short_percent(-0.0694811), short_percent(11.3294), short_percent(3e-7), short_percent(0.0)
+    ('−6.95', '+1133', '+3e-5', '0')
+    """
+    percent = 100.0 * kappa
+    if percent == 0.0:
+        return "0"
+    size = abs(percent)
+    if size >= 1e5:
+        text = f"{size:.0e}".replace("e+0", "e").replace("e+", "e")
+    elif size < 5e-4:
+        text = f"{size:.0e}".replace("e-0", "e-")
+    else:
+        text = f"{size:.{max(0, 2 - max(-1, math.floor(math.log10(size))))}f}"
+    return ("−" if percent < 0.0 else "+") + text
+
+
 def limits_text(lower: float, upper: float) -> str:
     """Return the limits of a gate with every digit they were declared with; nothing for a gate without (NaN).
 

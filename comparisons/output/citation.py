@@ -8,11 +8,12 @@ from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from typing import Any, NamedTuple
 
+from comparisons.data.toml_text import shipped
 from comparisons.output.latex import escaped
 from comparisons.runs.environment import DIGITS, version_of
 
 #: Entries of a work, in the order of BibTeX.
-_ENTRIES = ("author", "title", "journal", "volume", "pages", "year", "doi", "url", "note")
+_ENTRIES = ("author", "title", "journal", "publisher", "volume", "pages", "year", "doi", "url", "note")
 
 
 class Work(NamedTuple):
@@ -37,14 +38,15 @@ class Work(NamedTuple):
         entry = dict.fromkeys(_ENTRIES, "") | self.filled
         authors = entry["author"].strip("{}").replace(" and others", " et al.").replace(" and ", "; ")
         year = f"({entry['year']})" if entry["year"] else ""
-        where = " ".join(filter(None, [entry["journal"], entry["volume"], year, entry["pages"].replace("--", "-")]))
+        venue = entry["journal"] or entry["publisher"]
+        where = " ".join(filter(None, [venue, entry["volume"], year, entry["pages"].replace("--", "-")]))
         doi = f"doi:{entry['doi']}" if entry["doi"] else ""
         sentences = [authors, entry["title"], where, doi, entry["note"], entry["url"]]
         return " ".join(f"{sentence.rstrip('.')}." for sentence in sentences if sentence)
 
     def bibtex(self) -> str:
         """The work as an entry of BibTeX, in ASCII."""
-        kind = "article" if "journal" in self.filled else "misc"
+        kind = "article" if "journal" in self.filled else "book" if "publisher" in self.filled else "misc"
         lines = [f"  {name} = {{{_field(name, value)}}}," for name, value in self.filled.items()]
         return "\n".join([f"@{kind}{{{self.key},", *lines, "}"])
 
@@ -80,9 +82,15 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
         key = f"{paper['authors'][0].get('family-names', '')}-{paper['title'].split()[0]}".lower()
         pages = "--".join(str(paper[name]) for name in ("start", "end") if name in paper)
         cited.append(Work(key, paper | {"author": _names(paper["authors"]), "pages": pages}))
-    for name, model in ((record or {}).get("models") or {}).items():
-        title = f"Model {name}, version {model['version']}"
-        cited.append(Work("model-" + re.sub("[^A-Za-z0-9-]", "-", name), {"title": title, "note": model["citation"]}))
+    used = (record or {}).get("models") or {}
+    listed = shipped("model_references.toml")
+    keys = dict.fromkeys(key for name in used for key in listed["models"].get(name, ()))
+    cited += [Work(key, listed["works"][key]) for key in keys if key not in {work.key for work in cited}]
+    for name, model in used.items():
+        if name not in listed["models"]:
+            title = f"Model {name}, version {model['version']}"
+            key = "model-" + re.sub("[^A-Za-z0-9-]", "-", name)
+            cited.append(Work(key, {"title": title, "note": model["citation"]}))
     for library in _libraries(record) if record else ():
         facts = {"author": " and ".join(library["authors"]), "note": f"version {library['version']}"}
         cited.append(Work(library["package"], library | facts))

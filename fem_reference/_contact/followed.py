@@ -26,11 +26,11 @@ from fem_reference._contact.jkr_tension import last_turn
 from fem_reference._contact.mesh_lengths import (
     EDGE_PER_BALANCE,
     EDGE_RISE,
-    OTHER_LENGTHS,
     WIDEST,
     balance_length,
     check_width,
     kinks_within,
+    other_lengths,
     spot_length,
 )
 from fem_reference._contact.meshes import Meshes
@@ -40,7 +40,6 @@ from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.errors import Failure, NotConverged
 from fem_reference.punch import radius_at_height
-from fem_reference.tabulated_law import TabulatedLaw
 
 __all__ = ["FollowedPath", "followed_path", "path_on"]
 
@@ -307,8 +306,7 @@ class FollowedPath:
         states = states_near(point, order, density)
         radius, slope = states.extremum(height)
         others = [(order - 1, density)]
-        if isinstance(self.meshes.problem.law, TabulatedLaw):
-            others += [(order, ratio * density) for ratio in OTHER_LENGTHS]
+        others += [(order, ratio * density) for ratio in other_lengths(self.meshes.problem.law)]
         radii = [states_near(states.start, *other).extremum(height)[0] for other in others]
         spec, point_there = states_near(states.start, order, density).on_fine_mesh(radius)
         radius_error = sum(abs(math.log(radius / other)) for other in radii)

@@ -30,14 +30,13 @@ from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.degree_error import LARGEST_GAIN, SMALLEST_GAIN, degree_error
 from fem_reference._contact.event_mesh import EventMesh
-from fem_reference._contact.mesh_lengths import OTHER_LENGTHS
+from fem_reference._contact.mesh_lengths import other_lengths
 from fem_reference._contact.tail import TailContact
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import ENDS, FEATURES, variant
 from fem_reference._wells import has_one_well
 from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.errors import NotConverged
-from fem_reference.tabulated_law import TabulatedLaw
 
 __all__ = ["PARTS", "Estimate", "EventsOnMeshes", "events_on_meshes"]
 
@@ -180,8 +179,7 @@ def events_on_meshes(mesh: EventMesh) -> EventsOnMeshes:
     def feature(name: str, full: bool) -> CarriedEvents:
         return CarriedEvents(fine, on(variant(spec if full else plain, name)))
 
-    has_kinks = isinstance(problem.law, TabulatedLaw)
-    resized = [replace(spec, density=ratio * spec.density) for ratio in OTHER_LENGTHS if has_kinks]
+    resized = [replace(spec, density=ratio * spec.density) for ratio in other_lengths(problem.law)]
     return EventsOnMeshes(
         fine,
         CarriedEvents(fine, mesh.lower_contact),

@@ -64,7 +64,7 @@ def _largest_damping(state: State, step: Array) -> float:
             damping *= 0.5
         return damping
     dH = change[0]
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         limit = np.where(dH < 0.0, (clearance - least) / -dH, np.inf)
     return min(float(min(1.0, max(limit.min(), 0.0))), largest)
 

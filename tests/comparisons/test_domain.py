@@ -85,7 +85,7 @@ def test_a_model_has_a_value_for_all_that_it_does_not_skip(name):
                 assert row.status in expected, (quantity, case.label, row.reason)
             else:
                 assert (row.status, row.reason) == ("not-applicable", reason)
-    of_files = {"jkr-sphere", "jkr-sphere-projected", "jkr-surface-tension"}
+    of_files = {"jkr-profile", "jkr-sphere", "jkr-sphere-projected", "jkr-surface-tension", "md-profile"}
     assert bool(taken) == (name not in of_files)
 
 

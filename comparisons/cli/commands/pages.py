@@ -1,4 +1,4 @@
-"""Commands that write of finished runs: a page, and a board of submissions."""
+"""Commands that write of finished runs: a page, the supplement of a paper, and a board of submissions."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from comparisons.output.report.board_page import standings
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import rows_path, write_page
 from comparisons.output.report.stored_run import read_folder
+from comparisons.output.supplement.document import DOCUMENT
+from comparisons.output.supplement.write import write_supplement
 from comparisons.output.table import laid_out
 from comparisons.output.terminal import rich_table
 from comparisons.pipeline.board import INDEX, make_board
@@ -39,6 +41,25 @@ def report_command(args: argparse.Namespace) -> int:
             raise ValueError(f"--out {path} is a file of the run, which the page would replace; choose another file")
     write_page(page, path)
     log(f"the report is {path}")
+    return OK
+
+
+@command(
+    file("folder", metavar="DIR", help="folder of a finished run, sweep or comparison"),
+    file("--out", metavar="FOLDER", help="folder to write (default: DIR/supplement)"),
+)
+def supplement_command(args: argparse.Namespace) -> int:
+    """Read and write; return the exit status.
+
+    For example::
+
+        fscm-bench supplement results/mine --out paper/supplement
+    """
+    out = args.out or args.folder / "supplement"
+    if out.resolve() == args.folder.resolve():
+        raise ValueError(f"--out {out} is the folder of the run; choose a new one")
+    write_supplement(read_folder(args.folder), args.folder, out)
+    log(f"the supplement is {out / DOCUMENT}")
     return OK
 
 

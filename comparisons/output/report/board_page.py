@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import asdict, dataclass, replace
-from functools import partial
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import pandas as pd
@@ -12,11 +11,12 @@ import pandas as pd
 from comparisons.judging.decision import roll_up
 from comparisons.judging.report_card import overall
 from comparisons.judging.standing import inside, range_text, stated_range
-from comparisons.output.errors import error_summary, ranked, within_ranges, worst_rows
+from comparisons.output.errors import error_summary, ranked, within_ranges
+from comparisons.output.region_table import region_table
 from comparisons.output.report.page import Block, Page, errors_and_plot, predicted_plot, regime_maps
-from comparisons.output.report.regime_map import RegimeMap, short_percent
+from comparisons.output.report.regime_map import RegimeMap
 from comparisons.output.report.stored_run import Stored
-from comparisons.output.table import LAYOUT, Record, Table, column, columns, laid_out
+from comparisons.output.table import Table, laid_out
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.runs.rows import Key
 
@@ -160,7 +160,7 @@ def _results(entries: Sequence[BoardEntry], rows: pd.DataFrame) -> dict[str, Seq
     return {
         "map": regime_maps(RegimeMap(evaluations, domains)),
         "models": [laid_out("newest", newest, id="models")],
-        "regions": [_regions(within, newest)] if len(within) else [],
+        "regions": [region_table(within, newest)] if len(within) else [],
         "predicted": predicted_plot(within),
         "errors": errors_and_plot(kappa),
         "history": [laid_out("history", history)],
@@ -180,31 +180,6 @@ def _of_newest(
         (submission.name, table_of(judged)) for submission, judged in _judged(entries) if submission.folder in folders
     ]
     return pd.concat([table[table["model"] == name] for name, table in tables], ignore_index=True)
-
-
-def _regions(kappa: pd.DataFrame, newest: pd.DataFrame) -> Table:
-    """Return the largest and the mean error of each model and quantity in each region, in the order of the newest."""
-    keys = ["model", "quantity"]
-    table = newest.loc[newest["cases"] > 0, keys]
-    known = kappa[kappa["kappa"].notna()]
-    for heading, condition in LAYOUT["regions"].items():
-        rows = known.query(condition)
-        worst = worst_rows(rows, keys)[[*keys, "kappa", "u_kappa"]]
-        names = {"kappa": f"kappa {heading}", "u_kappa": f"u {heading}"}
-        table = table.merge(worst.rename(columns=names), on=keys, how="left")
-        mean = rows.groupby(keys)["kappa"].mean().rename(f"mean {heading}").reset_index()
-        table = table.merge(mean, on=keys, how="left")
-    layout = [
-        replace(column(name, f"kappa {name}", "short percent", f"u {name}"), small=partial(_mean_text, name))
-        for name in LAYOUT["regions"]
-    ]
-    caption = "Largest |κ| in percent with its sign, by region"
-    return Table("regions", caption, [*columns("model"), *layout, *columns("quantity")], table)
-
-
-def _mean_text(region: str, row: Record) -> str:
-    mean = row[f"mean {region}"]
-    return "" if pd.isna(mean) else f"mean {short_percent(mean)}"
 
 
 def _submissions(entries: Sequence[BoardEntry]) -> Table:

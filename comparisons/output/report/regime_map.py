@@ -17,7 +17,7 @@ import pandas as pd
 
 from comparisons.description.overview import LIMITS
 from comparisons.judging.standing import model_to_use, range_text, shared_ranks, stated_range
-from comparisons.numerics.number_text import percent_text
+from comparisons.numerics.number_text import percent_text, short_percent
 from comparisons.output.report.regimes import HOMOGENEOUS, LABELS, Evaluation, Label, Options, all_first, chosen
 from comparisons.quantities import title_of
 
@@ -187,24 +187,3 @@ class _Errors:
         bound = max(row.u_kappa for row in judged)
         covered = len({row.case for row in judged})
         return cls(cases, len(known), covered, max(errors, key=abs), bound, sum(errors) / len(errors), far, why)
-
-
-def short_percent(kappa: float) -> str:
-    """Return an error in percent with its sign and three digits.
-
-    Examples
-    --------
-    >>> short_percent(-0.0694811), short_percent(11.3294), short_percent(3e-7), short_percent(0.0)
-    ('−6.95', '+1133', '+3e-5', '0')
-    """
-    percent = 100.0 * kappa
-    if percent == 0.0:
-        return "0"
-    size = abs(percent)
-    if size >= 1e5:
-        text = f"{size:.0e}".replace("e+0", "e").replace("e+", "e")
-    elif size < 5e-4:
-        text = f"{size:.0e}".replace("e-0", "e-")
-    else:
-        text = f"{size:.{max(0, 2 - max(-1, math.floor(math.log10(size))))}f}"
-    return ("−" if percent < 0.0 else "+") + text

@@ -27,7 +27,7 @@ def test_a_sweep_is_cited_with_its_models_and_its_reference(folder, capsys):
     paragraph = capsys.readouterr().out.splitlines()[0]
     assert all(name in paragraph for name in ("bradley (version 1)", "jkr (version 1)", "atlas (version "))
     assert main(["cite", "--format", "bibtex", str(folder)]) == 0
-    assert "@misc{model-jkr," in capsys.readouterr().out
+    assert "@article{jkr-1971," in capsys.readouterr().out
     # Without a folder, the version of the program.
     assert (main(["--version"]), main(["cite"])) == (0, 0)
     version, text = capsys.readouterr().out.split("\n", 1)

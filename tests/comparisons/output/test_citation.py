@@ -6,8 +6,10 @@ from importlib.resources import files
 
 import yaml
 
+from comparisons.data.toml_text import shipped
 from comparisons.output import citation
 from comparisons.output.citation import Work, as_bibtex, methods, works
+from comparisons.registry import MODELS
 from tests.comparisons.records import record_of_run
 from tests.paths import ROOT
 
@@ -64,6 +66,27 @@ def test_a_run_names_its_versions_and_models():
     assert cited["model-my-model"]["note"] == r"Someone, 50 \% wrong"
     assert cited["numpy"]["note"] == "version 2.4.6"
     assert "scikit-fem" not in cited
+
+
+def test_every_model_of_the_package_is_cited_by_an_article_with_a_doi():
+    for name in MODELS:
+        cited = works("1", RECORD | {"models": {name: {"version": "1", "citation": "none"}}})
+        of_model = [work for work in cited if work.key not in ("fscm-bench", "numpy", "scipy", "scikit-fem", "pyamg")]
+        assert any("journal" in work.filled and "doi" in work.filled for work in of_model), name
+        assert not [work.key for work in of_model if work.key.startswith("model-")]
+
+
+def test_a_work_of_two_models_is_named_once_and_every_work_has_a_model():
+    models = {name: {"version": "1", "citation": "none"} for name in MODELS}
+    text = as_bibtex(works("1", RECORD | {"models": models}))
+    cited = entries(text)
+    assert text.count("@") == len(cited)
+    listed = shipped("model_references.toml")
+    assert set(listed["works"]) <= set(cited)
+    assert set(listed["models"]) == set(MODELS)
+    assert all(re.fullmatch(r"10\.\d{4,5}/\S+", work["doi"]) for work in listed["works"].values() if "doi" in work)
+    assert text.count("@book{popov-2019,") == 1
+    assert text.isascii()
 
 
 def test_the_paragraph_states_model_reference_bound_and_versions():

@@ -44,6 +44,8 @@ SECTIONS = {
     "law": {
         "lennard-jones-9-3": 'work_of_adhesion = "50 mJ/m^2"\nz0 = "0.4 nm"',
         "mie": 'work_of_adhesion = "50 mJ/m^2"\nz0 = "0.4 nm"\nm = 12\nn = 6',
+        "cohesive-exponential": 'work_of_adhesion = "50 mJ/m^2"\nz0 = "0.4 nm"',
+        "cohesive-trapezoid": 'work_of_adhesion = "50 mJ/m^2"\nstrength = "100 MPa"\nrise_end = 0.3\nfall_start = 0.6',
         "table": 'file = "law.csv"\ntail_exponent = 3',
     },
 }
