@@ -59,10 +59,10 @@ def solve_many(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str) -> Many
     """Compute a quantity of many problems, each with the bound on its error.
 
     Pull-off forces in the range of the atlas (1 <= n <= 6, 0 <= k <= 0.8, 0.01 <= mu <= 10) are computed in batches on
-    common meshes: bounds are at most 2e-8 of the value, and errors hardly ever exceed 1e-9 of it.  A value whose bound
-    would be larger, that is no minimum of the load, or that the atlas contradicts, is computed again by `fscm.solve`
-    (measured: 87 of 10,000 random ones).  So are all problems outside this range, and all other quantities, one after
-    the other.  The common meshes take some seconds: for a few problems `fscm.solve` is faster.
+    common meshes, twice each: bounds are at most 1e-8 of the value.  A value whose bound would be larger, that is no
+    minimum of the load, or that the atlas contradicts, is computed again by `fscm.solve` (measured: 3 of 1000 random
+    ones).  So are all problems outside this range, and all other quantities, one after the other.  The common meshes
+    take up to some tens of seconds: for a few problems `fscm.solve` is faster.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-r"""Least loads with bounds on their errors, from the residual at the nodes of a higher order.
+r"""Least loads with bounds on their errors: from two solutions, and from the residual of the second one.
 
 At an extreme the error of the load is, to first order, what the adjoint y of the equilibrium weighs the residual with,
 whatever fixes the state on its path.  Since r G(r, t) = t G(t, r), the adjoint is p'(H) r z with
@@ -6,13 +6,28 @@ whatever fixes the state on its path.  Since r G(r, t) = t G(t, r), the adjoint 
     z = 2 c^2 + M c^(1-k) W p'(H) z,
 
 the equation of the derivative of the gap by the displacement at a fixed scale: it has the accuracy of the state, at the
-nodes of the higher order as well.  The value is corrected by the first-order error.  What bounds the error that is left
-is made of sizes that cannot cancel:
+nodes of the higher order as well.  The load is corrected by the first-order error that these nodes see.  The bound is
+the sum of two parts.
 
+*Evidence.*  The difference of the corrected loads of the two solutions, which differ in the orders of the pressure and
+of the residual, in the terms of the expansion in k, in the narrowest panels at the edge and at the tip, and in the end
+of the mesh.  It exceeds the error of the second solution if that is at most half that of the first one: an estimate,
+measured (`docs/sweeps.md`).
+
+*Residual of the second solution.*  Derived are
+
+* the closed tail: its expansion, and what it neglects;
+* the effect of the last two coefficients of the expansion in k, node by node.
+
+Estimates are
+
+* that the coefficients behind those have a smaller effect: each is a fifth of the one before or less (measured);
+* rounding, from the sizes of the terms of the residual and of the load, as for `fscm.solve`;
+* the distance from the extreme, from what is left of the derivative of the load, to second order in it;
 * sums over the Legendre modes of each panel of the products of the adjoint with the error of the pressure, and of those
-  of the adjoint with the error of the deformation;
-* a share of the integral of the sizes of the latter: the deformation is not smooth at the ends of panels, so that sums
-  over the nodes of the higher order miss a part of its error;
+  of the adjoint with the error of the deformation, at the nodes of the higher order;
+* the integral of the sizes of the latter: the deformation is singular at the ends of panels, where the polynomials of
+  the pressure jump, so that sums over the nodes of the higher order miss a part of its error;
 * the square of the error of the pressure: what is of second order.
 """
 
@@ -30,16 +45,12 @@ __all__ = ["Loads", "bounded_loads"]
 
 #: Factor on the sums over the modes.
 _SAFETY = 2.0
-#: Share of the integral of the size that sums over the nodes may miss: measured at most 0.05 over 362 random problems.
-_MISSED = 0.25
 #: Relative error of the load per square of the error of the pressure (in units of the largest tension, 1.03): measured
 #: worst 12 over 14 problems at k = 0.7 to 0.8 whose edge panels were too long, with errors of the pressure up to 5e-3.
 _SECOND_ORDER = 50.0
 #: Relative rounding of a few operations; in units of it, those of an entry of the response and of a pressure times an
 #: area (as in `fscm._bound.defect`).
 _ROUNDOFF, _ENTRY, _WEIGHT = 2.0**-51, 8.0, 4.0
-#: What the expansion of the response in k neglects: the last term, and this share of the one before it.
-_SHARE = 0.1
 
 
 class Loads(NamedTuple):
@@ -49,31 +60,48 @@ class Loads(NamedTuple):
     bound: Array
 
 
-def bounded_loads(batch: Batch, states: Stationary) -> Loads:
-    """Corrected loads of states with an extreme load."""
-    mesh = batch.mesh
-    at = Fields(batch, states.w, states.t)
-    fine, twice = mesh.fine, 2.0 * at.c[:, None] ** 2
-    w = mesh.refined(states.w)
-    gap = EDGE_GAP + (at.c_n / batch.n)[:, None] * batch.rise_fine + (w - at.edge_w[:, None])
-    pressure_error = LAW.traction(gap) - mesh.refined(at.pressure)
-    coarse_density = twice * at.slope * states.free
-    both = np.matmul(batch.response, np.stack([at.pressure, coarse_density], axis=2))
-    both *= at.stiffness[:, None, None]
-    deformation_error = w - both[..., 0] - at.tails.lift[:, None]
-    # The adjoint of the response, and the adjoint, as densities.
-    v = fine.nodes * (twice + both[..., 1])
-    y = LAW.slope(gap) * v
-    load = at.load + (v * pressure_error - y * deformation_error) @ fine.weights
-    bound = _SAFETY * (mesh.by_modes(v, pressure_error) + mesh.by_modes(y, deformation_error))
-    bound += _MISSED * (np.abs(y * deformation_error) @ fine.weights)
+class _Defect:
+    """Errors of the states of a batch at the nodes of the higher order, and the adjoint that weighs them.
+
+    Attributes
+    ----------
+    at : Fields
+    pressure_error, deformation_error : ndarray, shape (b, m fine)
+    by_pressure, by_deformation : ndarray, shape (b, m fine)
+        Densities of the derivatives of the load by these errors, the second one times -1.
+    density : ndarray, shape (b, m coarse)
+        The adjoint over the radius, at the nodes of the pressure.
+    """
+
+    def __init__(self, batch: Batch, states: Stationary) -> None:
+        mesh = batch.mesh
+        self.at = at = Fields(batch, states.w, states.t)
+        twice, w = 2.0 * at.c[:, None] ** 2, mesh.refined(states.w)
+        gap = EDGE_GAP + (at.c_n / batch.n)[:, None] * batch.rise_fine + (w - at.edge_w[:, None])
+        self.pressure_error = LAW.traction(gap) - mesh.refined(at.pressure)
+        self.density = twice * at.slope * states.free
+        both = np.matmul(batch.response, np.stack([at.pressure, self.density], axis=2))
+        both *= at.stiffness[:, None, None]
+        self.deformation_error = w - both[..., 0] - at.tails.lift[:, None]
+        self.by_pressure = mesh.fine.nodes * (twice + both[..., 1])
+        self.by_deformation = LAW.slope(gap) * self.by_pressure
+        seen = self.by_pressure * self.pressure_error - self.by_deformation * self.deformation_error
+        self.load = at.load + seen @ mesh.fine.weights
+
+
+def bounded_loads(first: Batch, first_states: Stationary, second: Batch, second_states: Stationary) -> Loads:
+    """Corrected loads of the second solutions of problems, with an extreme load."""
+    mesh, defect = second.mesh, _Defect(second, second_states)
+    at, y = defect.at, defect.by_deformation
+    bound = np.abs(defect.load - _Defect(first, first_states).load)
+    by_modes = mesh.by_modes(defect.by_pressure, defect.pressure_error) + mesh.by_modes(y, defect.deformation_error)
+    bound += _SAFETY * by_modes + np.abs(y * defect.deformation_error) @ mesh.fine.weights
     # The area of the innermost panels is small.
-    largest = np.max(np.abs(pressure_error) * np.minimum(fine.nodes, 1.0), axis=1)
-    bound += _SECOND_ORDER * np.abs(load) * largest**2
-    weighed = y * fine.weights
-    bound += states.missed
-    bound += _behind(batch, at, weighed) + _of_response(batch, at, weighed) + _rounding(batch, at, coarse_density)
-    return Loads(load, bound)
+    largest = np.max(np.abs(defect.pressure_error) * np.minimum(mesh.fine.nodes, 1.0), axis=1)
+    bound += _SECOND_ORDER * np.abs(defect.load) * largest**2 + second_states.missed
+    weighed = y * mesh.fine.weights
+    bound += _behind(second, at, weighed) + _of_response(second, at, weighed)
+    return Loads(defect.load, bound + _rounding(second, at, defect.density))
 
 
 def _behind(batch: Batch, at: Fields, y: Array) -> Array:
@@ -88,13 +116,11 @@ def _behind(batch: Batch, at: Fields, y: Array) -> Array:
 
 
 def _of_response(batch: Batch, at: Fields, y: Array) -> Array:
-    """Effect of what the expansion of the response in k neglects."""
-    effects = []
-    for term in (-1, -2):
-        left = assembled(batch.polynomials[:, [term]], batch.coefficients[[term]], batch.mesh.offsets, batch.k)
-        pushed = np.matmul(left, at.pressure[..., None])[..., 0]
-        effects.append(np.abs(at.stiffness * np.einsum("bi,bi->b", y, pushed)))
-    return effects[0] + _SHARE * effects[1]
+    """Effect of the last two coefficients of the response in k, by size: their polynomials are at most 1."""
+    last = np.abs(batch.coefficients[-2:]).sum(axis=0, keepdims=True)
+    left = assembled(np.ones((len(batch.k), 1)), last, batch.mesh.offsets, batch.k)
+    pushed = np.matmul(left, np.abs(at.pressure)[..., None])[..., 0]
+    return at.stiffness * np.einsum("bi,bi->b", np.abs(y), pushed)
 
 
 def _rounding(batch: Batch, at: Fields, density: Array) -> Array:

@@ -19,7 +19,7 @@ import scipy
 from numpy.typing import NDArray
 
 from fscm._many.meshes import CommonMesh
-from fscm._many.response import COARSE, FINE, ResponseTable, assembled
+from fscm._many.response import ResponseTable, assembled
 from fscm._many.tail import tails_of
 from fscm._typing import Array
 from fscm.laws import LennardJones
@@ -56,13 +56,13 @@ class Batch:
     n, k, M : ndarray, shape (b,)
     polynomials : ndarray, shape (b, terms)
         Of k, see `ResponseTable`.
-    response : ndarray, shape (b, m FINE, m COARSE)
+    response : ndarray, shape (b, m fine, m coarse)
         (1 - k) W, from the pressures at the coarse nodes to the fine ones.
-    square : ndarray, shape (b, m COARSE, m COARSE)
+    square : ndarray, shape (b, m coarse, m coarse)
         The same to the coarse nodes.
     rise, rise_fine : ndarray
         s^n - 1 at the coarse and at the fine nodes.
-    area : ndarray, shape (m COARSE,)
+    area : ndarray, shape (m coarse,)
         Weights times radii.
     """
 
@@ -70,7 +70,8 @@ class Batch:
         self.mesh, self.n, self.k, self.M = mesh, n, k, M
         self.coefficients, self.polynomials = coefficients, table.polynomials(k)
         self.response = assembled(self.polynomials, coefficients, mesh.offsets, k)
-        size, by_panel = mesh.count * COARSE, (len(n), mesh.count, FINE, mesh.count * COARSE)
+        size = mesh.coarse.size
+        by_panel = (len(n), mesh.count, mesh.orders.fine, size)
         self.square = np.matmul(mesh.to_coarse, self.response.reshape(by_panel)).reshape(len(n), size, size)
         self.rise, self.rise_fine = (
             np.expm1(n[:, None] * np.log1p(of_order.node_offsets)) for of_order in (mesh.coarse, mesh.fine)
@@ -79,7 +80,7 @@ class Batch:
 
 
 class Fields:
-    """Fields of a batch at deformations w, shape (b, m COARSE), and logarithms t of the scale, shape (b,)."""
+    """Fields of a batch at deformations w, shape (b, m coarse), and logarithms t of the scale, shape (b,)."""
 
     def __init__(self, batch: Batch, w: Array, t: Array) -> None:
         mesh, n = batch.mesh, batch.n
@@ -109,7 +110,7 @@ class Stationary(NamedTuple):
     Attributes
     ----------
     w, t : ndarray
-    free : ndarray, shape (b, m COARSE)
+    free : ndarray, shape (b, m coarse)
         Minus the derivative of the gap by the displacement at a fixed scale.
     curvature : ndarray, shape (b,)
         Second derivative of the load along the path.

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fscm._many.response import COARSE, FINE
+from fscm._many.response import Orders
 from fscm._surface.mesh import PanelMesh, gauss_rule
 from fscm._typing import Array
 
@@ -48,6 +48,11 @@ class Panels(NamedTuple):
     far: int
 
     @property
+    def finer(self) -> Panels:
+        """Panels of the second solution: one more cut at either side of the edge and at the tip, and a later end."""
+        return Panels(self.edge + 1, self.tip + 1, self.far + 1)
+
+    @property
     def offsets(self) -> Array:
         """Ends of the panels relative to s = 1."""
         cut, distant = np.arange(self.tip, -1.0, -1.0), np.arange(1.0, self.far + 1.0)
@@ -86,8 +91,10 @@ class CommonMesh:
 
     Attributes
     ----------
+    panels : Panels
     offsets : ndarray
         Ends of the panels relative to s = 1.
+    orders : Orders
     coarse, fine : PanelMesh
     count : int
         Number of panels.
@@ -101,24 +108,33 @@ class CommonMesh:
         Radius s where the mesh ends.
     """
 
-    def __init__(self, panels: Panels) -> None:
-        self.offsets = panels.offsets
-        self.coarse, self.fine = (PanelMesh(self.offsets, order, 1.0) for order in (COARSE, FINE))
+    def __init__(self, panels: Panels, orders: Orders) -> None:
+        self.panels, self.offsets, self.orders = panels, panels.offsets, orders
+        self.coarse, self.fine = (PanelMesh(self.offsets, order, 1.0) for order in (orders.coarse, orders.fine))
         self.count = len(self.offsets) - 1
         inner = int(np.searchsorted(self.offsets, 0.0)) - 1
-        self.edge_nodes = slice(inner * COARSE, (inner + 1) * COARSE)
-        rule, fine_rule = gauss_rule(COARSE), gauss_rule(FINE)
+        self.edge_nodes = slice(inner * orders.coarse, (inner + 1) * orders.coarse)
+        rule, fine_rule = gauss_rule(orders.coarse), gauss_rule(orders.fine)
         self.to_fine, self.to_coarse = rule.interpolation(fine_rule.nodes), fine_rule.interpolation(rule.nodes)
         self.at_end = rule.interpolation(np.ones(1))[0]
         self.end = float(1.0 + self.offsets[-1])
 
     def refined(self, values: Array) -> Array:
         """Values at the coarse nodes, shape (b, N), at the fine ones."""
-        by_panel = values.reshape(len(values), self.count, COARSE)
+        by_panel = values.reshape(len(values), self.count, self.orders.coarse)
         return np.asarray((by_panel @ self.to_fine.T).reshape(len(values), -1))
+
+    def transferred(self, w: Array, k: Array, target: CommonMesh) -> Array:
+        """Deformations, shape (b, N), on another mesh; beyond this one they decrease as under a distant load."""
+        offsets = target.coarse.node_offsets
+        beyond = offsets > self.offsets[-1]
+        values = np.stack([self.coarse.evaluate_at_offsets(row, offsets[~beyond]) for row in w])
+        share = self.coarse.nodes[-1] / target.coarse.nodes[beyond]
+        return np.concatenate([values, w[:, -1:] * share ** (1.0 + k[:, None])], axis=1)
 
     def by_modes(self, first: Array, second: Array) -> Array:
         """Sizes of the integrals of a product over the panels, summed over the Legendre modes; shape (b,)."""
-        shape, to_modes = (len(first), self.count, FINE), gauss_rule(FINE).to_modes.T
+        order = self.orders.fine
+        shape, to_modes = (len(first), self.count, order), gauss_rule(order).to_modes.T
         modes = np.abs((first.reshape(shape) @ to_modes) * (second.reshape(shape) @ to_modes))
-        return np.asarray((modes @ (1.0 / (2.0 * np.arange(FINE) + 1.0))) @ self.fine.lengths)
+        return np.asarray((modes @ (1.0 / (2.0 * np.arange(order) + 1.0))) @ self.fine.lengths)

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from fscm._many.equilibrium import Batch, Fields, Stationary
 from fscm._many.guess import DATA, basis, guesses, outer_end, point_offsets, terms
 from fscm._many.pull_off import solved
-from fscm._many.response import INTERVALS, ResponseTable
+from fscm._many.response import FIRST, INTERVALS, ResponseTable
 from fscm._typing import Array
 from fscm.interpolation.builder.design import rounded, sobol
 from fscm.interpolation.coordinates import BOX
@@ -68,7 +68,7 @@ def fit_states(count: int, degree: int, path: Path = DATA) -> dict[str, float]:
     guess, nodes, numbers = guesses(n, k, mu), [], []
     for low, high in INTERVALS:
         of_interval = np.flatnonzero((k >= low) & ((k < high) | (high == INTERVALS[-1][1])))
-        for part, batch, states in solved(ResponseTable(low, high), n, k, mu, guess, of_interval):
+        for part, batch, states in solved(ResponseTable(low, high, FIRST), n, k, mu, guess, of_interval):
             for i, row in _rows(batch, states, mu[part]):
                 nodes.append(int(part[i]))
                 numbers.append(row)
