@@ -34,6 +34,8 @@ class ManySolutions:
         Bound on the error of each value.
     method : ndarray of str
         "batch", or "solve" where `fscm.solve` was called.
+    status : ndarray of str
+        "value", or the exception that `fscm.solve` raised: "NoSuchEvent" or "NotConverged".
     reason : ndarray of str
         Why there is no value, else empty.
 
@@ -47,6 +49,7 @@ class ManySolutions:
     value: Array
     u_num: Array
     method: NDArray[np.str_]
+    status: NDArray[np.str_]
     reason: NDArray[np.str_]
 
     def count(self, method: str) -> int:
@@ -74,8 +77,8 @@ def solve_many(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str) -> Many
     Returns
     -------
     ManySolutions
-        Of the broadcast shape.  A problem without the event, or one that did not converge, has a reason in place of a
-        value.
+        Of the broadcast shape.  A problem without the event, or one that did not converge, has a status and a reason in
+        place of a value.
 
     Raises
     ------
@@ -85,8 +88,8 @@ def solve_many(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str) -> Many
     Examples
     --------
     >>> gaps = solve_many(2, 0, [0.5, 2.0], "jump_in_gap")
-    >>> gaps.value.round(2).tolist(), gaps.method.tolist(), gaps.reason[0][:50]
-    ([nan, 1.26], ['solve', 'solve'], 'the displacement rises monotonically along the pat')
+    >>> gaps.value.round(2).tolist(), gaps.status.tolist(), gaps.reason[0][:50]
+    ([nan, 1.26], ['NoSuchEvent', 'value'], 'the displacement rises monotonically along the pat')
     """
     quantity_named(quantity)
     flat, shape = _broadcast(n, k, mu)
@@ -98,19 +101,18 @@ def solve_many(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str) -> Many
     problems = {int(i): _problem(int(i), *(float(parameter[i]) for parameter in flat)) for i in np.flatnonzero(~inside)}
     if quantity == _BATCHED and inside.any():
         value[inside], u_num[inside] = pull_off_forces(*(parameter[inside] for parameter in flat))
-    left = np.flatnonzero(np.isnan(value))
-    method = np.full(count, "batch", dtype="U5")
-    method[left] = "solve"
-    reasons = [""] * count
-    for i in left.tolist():
+    left = np.isnan(value)
+    method, statuses, reasons = np.where(left, "solve", "batch"), ["value"] * count, [""] * count
+    for i in np.flatnonzero(left).tolist():
         problem = problems[i] if i in problems else _problem(i, *(float(parameter[i]) for parameter in flat))
         try:
             solution = solve(problem, quantity)
             value[i], u_num[i] = solution.value, solution.u_num
         except (NoSuchEvent, NotConverged) as none:
-            reasons[i] = str(none)
-    reason = np.array(reasons, dtype=np.str_)
-    return ManySolutions(value.reshape(shape), u_num.reshape(shape), method.reshape(shape), reason.reshape(shape))
+            known = NoSuchEvent if isinstance(none, NoSuchEvent) else NotConverged
+            statuses[i], reasons[i] = known.__name__, str(none)
+    arrays = (value, u_num, method, np.array(statuses, dtype=np.str_), np.array(reasons, dtype=np.str_))
+    return ManySolutions(*(array.reshape(shape) for array in arrays))
 
 
 def _broadcast(n: ArrayLike, k: ArrayLike, mu: ArrayLike) -> tuple[tuple[Array, Array, Array], tuple[int, ...]]:

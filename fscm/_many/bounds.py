@@ -17,7 +17,7 @@ measured (`docs/sweeps.md`).
 *Residual of the second solution.*  Derived are
 
 * the closed tail: its expansion, and what it neglects;
-* the effect of the last two coefficients of the expansion in k, node by node.
+* the effect of the last two coefficients of the expansion in k, by the largest of each block.
 
 Estimates are
 
@@ -26,8 +26,8 @@ Estimates are
 * the distance from the extreme, from what is left of the derivative of the load, to second order in it;
 * sums over the Legendre modes of each panel of the products of the adjoint with the error of the pressure, and of those
   of the adjoint with the error of the deformation, at the nodes of the higher order;
-* the integral of the sizes of the latter: the deformation is singular at the ends of panels, where the polynomials of
-  the pressure jump, so that sums over the nodes of the higher order miss a part of its error;
+* what these nodes miss: the deformation is singular at the ends of panels, where the polynomials of the pressure jump.
+  It is a share of the integral of the sizes of the latter products, computed for such singularities (`unseen_share`);
 * the square of the error of the pressure: what is of second order.
 """
 
@@ -38,19 +38,30 @@ from typing import NamedTuple
 import numpy as np
 
 from fscm._many.equilibrium import EDGE_GAP, LAW, Batch, Fields, Stationary
-from fscm._many.response import assembled
 from fscm._typing import Array
 
-__all__ = ["Loads", "bounded_loads"]
+__all__ = ["Loads", "bounded_loads", "unseen_share"]
 
 #: Factor on the sums over the modes.
 _SAFETY = 2.0
+#: Share at k = 0, and its rate in k: twice the worst share of singularities of any two sizes at both ends (computed:
+#: 0.04 at k = 0, 0.08 at k = 0.4 and 0.17 at k = 0.8 for 12 and 16 nodes; less for the other orders).
+_UNSEEN, _UNSEEN_RATE = 0.08, 1.9
 #: Relative error of the load per square of the error of the pressure (in units of the largest tension, 1.03): measured
 #: worst 12 over 14 problems at k = 0.7 to 0.8 whose edge panels were too long, with errors of the pressure up to 5e-3.
 _SECOND_ORDER = 50.0
 #: Relative rounding of a few operations; in units of it, those of an entry of the response and of a pressure times an
 #: area (as in `fscm._bound.defect`).
 _ROUNDOFF, _ENTRY, _WEIGHT = 2.0**-51, 8.0, 4.0
+
+
+def unseen_share(k: Array) -> Array:
+    """Share of the size of a product that its sum over the nodes of the higher order may differ from its integral by.
+
+    The product is that of a polynomial of degree 3 with the error of interpolating the deformation, which is singular
+    like u^(1 - k) at the ends of panels (u log u for k = 0).
+    """
+    return np.asarray(_UNSEEN * np.exp(_UNSEEN_RATE * k))
 
 
 class Loads(NamedTuple):
@@ -77,7 +88,7 @@ class _Defect:
         mesh = batch.mesh
         self.at = at = Fields(batch, states.w, states.t)
         twice, w = 2.0 * at.c[:, None] ** 2, mesh.refined(states.w)
-        gap = EDGE_GAP + (at.c_n / batch.n)[:, None] * batch.rise_fine + (w - at.edge_w[:, None])
+        gap = EDGE_GAP + (at.c_n / batch.n)[:, None] * batch.rise_fine + (w - at.edge_w)
         self.pressure_error = LAW.traction(gap) - mesh.refined(at.pressure)
         self.density = twice * at.slope * states.free
         both = np.matmul(batch.response, np.stack([at.pressure, self.density], axis=2))
@@ -95,7 +106,7 @@ def bounded_loads(first: Batch, first_states: Stationary, second: Batch, second_
     at, y = defect.at, defect.by_deformation
     bound = np.abs(defect.load - _Defect(first, first_states).load)
     by_modes = mesh.by_modes(defect.by_pressure, defect.pressure_error) + mesh.by_modes(y, defect.deformation_error)
-    bound += _SAFETY * by_modes + np.abs(y * defect.deformation_error) @ mesh.fine.weights
+    bound += _SAFETY * by_modes + unseen_share(second.k) * (np.abs(y * defect.deformation_error) @ mesh.fine.weights)
     # The area of the innermost panels is small.
     largest = np.max(np.abs(defect.pressure_error) * np.minimum(mesh.fine.nodes, 1.0), axis=1)
     bound += _SECOND_ORDER * np.abs(defect.load) * largest**2 + second_states.missed
@@ -116,18 +127,20 @@ def _behind(batch: Batch, at: Fields, y: Array) -> Array:
 
 
 def _of_response(batch: Batch, at: Fields, y: Array) -> Array:
-    """Effect of the last two coefficients of the response in k, by size: their polynomials are at most 1."""
-    last = np.abs(batch.coefficients[-2:]).sum(axis=0, keepdims=True)
-    left = assembled(np.ones((len(batch.k), 1)), last, batch.mesh.offsets, batch.k)
-    pushed = np.matmul(left, np.abs(at.pressure)[..., None])[..., 0]
-    return at.stiffness * np.einsum("bi,bi->b", np.abs(y), pushed)
+    """Effect of the last two coefficients of the response in k, each at most the largest of its block."""
+    mesh = batch.mesh
+    by_panel = (len(y), mesh.count, -1)
+    pushed = np.matmul(batch.scale * mesh.uncertain, np.abs(at.pressure).reshape(by_panel).sum(axis=2)[..., None])[
+        ..., 0
+    ]
+    return np.asarray(at.stiffness * np.einsum("bi,bi->b", np.abs(y).reshape(by_panel).sum(axis=2), pushed))
 
 
 def _rounding(batch: Batch, at: Fields, density: Array) -> Array:
     """Rounding of the residual, weighed by the adjoint, and of the load."""
     size = 8.0 / 3.0 * ((at.gap - LAW.singular_gap) ** -9 + (at.gap - LAW.singular_gap) ** -3)
     height = (at.c_n / batch.n)[:, None] * np.abs(batch.rise)
-    change = np.abs(at.slope) * (np.abs(at.w) + np.abs(at.edge_w)[:, None] + height + np.abs(at.gap))
+    change = np.abs(at.slope) * (np.abs(at.w) + np.abs(at.edge_w) + height + np.abs(at.gap))
     y = np.abs(density) * batch.area
     back = at.stiffness[:, None] * np.abs(np.matmul(y[:, None], batch.square)[:, 0])
     terms = y * np.abs(at.w) + back * (_ENTRY * size + change) + at.ring * (_WEIGHT * size + change)

@@ -6,21 +6,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fscm._many.response import Orders
+from fscm._many.response import INTEGRATION_ERROR, Orders, ResponseTable
 from fscm._surface.mesh import PanelMesh, gauss_rule
 from fscm._typing import Array
 
 __all__ = ["CommonMesh", "Panels", "panels_for"]
 
 #: Panels beyond s = 2 that reach twice as far as the one before, and cuts of the innermost panel that halve it.
-_DOUBLED, _HALVED = 8, 2
+_DOUBLED, _HALVED = 12, 2
 #: Numbers of panels of the meshes; few of them, so that many problems share a mesh.
-_EDGES = (2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 19, 22, 25, 28, 31, 34, 37, 40, 43)
-_TIPS = (1, 2, 3, 5, 7)
-_FARS = (2, 3, 4, 5, 6, 8, 10, 13)
-#: The edge panels are half as long as the edge is wide, or a quarter above this gradient exponent: the error of the
-#: pressure there is at most 1e-5 of the largest tension.
-_STEEP_GRADIENT = 0.55
+_EDGES = (2, 3, 4, 6, 8, 11, 14, 17, 20, 24, 28, 32, 36, 40, 44)
+_TIPS = (2, 4, 7)
+_FARS = (2, 4, 6, 9, 12, 16)
+#: The edge panels are at most half as long as the edge is wide, and shorter by this power of two above this gradient
+#: exponent: the error of the pressure there is at most 1e-4 of the largest tension.
+_STEEP, _STEEPER = 0.35, 5.0
 #: Height of the punch at the end of the mesh, and least radius there in that of the edge.
 _END_HEIGHT, _LEAST_END = 1e4, 2.5
 #: At the end of the innermost panel, r^n / n is about 2^-_TIP_HEIGHT or less.
@@ -77,7 +77,7 @@ def panels_for(n: Array, k: Array, log_scale: Array, width: Array) -> list[Panel
     log_scale, width : ndarray
         Logarithm of the radius of the edge; width of the edge relative to it.
     """
-    edge = 1.0 - np.log2(width) + (k > _STEEP_GRADIENT)
+    edge = 1.0 - np.log2(width) + _STEEPER * np.maximum(k - _STEEP, 0.0)
     doublings = np.log2(np.maximum(np.exp(np.log(_END_HEIGHT * n) / n - log_scale), _LEAST_END)) - 1.0
     far = np.where(doublings <= _DOUBLED, doublings, 0.5 * (doublings + _DOUBLED))
     cuts = log_scale / np.log(2.0) + _TIP_HEIGHT / n - 1.0
@@ -91,10 +91,14 @@ class CommonMesh:
 
     Attributes
     ----------
-    panels : Panels
     offsets : ndarray
         Ends of the panels relative to s = 1.
     orders : Orders
+    table : ResponseTable
+    coefficients : ndarray, shape (terms, panels, fine, panels, coarse)
+        Of the response.
+    uncertain : ndarray, shape (panels, panels)
+        Largest error of an entry of each block: the last two coefficients, and the integration.
     coarse, fine : PanelMesh
     count : int
         Number of panels.
@@ -108,8 +112,11 @@ class CommonMesh:
         Radius s where the mesh ends.
     """
 
-    def __init__(self, panels: Panels, orders: Orders) -> None:
-        self.panels, self.offsets, self.orders = panels, panels.offsets, orders
+    def __init__(self, panels: Panels, orders: Orders, table: ResponseTable) -> None:
+        self.offsets, self.orders, self.table = panels.offsets, orders, table
+        self.coefficients = table.coefficients(self.offsets, orders)
+        sizes = np.abs(self.coefficients)
+        self.uncertain = (sizes[-2:].sum(axis=0) + INTEGRATION_ERROR * sizes.sum(axis=0)).max(axis=(1, 3))
         self.coarse, self.fine = (PanelMesh(self.offsets, order, 1.0) for order in (orders.coarse, orders.fine))
         self.count = len(self.offsets) - 1
         inner = int(np.searchsorted(self.offsets, 0.0)) - 1

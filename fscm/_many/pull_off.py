@@ -1,4 +1,4 @@
-"""Pull-off forces of many problems in the range of the atlas, by groups that share a mesh."""
+"""Pull-off forces of many problems in the range of the atlas, by groups that share two meshes."""
 
 from __future__ import annotations
 
@@ -12,16 +12,18 @@ from fscm._many.bounds import Loads, bounded_loads
 from fscm._many.equilibrium import Batch, Stationary, stationary_states
 from fscm._many.guess import Guess, guesses
 from fscm._many.meshes import CommonMesh, Panels, panels_for
-from fscm._many.response import FIRST, INTERVALS, SECOND, ResponseTable
+from fscm._many.response import INTERVALS, Interval, ResponseTable
 from fscm._typing import Array
 from fscm.interpolation.atlas import atlas
 
-__all__ = ["RELATIVE_BOUND", "pull_off_forces", "solved"]
+__all__ = ["RELATIVE_BOUND", "by_interval", "groups_of", "parts_of", "pull_off_forces", "solved"]
 
 #: Largest bound of a value of a batch, relative to it.
 RELATIVE_BOUND = 1e-8
 #: Entries of the matrices of a batch: 16 MB, which a cache holds in part.
 _ENTRIES = 2_000_000
+#: What Newton's method leaves of the changes of gaps in the first solution, and in the second one.
+_REMAINDERS = (1e-9, 1e-11)
 
 
 def pull_off_forces(n: Array, k: Array, mu: Array) -> Loads:
@@ -34,48 +36,61 @@ def pull_off_forces(n: Array, k: Array, mu: Array) -> Loads:
     force, bound = np.full(n.shape, np.nan), np.full(n.shape, np.nan)
     known, known_bound = (np.asarray(part) for part in atlas(n, k, mu, "pull_off_force"))
     guess = guesses(n, k, mu)
-    for low, high in INTERVALS:
-        table, finer = ResponseTable(low, high, FIRST), ResponseTable(low, high, SECOND)
-        of_interval = (k >= low) & ((k < high) | (high == INTERVALS[-1][1]))
-        for part, batch, states in solved(table, n, k, mu, guess, np.flatnonzero(of_interval)):
-            again, states_again = _second(batch, states, finer)
-            with np.errstate(all="ignore"):
-                loads = bounded_loads(batch, states, again, states_again)
-            certified = states.converged & states_again.converged & (states_again.curvature > 0.0)
-            certified &= np.abs(loads.load + known[part]) <= known_bound[part] + loads.bound
+    for interval, problems in zip(INTERVALS, by_interval(k), strict=True):
+        for part, loads in _bounded(interval, n, k, mu, guess, problems):
+            certified = np.abs(loads.load + known[part]) <= known_bound[part] + loads.bound
             certified &= loads.bound <= RELATIVE_BOUND * np.abs(loads.load)
             force[part[certified]] = -loads.load[certified]
             bound[part[certified]] = loads.bound[certified]
     return Loads(force, bound)
 
 
-def _second(batch: Batch, states: Stationary, finer: ResponseTable) -> tuple[Batch, Stationary]:
-    """The problems of a batch on the mesh of the second solution, and their states there."""
-    mesh = CommonMesh(batch.mesh.panels.finer, finer.orders)
-    again = Batch(mesh, finer, finer.coefficients(mesh.offsets), batch.n, batch.k, batch.M)
-    return again, stationary_states(again, batch.mesh.transferred(states.w, batch.k, mesh), states.t)
+def _bounded(
+    interval: Interval, n: Array, k: Array, mu: Array, guess: Guess, problems: NDArray[np.intp]
+) -> Iterator[tuple[NDArray[np.intp], Loads]]:
+    """Least loads of the problems of an interval, in batches; their bounds are infinite where there is no minimum."""
+    groups = groups_of(n, k, guess, problems)
+    table = ResponseTable(interval, [p.offsets for panels in groups for p in (panels, panels.finer)])
+    for panels, group in groups.items():
+        mesh, finer = CommonMesh(panels, interval.first, table), CommonMesh(panels.finer, interval.second, table)
+        for part in parts_of(group, finer):
+            batch, states = solved(mesh, n, k, mu, guess, part)
+            again = Batch(finer, batch.n, batch.k, batch.M)
+            guess_again = mesh.transferred(states.w, batch.k, finer)
+            states_again = stationary_states(again, guess_again, states.t, _REMAINDERS[1])
+            with np.errstate(all="ignore"):
+                loads = bounded_loads(batch, states, again, states_again)
+            least = states.converged & states_again.converged & (states_again.curvature > 0.0)
+            yield part, Loads(loads.load, np.where(least, loads.bound, np.inf))
 
 
-def _groups(n: Array, k: Array, guess: Guess, problems: NDArray[np.intp]) -> list[tuple[Panels, NDArray[np.intp]]]:
+def by_interval(k: Array) -> list[NDArray[np.intp]]:
+    """Indices of the problems of each interval."""
+    index = np.searchsorted([interval.high for interval in INTERVALS[:-1]], k, side="right")
+    return [np.flatnonzero(index == i) for i in range(len(INTERVALS))]
+
+
+def groups_of(n: Array, k: Array, guess: Guess, problems: NDArray[np.intp]) -> dict[Panels, NDArray[np.intp]]:
     """Problems by the mesh that they share."""
     wanted = panels_for(n[problems], k[problems], guess.log_scale[problems], guess.width[problems])
     groups: dict[Panels, list[int]] = defaultdict(list)
     for problem, panels in zip(problems.tolist(), wanted, strict=True):
         groups[panels].append(problem)
-    return [(panels, np.array(groups[panels])) for panels in sorted(groups)]
+    return {panels: np.array(groups[panels]) for panels in sorted(groups)}
+
+
+def parts_of(group: NDArray[np.intp], mesh: CommonMesh) -> list[NDArray[np.intp]]:
+    """Batches of a group."""
+    size = max(1, _ENTRIES // (mesh.coarse.size * mesh.fine.size))
+    return [group[start : start + size] for start in range(0, len(group), size)]
 
 
 def solved(
-    table: ResponseTable, n: Array, k: Array, mu: Array, guess: Guess, problems: NDArray[np.intp]
-) -> Iterator[tuple[NDArray[np.intp], Batch, Stationary]]:
-    """Some of the problems, in batches on one mesh each, with their states of extreme load."""
-    for panels, group in _groups(n, k, guess, problems):
-        mesh = CommonMesh(panels, table.orders)
-        coefficients, offsets = table.coefficients(mesh.offsets), mesh.coarse.node_offsets
-        size = max(1, _ENTRIES // (mesh.coarse.size * mesh.fine.size))
-        for start in range(0, len(group), size):
-            part = group[start : start + size]
-            exponent = 2.0 + (k[part] - 1.0) / n[part]
-            batch = Batch(mesh, table, coefficients, n[part], k[part], 2.0 * mu[part] ** exponent)
-            w = np.stack([guess.deformation(i, float(n[i]), float(k[i]), offsets) for i in part])
-            yield part, batch, stationary_states(batch, w, guess.log_scale[part])
+    mesh: CommonMesh, n: Array, k: Array, mu: Array, guess: Guess, part: NDArray[np.intp]
+) -> tuple[Batch, Stationary]:
+    """Some of the problems on a mesh, and their states of extreme load."""
+    exponent = 2.0 + (k[part] - 1.0) / n[part]
+    batch = Batch(mesh, n[part], k[part], 2.0 * mu[part] ** exponent)
+    offsets = mesh.coarse.node_offsets
+    w = np.stack([guess.deformation(i, float(n[i]), float(k[i]), offsets) for i in part])
+    return batch, stationary_states(batch, w, guess.log_scale[part], _REMAINDERS[0])

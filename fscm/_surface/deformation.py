@@ -181,13 +181,17 @@ def _batches(mask: NDArray[np.bool_], size: int) -> Iterator[tuple[NDArray[np.in
         yield pair[start : start + size], node[start : start + size]
 
 
-def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp]) -> Array:
+def response_blocks(
+    kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp], near: float = _NEAR
+) -> Array:
     """Blocks of the response matrix between pairs of panels.
 
     Parameters
     ----------
     targets, sources : ndarray of int, shape (p,)
         Panel indices.
+    near : float
+        A panel is near when it is closer than so many of its lengths.
 
     Returns
     -------
@@ -204,7 +208,7 @@ def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], 
     right = (a[sources] - b[targets])[:, None] + h[targets, None] * v[::-1]
     gap = np.where(is_left[:, None], left, right)
     gap[targets == sources] = 0.0
-    is_near = gap < _NEAR * h[sources, None]
+    is_near = gap < near * h[sources, None]
     nodes = mesh.nodes.reshape(-1, q)
     blocks = np.empty((len(targets), q, q))
 

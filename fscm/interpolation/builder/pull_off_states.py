@@ -13,8 +13,9 @@ from scipy.optimize import brentq
 
 from fscm._many.equilibrium import Batch, Fields, Stationary
 from fscm._many.guess import DATA, basis, guesses, outer_end, point_offsets, terms
-from fscm._many.pull_off import solved
-from fscm._many.response import FIRST, INTERVALS, ResponseTable
+from fscm._many.meshes import CommonMesh
+from fscm._many.pull_off import by_interval, groups_of, parts_of, solved
+from fscm._many.response import INTERVALS, ResponseTable
 from fscm._typing import Array
 from fscm.interpolation.builder.design import rounded, sobol
 from fscm.interpolation.coordinates import BOX
@@ -66,12 +67,15 @@ def fit_states(count: int, degree: int, path: Path = DATA) -> dict[str, float]:
     """
     n, k, mu = state_nodes(count)
     guess, nodes, numbers = guesses(n, k, mu), [], []
-    for low, high in INTERVALS:
-        of_interval = np.flatnonzero((k >= low) & ((k < high) | (high == INTERVALS[-1][1])))
-        for part, batch, states in solved(ResponseTable(low, high, FIRST), n, k, mu, guess, of_interval):
-            for i, row in _rows(batch, states, mu[part]):
-                nodes.append(int(part[i]))
-                numbers.append(row)
+    for interval, problems in zip(INTERVALS, by_interval(k), strict=True):
+        groups = groups_of(n, k, guess, problems)
+        table = ResponseTable(interval, [panels.offsets for panels in groups])
+        for panels, group in groups.items():
+            mesh = CommonMesh(panels, interval.second, table)
+            for part in parts_of(group, mesh):
+                for i, row in _rows(*solved(mesh, n, k, mu, guess, part), mu[part]):
+                    nodes.append(int(part[i]))
+                    numbers.append(row)
     values, degrees = np.array(numbers), terms(degree)
     rows = basis(n[nodes], k[nodes], mu[nodes], degrees)
     weights = np.exp(-_RATE * (degrees @ np.array([1.0, 1.0, 0.75])))
