@@ -111,8 +111,8 @@ def solve_many(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str) -> Many
         except (NoSuchEvent, NotConverged) as none:
             known = NoSuchEvent if isinstance(none, NoSuchEvent) else NotConverged
             statuses[i], reasons[i] = known.__name__, str(none)
-    arrays = (value, u_num, method, np.array(statuses, dtype=np.str_), np.array(reasons, dtype=np.str_))
-    return ManySolutions(*(array.reshape(shape) for array in arrays))
+    texts = (method, np.array(statuses, dtype=np.str_), np.array(reasons, dtype=np.str_))
+    return ManySolutions(value.reshape(shape), u_num.reshape(shape), *(text.reshape(shape) for text in texts))
 
 
 def _broadcast(n: ArrayLike, k: ArrayLike, mu: ArrayLike) -> tuple[tuple[Array, Array, Array], tuple[int, ...]]:

@@ -115,8 +115,8 @@ class CommonMesh:
     def __init__(self, panels: Panels, orders: Orders, table: ResponseTable) -> None:
         self.offsets, self.orders, self.table = panels.offsets, orders, table
         self.coefficients = table.coefficients(self.offsets, orders)
-        sizes = np.abs(self.coefficients)
-        self.uncertain = (sizes[-2:].sum(axis=0) + INTEGRATION_ERROR * sizes.sum(axis=0)).max(axis=(1, 3))
+        sizes = np.array([np.abs(coefficient).max(axis=(1, 3)) for coefficient in self.coefficients])
+        self.uncertain = sizes[-2:].sum(axis=0) + INTEGRATION_ERROR * sizes.sum(axis=0)
         self.coarse, self.fine = (PanelMesh(self.offsets, order, 1.0) for order in (orders.coarse, orders.fine))
         self.count = len(self.offsets) - 1
         inner = int(np.searchsorted(self.offsets, 0.0)) - 1

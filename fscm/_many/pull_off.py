@@ -54,14 +54,22 @@ def _bounded(
     for panels, group in groups.items():
         mesh, finer = CommonMesh(panels, interval.first, table), CommonMesh(panels.finer, interval.second, table)
         for part in parts_of(group, finer):
-            batch, states = solved(mesh, n, k, mu, guess, part)
-            again = Batch(finer, batch.n, batch.k, batch.M)
-            guess_again = mesh.transferred(states.w, batch.k, finer)
-            states_again = stationary_states(again, guess_again, states.t, _REMAINDERS[1])
-            with np.errstate(all="ignore"):
-                loads = bounded_loads(batch, states, again, states_again)
-            least = states.converged & states_again.converged & (states_again.curvature > 0.0)
-            yield part, Loads(loads.load, np.where(least, loads.bound, np.inf))
+            yield part, _solved_twice(mesh, finer, n, k, mu, guess, part)
+        # The coefficients of the next meshes take the memory of these.
+        del mesh, finer
+
+
+def _solved_twice(
+    mesh: CommonMesh, finer: CommonMesh, n: Array, k: Array, mu: Array, guess: Guess, part: NDArray[np.intp]
+) -> Loads:
+    batch, states = solved(mesh, n, k, mu, guess, part)
+    again = Batch(finer, batch.n, batch.k, batch.M)
+    guess_again = mesh.transferred(states.w, batch.k, finer)
+    states_again = stationary_states(again, guess_again, states.t, _REMAINDERS[1])
+    with np.errstate(all="ignore"):
+        loads = bounded_loads(batch, states, again, states_again)
+    least = states.converged & states_again.converged & (states_again.curvature > 0.0)
+    return Loads(loads.load, np.where(least, loads.bound, np.inf))
 
 
 def by_interval(k: Array) -> list[NDArray[np.intp]]:

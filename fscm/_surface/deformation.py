@@ -248,8 +248,8 @@ def response_matrix(kernel: Kernel, mesh: PanelMesh, previous: tuple[PanelMesh, 
             old_blocks = old_matrix.reshape(panels, q, panels, q).transpose(0, 2, 1, 3)
             blocks[np.ix_(reused, reused)] = old_blocks[np.ix_(match[reused], match[reused])]
             computed[np.ix_(reused, reused)] = True
-        lacking = np.nonzero(~computed)
-        blocks[lacking] = response_blocks(kernel, mesh, *lacking)
+        targets, sources = np.nonzero(~computed)
+        blocks[targets, sources] = response_blocks(kernel, mesh, targets, sources)
     # In Fortran order, like the tangent.
     return blocks.transpose(1, 3, 0, 2).reshape(count * q, count * q).T
 

@@ -9,13 +9,14 @@ import pytest
 
 from fscm import Problem, solve, solve_many
 from fscm import many as module
-from fscm._many import equilibrium, pull_off
+from fscm._many import equilibrium, guess, pull_off
 from fscm._many.bounds import unseen_share
 from fscm._many.meshes import Panels
 from fscm._many.response import INTEGRATION_ERROR, INTERVALS, Orders, ResponseTable, assembled, scales
 from fscm._surface.deformation import response_blocks
 from fscm._surface.kernel import kernel_of
 from fscm._surface.mesh import PanelMesh, gauss_rule
+from fscm.interpolation.builder import pull_off_states
 from tests.marks import heavy
 
 #: Problems on few meshes: rigid and soft, flat and sharp; the last one in the upper interval of k.
@@ -131,6 +132,15 @@ def test_the_narrowest_edges_are_within_their_bounds():
     assert_within(solve_many(*problems.T, "pull_off_force"), *problems.T)
 
 
+@pytest.mark.heavy
+def test_the_bound_holds_the_error_that_the_solutions_share():
+    """The error is 1.4e-10 of the force."""
+    problem = (5.8823, 0.79521, 9.8626)
+    found, reference = solve_many(*problem, "pull_off_force"), finer(problem)
+    assert found.method == "batch"
+    assert abs(found.value - reference.value) + reference.u_num < 0.5 * found.u_num
+
+
 def test_a_value_that_the_atlas_contradicts_is_not_certified(monkeypatch):
     original = pull_off.atlas
     monkeypatch.setattr(pull_off, "atlas", lambda *at: (original(*at).value * (1.0 + 1e-4), original(*at).bound))
@@ -152,8 +162,8 @@ def test_a_wrong_guess_gives_the_same_value_or_none(monkeypatch, few):
     original = pull_off.guesses
 
     def wrong(*arguments):
-        guess = original(*arguments)
-        return guess._replace(log_scale=guess.log_scale + 0.1, inside=guess.inside + 0.05, outside=guess.outside * 0.9)
+        right = original(*arguments)
+        return right._replace(log_scale=right.log_scale + 0.1, inside=right.inside + 0.05, outside=right.outside * 0.9)
 
     monkeypatch.setattr(pull_off, "guesses", wrong)
     loads = pull_off.pull_off_forces(*FEW[:2].T)
@@ -239,6 +249,22 @@ def test_the_bound_of_the_response_exceeds_the_error_of_its_expansion(interval, 
         size = np.abs(exact).max(axis=(1, 3))
         assert np.all(error <= last + INTEGRATION_ERROR * size)
         assert np.max(error / size) < 1e-9
+
+
+def test_the_series_of_states_are_fitted_to_states_of_the_batches(monkeypatch, tmp_path):
+    """A series of one term is the state at all nodes."""
+    problem = n, k, mu = [np.full(3, number) for number in FEW[0]]
+    monkeypatch.setattr(pull_off_states, "state_nodes", lambda count: problem)
+    sizes = pull_off_states.fit_states(3, 0, tmp_path / "states.npz")
+    assert (sizes["nodes"], sizes["terms"]) == (3.0, 1.0)
+    monkeypatch.setattr(guess, "DATA", tmp_path / "states.npz")
+    guess._stored.cache_clear()
+    fitted = guess.guesses(n, k, mu)
+    monkeypatch.undo()
+    guess._stored.cache_clear()
+    displacement = solve(Problem(*map(float, FEW[0])), "pull_off_displacement").value
+    assert abs(fitted.displacement[0] - displacement) < 1e-6
+    assert np.allclose(fitted.inside, fitted.inside[0])
 
 
 def graded_rule():
