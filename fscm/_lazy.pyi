@@ -19,6 +19,7 @@ from .experiment import (
 )
 from .interpolation.atlas import ATLAS_QUANTITIES as ATLAS_QUANTITIES, AtlasValue as AtlasValue, atlas as atlas
 from .interpolation.curve.force_curve import ForceCurve as ForceCurve, force_curve as force_curve
+from .many import ManySolutions as ManySolutions, solve_many as solve_many
 from .path import EquilibriumPath as EquilibriumPath, trace as trace
 from .problem import Problem as Problem
 from .quantities import EVENTS as EVENTS

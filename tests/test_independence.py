@@ -70,8 +70,9 @@ LAYERS = {
         ("_bound",),
         ("folds", "stability", "critical", "quantities"),
         ("analysis", "path"),
-        ("gibson", "stieltjes", "interpolation"),
+        ("gibson", "stieltjes", "interpolation", "_many"),
         ("experiment", "states", "solver", "_sensitivity"),
+        ("many",),
     ),
     "fem_reference": (
         ("_typing", "_threads", "_validation", "_presentation", "_numbers", "errors", "_law_between_points"),

@@ -181,13 +181,17 @@ def _batches(mask: NDArray[np.bool_], size: int) -> Iterator[tuple[NDArray[np.in
         yield pair[start : start + size], node[start : start + size]
 
 
-def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp]) -> Array:
+def response_blocks(
+    kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp], near: float = _NEAR
+) -> Array:
     """Blocks of the response matrix between pairs of panels.
 
     Parameters
     ----------
     targets, sources : ndarray of int, shape (p,)
         Panel indices.
+    near : float
+        A panel is near when it is closer than so many of its lengths.
 
     Returns
     -------
@@ -204,7 +208,7 @@ def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], 
     right = (a[sources] - b[targets])[:, None] + h[targets, None] * v[::-1]
     gap = np.where(is_left[:, None], left, right)
     gap[targets == sources] = 0.0
-    is_near = gap < _NEAR * h[sources, None]
+    is_near = gap < near * h[sources, None]
     nodes = mesh.nodes.reshape(-1, q)
     blocks = np.empty((len(targets), q, q))
 
@@ -244,8 +248,8 @@ def response_matrix(kernel: Kernel, mesh: PanelMesh, previous: tuple[PanelMesh, 
             old_blocks = old_matrix.reshape(panels, q, panels, q).transpose(0, 2, 1, 3)
             blocks[np.ix_(reused, reused)] = old_blocks[np.ix_(match[reused], match[reused])]
             computed[np.ix_(reused, reused)] = True
-        lacking = np.nonzero(~computed)
-        blocks[lacking] = response_blocks(kernel, mesh, *lacking)
+        targets, sources = np.nonzero(~computed)
+        blocks[targets, sources] = response_blocks(kernel, mesh, targets, sources)
     # In Fortran order, like the tangent.
     return blocks.transpose(1, 3, 0, 2).reshape(count * q, count * q).T
 

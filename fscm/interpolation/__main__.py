@@ -4,6 +4,7 @@ python -m fscm.interpolation design SWEEP.toml LOWER UPPER CRITICAL
 python -m fscm.interpolation collect NODES.csv RESULTS.csv...
 python -m fscm.interpolation fit NODES.csv
 python -m fscm.interpolation curves PATHS OTHERS
+python -m fscm.interpolation states NODES DEGREE
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from fscm.interpolation.builder.building import build, layouts, write
 from fscm.interpolation.builder.curve_fit import fitted_curves
 from fscm.interpolation.builder.curve_nodes import curve_nodes, solve_nodes, solved_nodes
 from fscm.interpolation.builder.design import critical_nodes, lower_nodes, sweep_text, upper_nodes
+from fscm.interpolation.builder.pull_off_states import fit_states
 from fscm.interpolation.curve.series import DATA
 
 __all__ = ["collect", "main", "nodes_in"]
@@ -58,6 +60,9 @@ def main(arguments: list[str] | None = None) -> None:
     curves = commands.add_parser("curves", help="trace the nodes of the force curves into a file, and fit the series")
     curves.add_argument("path", type=Path)
     curves.add_argument("others", type=int, help="nodes besides spheres and homogeneous solids")
+    states = commands.add_parser("states", help="compute states of least load in batches, and fit the series to them")
+    states.add_argument("nodes", type=int)
+    states.add_argument("degree", type=int)
     options = parser.parse_args(arguments)
     if options.command == "design":
         above = upper_nodes(options.upper)
@@ -65,6 +70,8 @@ def main(arguments: list[str] | None = None) -> None:
         options.path.write_text(text, encoding="utf-8")
     elif options.command == "collect":
         collect(options.path, options.results)
+    elif options.command == "states":
+        print(fit_states(options.nodes, options.degree))
     elif options.command == "curves":
         solve_nodes(curve_nodes(options.others), options.path)
         series, sizes = fitted_curves(solved_nodes(options.path))

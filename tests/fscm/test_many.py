@@ -1,0 +1,298 @@
+"""Pull-off forces of many problems: values and bounds of the batches, and what they leave to `fscm.solve`."""
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fscm import Problem, solve, solve_many
+from fscm import many as module
+from fscm._many import equilibrium, guess, pull_off
+from fscm._many.bounds import unseen_share
+from fscm._many.meshes import Panels
+from fscm._many.response import INTEGRATION_ERROR, INTERVALS, Orders, ResponseTable, assembled, scales
+from fscm._surface.deformation import response_blocks
+from fscm._surface.kernel import kernel_of
+from fscm._surface.mesh import PanelMesh, gauss_rule
+from fscm.interpolation.builder import pull_off_states
+from tests.marks import heavy
+
+#: Problems on few meshes: rigid and soft, flat and sharp; the last one in the upper interval of k.
+FEW = np.array([(2.0, 0.0, 0.5), (2.0, 0.0, 1.0), (1.0, 0.2, 0.05), (6.0, 0.3, 0.01), (2.0, 0.72, 0.05)])
+CORNERS = [(n, k, mu) for n in (1.0, 1.001, 2.0, 6.0) for k in (0.0, 0.4, 0.8) for mu in (0.01, 10.0)]
+
+
+def finer(problem):
+    return solve(Problem(*map(float, problem)), "pull_off_force", accuracy="fine")
+
+
+def assert_within(found, n, k, mu):
+    for value, bound, problem in zip(found.value, found.u_num, zip(n, k, mu, strict=True), strict=True):
+        reference = finer(problem)
+        assert abs(value - reference.value) <= bound + reference.u_num, problem
+
+
+@pytest.fixture(scope="module")
+def few():
+    return solve_many(*FEW.T, "pull_off_force")
+
+
+def test_values_of_a_batch_are_within_their_bounds(few):
+    assert few.count("batch") == len(FEW)
+    assert np.all(few.u_num <= 1e-8 * few.value)
+    assert_within(few, *FEW.T)
+
+
+@pytest.mark.parametrize("mu", heavy(0.01, 10.0))
+def test_values_at_the_ends_of_the_range_are_within_their_bounds(mu):
+    corners = np.array([corner for corner in CORNERS if corner[2] == mu])
+    assert_within(solve_many(*corners.T, "pull_off_force"), *corners.T)
+
+
+@pytest.mark.heavy
+def test_stored_forces_of_random_problems_are_within_the_bounds():
+    with (Path(__file__).parent / "random_problems.csv").open(newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["quantity"] == "pull_off_force" and row["status"] == "value"]
+    n, k, mu, value = (np.array([float(row[name]) for row in rows]) for name in ("n", "k", "mu", "value"))
+    inside = (n >= 1.0) & (n <= 6.0) & (k <= 0.8) & (mu >= 0.01) & (mu <= 10.0)
+    assert inside.sum() > 10
+    found = solve_many(n[inside], k[inside], mu[inside], "pull_off_force")
+    assert np.all(abs(found.value - value[inside]) <= found.u_num + 1e-10 * value[inside])
+
+
+@pytest.mark.heavy
+def test_hardly_a_random_problem_is_left_to_the_solver():
+    random = np.random.default_rng(7)
+    n, k = 1.0 / random.uniform(1.0 / 6.0, 1.0, 300), random.uniform(0.0, 0.8, 300)
+    mu = np.exp(random.uniform(np.log(0.01), np.log(10.0), 300))
+    loads = pull_off.pull_off_forces(n, k, mu)
+    assert np.isnan(loads.load).sum() <= 9
+    for i in range(0, 300, 6):
+        reference = finer((n[i], k[i], mu[i]))
+        assert not abs(loads.load[i] - reference.value) > loads.bound[i] + reference.u_num
+
+
+def whatever_the_bound(monkeypatch, *problem):
+    """Force and bound of a problem of a batch without a limit of the bound, and without the atlas."""
+    monkeypatch.setattr(pull_off, "RELATIVE_BOUND", np.inf)
+    monkeypatch.setattr(pull_off, "atlas", lambda *_: (np.full(1, 0.0), np.full(1, np.inf)))
+    loads = pull_off.pull_off_forces(*(np.array([number]) for number in problem))
+    return float(loads.load[0]), float(loads.bound[0])
+
+
+def with_longer_panels(monkeypatch, coarser):
+    """Leave the narrowest panels at the edge out."""
+    original = pull_off.panels_for
+
+    def without(*arguments):
+        return [panels._replace(edge=panels.edge - coarser) for panels in original(*arguments)]
+
+    monkeypatch.setattr(pull_off, "panels_for", without)
+
+
+@pytest.mark.parametrize("coarser", [4, *heavy(3, 5)])
+def test_a_mesh_that_is_too_coarse_shows_in_the_bound(monkeypatch, coarser):
+    with_longer_panels(monkeypatch, coarser)
+    value, bound = whatever_the_bound(monkeypatch, 2.0, 0.35, 3.0)
+    reference = finer((2.0, 0.35, 3.0))
+    assert reference.u_num < abs(value - reference.value) <= bound
+
+
+@pytest.mark.parametrize("coarser", [3, *heavy(2, 4)])
+def test_the_residual_alone_bounds_the_error_of_a_mesh_that_is_too_coarse(monkeypatch, coarser):
+    """Two equal solutions have no difference.  The load is corrected by what the residual sees of its error."""
+    with_longer_panels(monkeypatch, coarser)
+    monkeypatch.setattr(Panels, "finer", property(lambda panels: panels))
+    monkeypatch.setattr(pull_off, "INTERVALS", [interval._replace(first=interval.second) for interval in INTERVALS])
+    value, bound = whatever_the_bound(monkeypatch, 2.0, 0.35, 3.0)
+    reference = finer((2.0, 0.35, 3.0))
+    assert reference.u_num < abs(value - reference.value) <= 0.02 * bound
+
+
+def test_a_value_with_a_large_bound_is_not_certified(monkeypatch):
+    with_longer_panels(monkeypatch, 6)
+    assert np.isnan(pull_off.pull_off_forces(*np.array([[2.0], [0.35], [3.0]])).load)
+
+
+def test_the_bound_holds_the_difference_of_two_solutions(monkeypatch, few):
+    """A poor first solution leaves the value as it is, within a larger bound."""
+    poor = [interval._replace(first=Orders(4, 12, 7)) for interval in INTERVALS]
+    monkeypatch.setattr(pull_off, "INTERVALS", poor)
+    value, bound = whatever_the_bound(monkeypatch, *FEW[1])
+    assert abs(value - few.value[1]) <= few.u_num[1]
+    assert bound > 100.0 * few.u_num[1]
+
+
+@pytest.mark.heavy
+def test_the_narrowest_edges_are_within_their_bounds():
+    """The response between narrow panels expands slowly in k, and the deformation is most singular there."""
+    problems = np.array([(1.0, 0.8, 10.0), (1.2079, 0.7962, 7.318), (1.0066616, 0.7879862, 9.6661776)])
+    assert_within(solve_many(*problems.T, "pull_off_force"), *problems.T)
+
+
+@pytest.mark.heavy
+def test_the_bound_holds_the_error_that_the_solutions_share():
+    """The error is 1.4e-10 of the force."""
+    problem = (5.8823, 0.79521, 9.8626)
+    found, reference = solve_many(*problem, "pull_off_force"), finer(problem)
+    assert found.method == "batch"
+    assert abs(found.value - reference.value) + reference.u_num < 0.5 * found.u_num
+
+
+def test_a_value_that_the_atlas_contradicts_is_not_certified(monkeypatch):
+    original = pull_off.atlas
+    monkeypatch.setattr(pull_off, "atlas", lambda *at: (original(*at).value * (1.0 + 1e-4), original(*at).bound))
+    assert np.all(np.isnan(pull_off.pull_off_forces(*FEW[:1].T).load))
+
+
+def test_a_maximum_of_the_load_is_not_certified(monkeypatch):
+    original = equilibrium.stationary_states
+
+    def turned(*arguments):
+        states = original(*arguments)
+        return states._replace(curvature=-states.curvature)
+
+    monkeypatch.setattr(pull_off, "stationary_states", turned)
+    assert np.all(np.isnan(pull_off.pull_off_forces(*FEW[:1].T).load))
+
+
+def test_a_wrong_guess_gives_the_same_value_or_none(monkeypatch, few):
+    original = pull_off.guesses
+
+    def wrong(*arguments):
+        right = original(*arguments)
+        return right._replace(log_scale=right.log_scale + 0.1, inside=right.inside + 0.05, outside=right.outside * 0.9)
+
+    monkeypatch.setattr(pull_off, "guesses", wrong)
+    loads = pull_off.pull_off_forces(*FEW[:2].T)
+    known = ~np.isnan(loads.load)
+    assert np.all(abs(loads.load - few.value[:2])[known] <= (loads.bound + few.u_num[:2])[known])
+
+
+def test_what_the_batch_leaves_is_solved_one_by_one(monkeypatch):
+    def none(n, k, mu):
+        return pull_off.Loads(np.full(n.shape, np.nan), np.full(n.shape, np.nan))
+
+    monkeypatch.setattr(module, "pull_off_forces", none)
+    found, alone = solve_many(2.0, 0.0, [[1.0]], "pull_off_force"), solve(Problem(2.0, 0.0, 1.0), "pull_off_force")
+    assert (found.method.tolist(), found.value.tolist(), found.u_num.tolist()) == (
+        [["solve"]],
+        [[alone.value]],
+        [[alone.u_num]],
+    )
+
+
+def test_problems_outside_the_range_and_other_quantities_are_solved_one_by_one():
+    found = solve_many([2.0, 6.5], [1.0, 0.0], 0.1, "pull_off_force")
+    assert found.method.tolist() == ["solve", "solve"]
+    assert found.value[0] == solve(Problem(2.0, 1.0, 0.1), "pull_off_force").value
+
+
+def test_a_problem_without_the_event_has_a_reason():
+    found = solve_many(2.0, 0.0, [0.1, 2.0], "jump_in_gap")
+    assert np.isnan(found.value).tolist() == [True, False]
+    assert found.status.tolist() == ["NoSuchEvent", "value"]
+    assert "no jump" in found.reason[0]
+    assert found.reason[1] == ""
+
+
+def test_a_problem_that_does_not_converge_has_a_reason():
+    found = solve_many(2.0, [0.999, 1.0], 1.0, "pull_off_force")
+    assert found.status.tolist() == ["NotConverged", "value"]
+    assert np.isnan([found.value, found.u_num]).tolist() == [[True, False], [True, False]]
+    assert found.reason[0] != ""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (([2.0, -1.0], 0.0, 1.0, "pull_off_force"), ["problem 1", "n = -1"]),
+        ((2.0, [0.0, 0.1, 1.5], 1.0, "pull_off_force"), ["problem 2", "k = 1.5"]),
+        ((2.0, 0.0, [np.nan], "pull_off_force"), ["problem 0", "mu = nan"]),
+        ((2.0, "a", 1.0, "pull_off_force"), ["k = 'a'"]),
+        (([2.0, 3.0], [0.1, 0.2, 0.3], 1.0, "pull_off_force"), ["(2,)", "(3,)"]),
+        ((2.0, 0.0, 1.0, "force"), ["'force'"]),
+    ],
+)
+def test_a_bad_argument_is_refused(arguments, said):
+    with pytest.raises(ValueError, match=re.escape(said[0])) as refused:
+        solve_many(*arguments)
+    assert all(part in str(refused.value) for part in said)
+
+
+@pytest.mark.parametrize(
+    ("interval", "deepest", "step"),
+    [
+        (INTERVALS[0], 14, 3),
+        (INTERVALS[1], 6, 1),
+        *heavy((INTERVALS[1], 29, 3), (INTERVALS[2], 45, 3), (INTERVALS[0], 14, 1), (INTERVALS[2], 20, 1)),
+    ],
+)
+def test_the_bound_of_the_response_exceeds_the_error_of_its_expansion(interval, deepest, step):
+    """Between the narrowest panels of the range, from them to wide ones, and between panels that double."""
+    halves = 0.5 ** np.arange(1.0, deepest + 1.0, step)
+    offsets = np.concatenate([[-1.0], -halves, [0.0], halves[::-1], [1.0, 2.0]])
+    orders, count = interval.second, len(offsets) - 1
+    table = ResponseTable(interval, [offsets])
+    coefficients = table.coefficients(offsets, orders)
+    to_fine = gauss_rule(orders.coarse).interpolation(gauss_rule(orders.fine).nodes)
+    targets, sources = np.indices((count, count)).reshape(2, -1)
+    for k in (interval.low, interval.low + 0.037, interval.high):
+        exact = response_blocks(kernel_of(k), PanelMesh(offsets, orders.fine, 1.0), targets, sources) @ to_fine
+        exact = (1.0 - k) * exact.reshape(count, count, orders.fine, orders.coarse).transpose(0, 2, 1, 3)
+        at = np.array([k])
+        expanded = assembled(table.polynomials(at, orders.terms), coefficients, scales(offsets, at))[0]
+        error = np.abs(expanded.reshape(exact.shape) - exact).max(axis=(1, 3))
+        last = np.abs(coefficients[-2:]).sum(axis=0).max(axis=(1, 3)) * scales(offsets, at)[0]
+        size = np.abs(exact).max(axis=(1, 3))
+        assert np.all(error <= last + INTEGRATION_ERROR * size)
+        assert np.max(error / size) < 1e-9
+
+
+def test_the_series_of_states_are_fitted_to_states_of_the_batches(monkeypatch, tmp_path):
+    """A series of one term is the state at all nodes."""
+    problem = n, k, mu = [np.full(3, number) for number in FEW[0]]
+    monkeypatch.setattr(pull_off_states, "state_nodes", lambda count: problem)
+    sizes = pull_off_states.fit_states(3, 0, tmp_path / "states.npz")
+    assert (sizes["nodes"], sizes["terms"]) == (3.0, 1.0)
+    monkeypatch.setattr(guess, "DATA", tmp_path / "states.npz")
+    guess._stored.cache_clear()
+    fitted = guess.guesses(n, k, mu)
+    monkeypatch.undo()
+    guess._stored.cache_clear()
+    displacement = solve(Problem(*map(float, FEW[0])), "pull_off_displacement").value
+    assert abs(fitted.displacement[0] - displacement) < 1e-6
+    assert np.allclose(fitted.inside, fitted.inside[0])
+
+
+def graded_rule():
+    """Nodes and weights on [0, 1], graded towards 0."""
+    x, weights = np.polynomial.legendre.leggauss(20)
+    lengths = 0.5 ** np.arange(1.0, 101.0)[:, None]
+    return (lengths * (1.5 + 0.5 * x)).ravel(), (lengths * 0.5 * weights).ravel()
+
+
+@pytest.mark.parametrize("interval", INTERVALS)
+@pytest.mark.parametrize("at_upper", [False, True])
+def test_the_nodes_of_the_higher_order_miss_less_than_the_bound_of_what_they_miss(interval, at_upper):
+    """Errors of interpolating u^(1-k), singular at both ends of a panel, in products with polynomials."""
+    k = interval.high if at_upper else interval.low
+    coarse, fine = gauss_rule(interval.second.coarse), gauss_rule(interval.second.fine)
+    x, weights = graded_rule()
+
+    def error(u):
+        singular = [v * np.log(v) if k == 0.0 else v ** (1.0 - k) for v in (u, coarse.nodes)]
+        return singular[0] - coarse.interpolation(u) @ singular[1]
+
+    shares = []
+    for degree in range(4):
+        polynomial = np.polynomial.Legendre.basis(degree, [0.0, 1.0])
+        integral, at_nodes = weights @ (polynomial(x) * error(x)), error(fine.nodes)
+        for other in (-1.0, -0.5, 0.0, 0.5, 1.0):
+            both = at_nodes + other * at_nodes[::-1]
+            whole = integral * (1.0 + other * (-1.0) ** degree)
+            missed = whole - fine.weights @ (polynomial(fine.nodes) * both)
+            shares.append(abs(missed) / (fine.weights @ np.abs(both)))
+    assert 0.25 * unseen_share(k) < max(shares) <= 0.6 * unseen_share(k)
