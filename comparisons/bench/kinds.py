@@ -97,7 +97,7 @@ KINDS = {
     "n = 5, k = 0.6": Kind("mu", partial(_of_numbers, 5.0, 0.6), {"fscm": (2,), "fem": (2,)}, {}),
     "coating": Kind("nm", _coating, {"fscm": (20,), "fem": (20,)}, {}),
     "layers": Kind("films", _layers, {"fscm": (1, 2, 4)}, {"fscm": (8,), "fem": (1, 2, 4)}),
-    "measured punch": Kind("rows", _measured, {"fscm": (50, 100)}, {"fscm": (200,), "fem": (50, 100, 200)}),
+    "measured punch": Kind("rows", _measured, {"fscm": (50, 100)}, {"fscm": (200,), "fem": (20, 40)}),
     "ball": Kind("um", _ball, {"fscm": (5,), "fem-large-strain": (5,)}, {}),
 }
 
