@@ -15,7 +15,7 @@ from comparisons.fitting.machine import Observations
 from comparisons.fitting.record import Record
 from comparisons.model import Array
 
-__all__ = ["BASELINES", "Baseline", "BaselineName"]
+__all__ = ["BASELINES", "CERTAIN", "Baseline", "BaselineName"]
 
 BaselineName = Literal["constant", "linear"]
 BASELINES = ("constant", "linear")
@@ -25,7 +25,7 @@ _FLAT = 0.1
 #: Share of the points of a branch without contact, the farthest, that show a slope: nearer ones feel the attraction.
 _FAR = 0.6
 #: Fewest of them, and standard errors from which on a slope is one.
-_FEWEST, _CERTAIN = 10, 5.0
+_FEWEST, CERTAIN = 10, 5.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,4 +146,4 @@ class Baseline:
     def have_slope(self, loads: Array) -> bool:
         """Return whether loads, shape (m,), or what a fit leaves of them, have a slope where there is no contact."""
         # A slope that is less than the noise over the whole record changes nothing.
-        return any(abs(slope) > max(_CERTAIN * error, self.record.noise) for slope, error, _ in self._slopes(loads))
+        return any(abs(slope) > max(CERTAIN * error, self.record.noise) for slope, error, _ in self._slopes(loads))

@@ -242,6 +242,12 @@ def fit_record(
     # The paths of a fit in n or k have no Tabor numbers in common.
     is_costly = model == "fscm" and (not has_limit or any(key.name in ("solid.k", "punch.n") for key in search.keys))
     result, curves = search.best(Curves(model), starts, is_costly)
+    if baseline is None and search.is_level(result):
+        level = Search(search.observed, problem, keys, "constant")
+        start = {name: number for name, number in result.numbers.items() if name not in ("tilt", "load_drift")}
+        again, its_curves = level.best(Curves(model), [start], is_costly)
+        if not level.baseline.have_slope(level.errors(again.numbers, its_curves)):
+            baseline, search, result, curves = "constant", level, again, its_curves
     jumps = jumps_apart(search, result, curves)
     if jumps:
         kept = {True, False} - {jump.approach for jump in jumps}
@@ -283,11 +289,10 @@ def _described(
     """Return values, uncertainties and the budget."""
     values, deviations = result.numbers, result.deviations
     problem = changed(search.problem, search.keys, values)
-    machine = search.machine(values, curves)
     position, baseline = search.zeros(values)
-    load = machine.load(position, search.observed)
+    load = search.machine(values, curves).load(position, search.observed)
     used, record = search.observed.used, search.observed.record
-    errors = load + baseline - record.load
+    errors = search.errors(values, curves)
     moved = [(key, key.value(values[key.name])) for key in search.keys]
     by_noise = {key.name: key.uncertainty(value, deviations[key.name]) for key, value in moved}
     is_determined = all(by_noise[key.name] <= _UNDETERMINED * abs(value) for key, value in moved[:count])

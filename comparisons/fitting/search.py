@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from comparisons.fitting.baseline import Baseline, BaselineName
+from comparisons.fitting.baseline import CERTAIN, Baseline, BaselineName
 from comparisons.fitting.curves import Curves, NearbyCurves
 from comparisons.fitting.equilibria import pull_off_force
 from comparisons.fitting.least_squares import Limits, Minimum, minimised
@@ -334,11 +334,24 @@ class Search:
         errors = np.sum((machine.load(position - tried[:, None], observed) - loads) ** 2, axis=1)
         return float(tried[int(np.argmin(errors))])
 
+    def errors(self, values: Mapping[str, float], curves: Curves) -> Array:
+        """Return how much larger the loads of fitted numbers are than those of the record, in N."""
+        position, zero = self.zeros(values)
+        return self.machine(values, curves).load(position, self.observed) + zero - self.observed.record.load
+
+    def is_level(self, result: Minimum) -> bool:
+        """Return whether a linear baseline changes by less than the noise, or by no more than it may by chance."""
+        slopes = [name for name in ("tilt", "load_drift") if name in result.numbers]
+        return bool(slopes) and all(
+            abs(result.numbers[name]) * self.load_range < self.observed.record.noise
+            or abs(result.numbers[name]) < CERTAIN * result.deviations[name]
+            for name in slopes
+        )
+
     def _residuals(self, values: Mapping[str, float], curves: Curves) -> Array:
         machine = self.machine(values, curves)
-        position, zero = self.zeros(values)
-        observed = self.observed
-        errors = (machine.load(position, observed) + zero - observed.record.load)[observed.used] / self.noise
+        position, _ = self.zeros(values)
+        errors = self.errors(values, curves)[self.observed.used] / self.noise
         others = [values[key.name] / (key.deviation or _VAGUE) for key in self.keys if key.deviation or key.logarithmic]
         others += self.jump_residuals(machine, position, curves.model).values()
         return np.concatenate([errors, others])

@@ -13,9 +13,12 @@ from comparisons.fitting.evidence import jump_in_remark, runs
 from comparisons.fitting.least_squares import Minimum
 from comparisons.fitting.machine import Observations
 from comparisons.fitting.parameters import free_keys
+from comparisons.fitting.reading import read_records
 from comparisons.fitting.search import Search
 from comparisons.model import ComputationFailed
+from comparisons.problem import Problem
 from comparisons.problem.uncertain import Uncertainty
+from tests.paths import PROBLEMS
 
 from .synthetic import Instrument, contact, of_tabor_number
 from .test_fit import FREE, deviations, fitted, recorded
@@ -47,6 +50,19 @@ def test_a_level_baseline_has_no_slope():
     for seed in range(20):
         _, record = recorded(SOFT, seed=seed)
         assert Baseline.of(Observations.of(record), None).names == ("load",)
+
+
+def test_attraction_far_away_is_no_tilt():
+    """The loads of the record of the documentation fall towards the solid; the model has that, and leaves no slope."""
+    problem = Problem.load(PROBLEMS / "probe.toml")
+    (record,) = read_records(PROBLEMS.parent / "measured_curve.csv")
+    assert "tilt" in Baseline.of(Observations.of(record), None).names
+    result = fitted(problem, record, start=problem, free=["solid.E", "law.work_of_adhesion"])
+    assert "tilt" not in result.zeros
+    # Computed with 500 MPa and 40 mJ/m^2.
+    for key, true in (("solid.E", 5e8), ("law.work_of_adhesion", 0.04)):
+        row = result.parameters[key]
+        assert abs(row.value - true) < 2.0 * row.u < 0.005 * true
 
 
 @pytest.mark.parametrize("approach", [True, False])
