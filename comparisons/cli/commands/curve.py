@@ -124,7 +124,7 @@ def _cycles(points_of_models: dict[str, Points], stiffness: float) -> tuple[pd.D
             failed = True
             continue
         ends = {"snaps in": machine.far[:, -1], "snaps out": machine.contact[:, 0]}
-        jumps = (f"{word} at {_short(x, 'm')} and {_short(y, 'N')}" for word, (x, y) in ends.items())
+        jumps = (f"{word} at {_short(x, 'm')} of the base and {_short(y, 'N')}" for word, (x, y) in ends.items())
         note(f"{name}: {', '.join(jumps) if machine.jumps else 'no jumps'}")
         for branch, (position, load) in cycle.items():
             values = (name, branch, position, position - load / stiffness, load)
