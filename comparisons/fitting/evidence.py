@@ -215,14 +215,29 @@ def branches_remark(values: Mapping[str, Mapping[str, tuple[float, float]]], uni
     return None
 
 
-def cause(result: Minimum, ratio: float, wide: bool, remarks: Sequence[str]) -> str | None:
-    """Return the most likely cause where the model does not describe a record, and what to do."""
+def cause(result: Minimum, ratio: float, wide: bool, remarks: Sequence[str], held: Sequence[str] = ()) -> str | None:
+    """Return the most likely cause where the model does not describe a record, and what to do.
+
+    Parameters
+    ----------
+    result : Minimum
+    ratio : float
+        Of residuals and noise.
+    wide : bool
+        Whether the contact is.
+    remarks : sequence of str
+        On the record and its branches.
+    held : sequence of str
+        Keys of a usual fit that are not free.
+    """
     if result.reduced < DESCRIBED:
         return None
-    return "the model does not describe the curve with these values: " + _likely(ratio, wide, remarks)
+    return "the model does not describe the curve with these values: " + _likely(ratio, wide, remarks, held)
 
 
-def _likely(ratio: float, wide: bool, remarks: Sequence[str]) -> str:
+def _likely(ratio: float, wide: bool, remarks: Sequence[str], held: Sequence[str]) -> str:
+    if held:
+        return f"{held[0]} is held at the value of the file, and may be another: put it behind --free, too"
     if ratio > _FAR_OFF:
         return (
             "no values near those of the file describe the curve: check radius, stiffness and units, and begin nearer "

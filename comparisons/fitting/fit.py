@@ -322,7 +322,7 @@ def _described(
         *filter(None, [branches_remark(by_branch, {key.name: key.unit for key in search.keys})]),
         *filter(None, [runs_remark(errors[used], record.approach[used], search.noise)]),
     ]
-    described = cause(result, residual / search.noise, bool(deep), remarks)
+    described = cause(result, residual / search.noise, bool(deep), remarks, _held(search))
     return Fit(
         record=record,
         model=curves.model,
@@ -344,6 +344,15 @@ def _described(
         by_branch=by_branch,
         assumptions=assumed,
     )
+
+
+def _held(search: Search) -> list[str]:
+    """Work of adhesion and modulus of the file that are not fitted."""
+    names = {key.name for key in search.keys}
+    usual = [("law", "work_of_adhesion"), *(("solid", name) for name in ("E", "E0"))]
+    problem: Any = search.problem
+    present = [f"{part}.{name}" for part, name in usual if name in getattr(problem, part).values]
+    return [name for name in present if name not in names]
 
 
 def _prior(key: Key) -> float | None:

@@ -20,7 +20,7 @@ from comparisons.problem import Problem
 from comparisons.problem.uncertain import Uncertainty
 from tests.paths import PROBLEMS
 
-from .synthetic import Instrument, contact, of_tabor_number
+from .synthetic import Instrument, contact, of_tabor_number, wrong
 from .test_fit import FREE, deviations, fitted, recorded
 
 SOFT = 3e3
@@ -118,6 +118,13 @@ def test_a_value_rests_on_a_jump_without_which_it_is_not_known(larger, said):
     # Nothing rests on a jump that does not count.
     search.jumps = (False,)
     assert jump_in_remark(search, minimum(1e-2), without) is None
+
+
+def test_a_value_that_is_held_and_wrong_is_the_first_cause():
+    problem, record = recorded(SOFT, points=100)
+    result = fitted(problem, record, start=wrong(problem, 3.0), free=["solid.E0"])
+    assert _says(result, "does not describe", "law.work_of_adhesion is held")
+    assert not _says(fitted(problem, record), "is held")
 
 
 def test_branches_that_differ_are_said():
