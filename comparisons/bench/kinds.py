@@ -23,8 +23,8 @@ _LAW = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
 _SPHERE = Section("sphere", {"R": 0.5e-6})
 _PAD = Section("homogeneous", {"E": 1e9, "nu": 0.4})
 
-#: Largest radius of a measured punch, in m, and the height of its waves, which make no row the continuation of another.
-_PROFILE, _WAVE = 0.2e-6, 2e-10
+#: Largest radius of a measured punch, in m.
+_PROFILE = 0.2e-6
 
 #: Repetitions differ by so much in the work of adhesion or the Tabor number.
 _APART = 1e-6
@@ -54,9 +54,9 @@ def _layers(count: float, factor: float) -> Problem:
 
 
 def _measured(rows: float, factor: float) -> Problem:
-    """A sphere with waves, measured at some radii and joined by segments."""
+    """A sphere that was measured at some radii, between which segments join its rows."""
     r = np.linspace(0.0, _PROFILE, int(rows))
-    height = r**2 / (2.0 * _SPHERE["R"]) + _WAVE * np.sin(40.0 * r / _PROFILE) ** 2
+    height = r**2 / (2.0 * _SPHERE["R"])
     columns = {"r": tuple(map(float, r)), "height": tuple(map(float, height))}
     return _on_solid(_PAD, factor, Section("table", {"file": "profile.csv"}, columns))
 
@@ -97,7 +97,7 @@ KINDS = {
     "n = 5, k = 0.6": Kind("mu", partial(_of_numbers, 5.0, 0.6), {"fscm": (2,), "fem": (2,)}, {}),
     "coating": Kind("nm", _coating, {"fscm": (20,), "fem": (20,)}, {}),
     "layers": Kind("films", _layers, {"fscm": (1, 2, 4)}, {"fscm": (8,), "fem": (1, 2, 4)}),
-    "measured punch": Kind("rows", _measured, {"fscm": (50, 100)}, {"fscm": (200,), "fem": (20, 40)}),
+    "measured punch": Kind("rows", _measured, {"fscm": (20, 50)}, {"fscm": (100, 200), "fem": (10, 20)}),
     "ball": Kind("um", _ball, {"fscm": (5,), "fem-large-strain": (5,)}, {}),
 }
 

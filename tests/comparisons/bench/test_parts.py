@@ -120,7 +120,7 @@ def test_a_kind_of_problem_has_value_bound_and_times():
     assert 0.0 <= numbers["u_num"] < 1e-9
     assert numbers["cpu_seconds"] > 0.0
     with pytest.raises(RuntimeError, match="punch"):
-        cost_of_kind("measured punch", 50.0, "jkr")
+        cost_of_kind("measured punch", 20.0, "jkr")
 
 
 def test_every_planned_problem_is_admissible_and_a_factor_changes_it():
