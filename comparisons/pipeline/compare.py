@@ -85,7 +85,7 @@ def compare(
     models: str | Iterable[str],
     grid: str | Path | None = None,
     *,
-    problem: Path | None = None,
+    problem: str | Path | None = None,
     vary: Sequence[str] = (),
     n: float | Sequence[float] | None = None,
     k: float | Sequence[float] | None = None,
@@ -93,7 +93,7 @@ def compare(
     nu: float | Sequence[float] | None = None,
     quantities: str | Sequence[str] = ("pull_off_force",),
     reference: str | None = None,
-    folder: Path | None = None,
+    folder: str | Path | None = None,
     jobs: int = 1,
 ) -> Comparison:
     """Compute models and the reference in your own cases, and compare them.
@@ -104,7 +104,7 @@ def compare(
         Names or SPECs, or "all" for every model of fscm-bench that has a value or a failure in one of the cases.
     grid : str or Path, optional
         A sweep file (of [[grid]] tables), or its text.  It states the quantities and the references.
-    problem : Path, optional
+    problem : str or Path, optional
         A problem file in place of a grid.
     vary : sequence of str
         Values of its keys, as ``"solid.thickness=5, 10 nm"``: every combination is a case.
@@ -116,7 +116,7 @@ def compare(
         Numbers, not curves, as in `comparisons.quantities.QUANTITIES`.
     reference : str, optional
         A model: "fscm" by default; "atlas" takes microseconds and has no value outside its range.
-    folder : Path, optional
+    folder : str or Path, optional
         For the results; by default results/runs/TIME.  Results in it are not computed again.
     jobs : int
         Number of processes.  With more than one, a script needs the guard ``if __name__ == "__main__":``.
@@ -167,7 +167,7 @@ def _several(values: float | Sequence[float] | None) -> list[float] | None:
 
 def _cases(
     grid: str | Path | None,
-    problem: Path | None,
+    problem: str | Path | None,
     vary: Sequence[str],
     numbers: Mapping[str, Sequence[float] | None],
     quantities: Sequence[str],
@@ -178,7 +178,7 @@ def _cases(
         if grid is not None or any(values is not None for values in numbers.values()):
             raise ValueError("--problem states the case; leave out --grid, --n, --k, --mu and --nu")
         compared_with = reference or REFERENCES[0]
-        return cases_of_problem(problem, vary, [compared_with], quantities, compared_with)
+        return cases_of_problem(Path(problem), vary, [compared_with], quantities, compared_with)
     if vary:
         raise ValueError("--vary is for the keys of --problem FILE, which is missing")
     if grid is None:
