@@ -206,5 +206,6 @@ def _name(row: pd.Series) -> str:
 
 def _text(row: pd.Series, specs: dict[str, str]) -> str:
     has_error = pd.notna(row["error"])
-    lines = [row["reason"], numbers_text(row) if has_error else "", f"computed again by: {command(row, specs)}"]
+    again = command(row, specs)
+    lines = [row["reason"], numbers_text(row) if has_error else "", again and f"computed again by: {again}"]
     return "\n".join(filter(None, lines))
