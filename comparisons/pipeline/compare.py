@@ -18,7 +18,8 @@ from comparisons.output.figures.of_run import draw_comparison
 from comparisons.output.latex import UPRIGHT_WIDTH, latex
 from comparisons.output.markup import html_table
 from comparisons.output.style import save
-from comparisons.output.summaries import case_tables, side_by_side, summary_tables
+from comparisons.output.summaries import WIDTH, case_tables, side_by_side, summary_tables, terminal_tables
+from comparisons.output.terminal import plain_text
 from comparisons.pipeline.inputs import Cases, cases_of_problem, grid_text, load_cases
 from comparisons.pipeline.run import running
 from comparisons.problem import Problem
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
 ALL = "all"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Comparison:
     """Models beside a reference.
 
@@ -76,6 +77,9 @@ class Comparison:
         ]
         summaries = (latex(table.texts, table.caption, table.id) for table in summary_tables(self.summary))
         return "\n".join([*tables, *summaries])
+
+    def __repr__(self) -> str:
+        return plain_text(terminal_tables(self.table, self.summary), WIDTH)
 
     def _repr_html_(self) -> str:
         return "\n".join(map(html_table, [*summary_tables(self.summary), *case_tables(self.table)]))

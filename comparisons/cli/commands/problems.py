@@ -12,7 +12,6 @@ from comparisons.console.progress import log
 from comparisons.problem.template import problem_template
 from comparisons.runs.atomic_files import writing
 
-
 #: Where a name alone does not say the section.
 _FULL_NAMES = "solid.table where sections share a name, punch_solid.KIND for an elastic punch"
 

@@ -48,6 +48,9 @@ def test_every_case_and_model_has_a_row(toys, tmp_path):
     expected = {"ten-percent": [4, 4, 0, 0, 4], "refuses": [4, 0, 4, 0, 0], "fails": [4, 0, 0, 4, 0]}
     assert {model: row.tolist() for model, row in counts.iterrows()} == expected
     assert [failure.model for failure in compared.failures] == ["fails"] * 8
+    shown = repr(compared)
+    assert {"ten-percent", "refuses", "fails"} <= set(shown.split())
+    assert max(map(len, shown.splitlines())) <= WIDTH
     # A notebook shows escaped tables with every digit.
     hostile = compared.table.replace({"model": {"ten-percent": "<script>alert(1)</script>"}})
     html = replace(compared, table=hostile, summary=error_summary(hostile))._repr_html_()
