@@ -12,7 +12,7 @@ from typing import Any
 from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import GRID_TEXT, INPUTS, RECORD
 from comparisons.data.input_files import LARGEST_TABLE, LARGEST_TEXT, read_bytes, read_text
-from comparisons.data.validation import known_name, shown
+from comparisons.data.validation import known_name, label, shown
 from comparisons.domain import Domain
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
@@ -214,7 +214,13 @@ def cases_of_problem(
         problem=problem.name,
         vary=variations,
     )
-    return replace(load_cases(text, None, problem.parent), source=str(problem))
+    try:
+        cases = load_cases(text, None, problem.parent)
+    except ValueError as error:
+        # The user knows the problem file and no grid.
+        of_grid = f"{_TEXT}: {label('grid', {'id': problem.stem}, 1)}: "
+        raise ValueError(str(error).removeprefix(of_grid)) from None
+    return replace(cases, source=str(problem))
 
 
 def grid_text(**entries: Any) -> str:
