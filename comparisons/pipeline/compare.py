@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from comparisons.data.file_names import COMPARISON, RECORD
+from comparisons.data.validation import known_name
 from comparisons.description.budget import line_of_results
 from comparisons.model import Model
 from comparisons.output.errors import comparison_table, error_summary, relative_error
@@ -253,8 +254,7 @@ def errors(
     >>> table["kappa"].round(6).tolist()
     [-0.25]
     """
-    if quantity not in QUANTITIES:
-        raise ValueError(f"unknown quantity {quantity!r}; the quantities are {', '.join(QUANTITIES)}")
+    known_name("quantity", quantity, QUANTITIES, "errors")
     created = [create(model) if isinstance(model, str) else model for model in models]
     by_name = {model.name: model for model in created}
     if reference not in by_name:
