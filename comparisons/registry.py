@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib import import_module
 
+from comparisons.data.validation import nearest_name
 from comparisons.domain import Domain, declared_domain
 from comparisons.external.model_source import AnyExternalModel, load_model, source_of
 from comparisons.model import Model
@@ -83,7 +84,10 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
         try:
             source_of(name)
         except ValueError as error:
-            raise ValueError(f"unknown model: {error}; the models are {', '.join(MODELS)}") from None
+            # A name of letters: a SPEC that names a file is not written like a model.
+            near = "" if set(name) & set(":/\\") else nearest_name(name, MODELS)
+            ours = f"did you mean {near}?" if near else f"the models are {', '.join(MODELS)}"
+            raise ValueError(f"unknown model: {error}; {ours}") from None
         return external_model(name)
     module, _, cls = MODELS[name].partition(":")
     factory = getattr(import_module(module), cls)

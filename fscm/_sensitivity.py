@@ -90,6 +90,9 @@ class ValueSensitivity:
         else:
             self._rule = AtExtreme(state, row.functional, extremal)
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self._quantity}, {self.solution!r}, {self.problem!r})"
+
     @one_thread()
     def change(self, problem: Problem) -> float:
         """Change of the value when its problem becomes another one nearby, to first order; no equilibrium is solved.

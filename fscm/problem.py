@@ -231,7 +231,8 @@ class Problem:
         return f"Problem({', '.join(f'{name}={getattr(self, name)!r}' for name in names)})"
 
     def __str__(self) -> str:
-        return f"n = {self.n:g}, k = {self.k:g}, mu = {self.mu:.6g}"
+        numbers = f"n = {self.n:g}, k = {self.k:g}, mu = {self.mu:.6g}"
+        return numbers if self.solid is None else f"{self!r}: {numbers}"
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Rebuilt from its parts: units cannot be pickled."""

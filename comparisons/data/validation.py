@@ -173,10 +173,9 @@ def _sentence(error: ValidationError, document: Mapping[str, Any], schema: Mappi
         value = value[step]
     key = ".".join(str(step) for step in path[2 if where else 0 : depth])
     if error.validator == "enum":
-        nearest = _close(str(value), error.validator_value)
-        description = f"one of {', '.join(error.validator_value)}" + (
-            f": did you mean {nearest[0]}?" if nearest else ""
-        )
+        names = error.validator_value
+        near = nearest_name(str(value), names)
+        description = f"one of {', '.join(names)}" + (f": did you mean {near}?" if near else "")
     where = where if depth > 1 else ""
     if error.validator == "oneOf":
         return f"{where}{key} must be {description}"
@@ -199,12 +198,20 @@ def _described(schema: Mapping[str, Any], path: Iterable[str | int]) -> tuple[in
 
 
 def _nearest(name: str, names: Iterable[str]) -> str:
-    nearest = _close(name, names)
-    return f": did you mean {nearest[0]}?" if nearest else f"; known are {', '.join(names)}"
+    near = nearest_name(name, names)
+    return f": did you mean {near}?" if near else f"; known are {', '.join(names)}"
 
 
-def _close(name: str, names: Iterable[str]) -> list[str]:
-    return get_close_matches(name, names, n=1) if len(name) <= _LONGEST_NAME else []
+def nearest_name(name: str, names: Iterable[str]) -> str:
+    """Return the known name that is most like another; nothing if none is near.
+
+    Examples
+    --------
+    >>> nearest_name("jrk", ["jkr", "dmt"]), nearest_name("weight", ["jkr", "dmt"])
+    ('jkr', '')
+    """
+    near = get_close_matches(name, names, n=1) if len(name) <= _LONGEST_NAME else []
+    return near[0] if near else ""
 
 
 def shown(value: object) -> str:

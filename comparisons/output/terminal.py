@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from io import StringIO
 from typing import TYPE_CHECKING, Any
 
 from rich.box import SIMPLE_HEAD
@@ -12,6 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from comparisons.console.printable import printable
+from comparisons.console.safe_console import SafeConsole
 from comparisons.numerics.number_text import aligned
 
 if TYPE_CHECKING:
@@ -76,6 +78,21 @@ def records(table: pd.DataFrame | Mapping[str, Sequence[object]], title: str) ->
             block.add_row(Text(f"  {name}"), Text(row[name]))
         blocks += [Text(row[heading], style="bold"), block]
     return Group(*blocks)
+
+
+def plain_text(tables: Iterable[RenderableType], width: int) -> str:
+    """Return tables as the lines that a terminal without colours shows.
+
+    Examples
+    --------
+    >>> plain_text([rich_table({"kappa": [0.5]}, "errors")], 80).split()
+    ['errors', 'kappa', '─────', '0.5']
+    """
+    stream = StringIO()
+    console = SafeConsole(file=stream, width=width, color_system=None, highlight=False, markup=False)
+    for table in tables:
+        console.print(table, crop=False)
+    return stream.getvalue().rstrip("\n")
 
 
 def _texts(table: pd.DataFrame | Mapping[str, Sequence[object]], formats: Mapping[str, str]) -> dict[str, list[str]]:

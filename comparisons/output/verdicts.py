@@ -48,7 +48,7 @@ GATE_COLUMNS = ("id", "requirement", "metric", "basis", "grounds")
 
 
 def command(row: Record, specs: Mapping[str, str]) -> str:
-    """Return the command that computes the candidate's side of a verdict again.
+    """Return the command that computes the candidate's side of a verdict again; nothing for that of a whole gate.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def command(row: Record, specs: Mapping[str, str]) -> str:
     else:
         case = [word for name in PARAMETERS if pd.notna(row[name]) for word in (f"--{name}", exact(row[name]))]
     if not case:
-        return "fscm-bench list gates"
+        return ""
     verb = "curve" if row["quantity"] in CURVES else "sweep" if varied else "solve"
     vary = [word for text in varied for word in ("--vary", with_unit(text))] if verb == "sweep" else []
     return shlex.join(["fscm-bench", verb, "--model", model, "--quantity", row["quantity"], *case, *vary])

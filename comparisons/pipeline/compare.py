@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from comparisons.data.file_names import COMPARISON, RECORD
+from comparisons.data.validation import known_name
 from comparisons.description.budget import line_of_results
 from comparisons.model import Model
 from comparisons.output.errors import comparison_table, error_summary, relative_error
@@ -18,7 +19,8 @@ from comparisons.output.figures.of_run import draw_comparison
 from comparisons.output.latex import UPRIGHT_WIDTH, latex
 from comparisons.output.markup import html_table
 from comparisons.output.style import save
-from comparisons.output.summaries import case_tables, side_by_side, summary_tables
+from comparisons.output.summaries import WIDTH, case_tables, side_by_side, summary_tables, terminal_tables
+from comparisons.output.terminal import plain_text
 from comparisons.pipeline.inputs import Cases, cases_of_problem, grid_text, load_cases
 from comparisons.pipeline.run import running
 from comparisons.problem import Problem
@@ -38,7 +40,7 @@ if TYPE_CHECKING:
 ALL = "all"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Comparison:
     """Models beside a reference.
 
@@ -77,6 +79,9 @@ class Comparison:
         summaries = (latex(table.texts, table.caption, table.id) for table in summary_tables(self.summary))
         return "\n".join([*tables, *summaries])
 
+    def __repr__(self) -> str:
+        return plain_text(terminal_tables(self.table, self.summary), WIDTH)
+
     def _repr_html_(self) -> str:
         return "\n".join(map(html_table, [*summary_tables(self.summary), *case_tables(self.table)]))
 
@@ -85,7 +90,7 @@ def compare(
     models: str | Iterable[str],
     grid: str | Path | None = None,
     *,
-    problem: Path | None = None,
+    problem: str | Path | None = None,
     vary: Sequence[str] = (),
     n: float | Sequence[float] | None = None,
     k: float | Sequence[float] | None = None,
@@ -93,7 +98,7 @@ def compare(
     nu: float | Sequence[float] | None = None,
     quantities: str | Sequence[str] = ("pull_off_force",),
     reference: str | None = None,
-    folder: Path | None = None,
+    folder: str | Path | None = None,
     jobs: int = 1,
 ) -> Comparison:
     """Compute models and the reference in your own cases, and compare them.
@@ -104,7 +109,7 @@ def compare(
         Names or SPECs, or "all" for every model of fscm-bench that has a value or a failure in one of the cases.
     grid : str or Path, optional
         A sweep file (of [[grid]] tables), or its text.  It states the quantities and the references.
-    problem : Path, optional
+    problem : str or Path, optional
         A problem file in place of a grid.
     vary : sequence of str
         Values of its keys, as ``"solid.thickness=5, 10 nm"``: every combination is a case.
@@ -116,7 +121,7 @@ def compare(
         Numbers, not curves, as in `comparisons.quantities.QUANTITIES`.
     reference : str, optional
         A model: "fscm" by default; "atlas" takes microseconds and has no value outside its range.
-    folder : Path, optional
+    folder : str or Path, optional
         For the results; by default results/runs/TIME.  Results in it are not computed again.
     jobs : int
         Number of processes.  With more than one, a script needs the guard ``if __name__ == "__main__":``.
@@ -167,7 +172,7 @@ def _several(values: float | Sequence[float] | None) -> list[float] | None:
 
 def _cases(
     grid: str | Path | None,
-    problem: Path | None,
+    problem: str | Path | None,
     vary: Sequence[str],
     numbers: Mapping[str, Sequence[float] | None],
     quantities: Sequence[str],
@@ -178,7 +183,7 @@ def _cases(
         if grid is not None or any(values is not None for values in numbers.values()):
             raise ValueError("--problem states the case; leave out --grid, --n, --k, --mu and --nu")
         compared_with = reference or REFERENCES[0]
-        return cases_of_problem(problem, vary, [compared_with], quantities, compared_with)
+        return cases_of_problem(Path(problem), vary, [compared_with], quantities, compared_with)
     if vary:
         raise ValueError("--vary is for the keys of --problem FILE, which is missing")
     if grid is None:
@@ -249,8 +254,7 @@ def errors(
     >>> table["kappa"].round(6).tolist()
     [-0.25]
     """
-    if quantity not in QUANTITIES:
-        raise ValueError(f"unknown quantity {quantity!r}; the quantities are {', '.join(QUANTITIES)}")
+    known_name("quantity", quantity, QUANTITIES, "errors")
     created = [create(model) if isinstance(model, str) else model for model in models]
     by_name = {model.name: model for model in created}
     if reference not in by_name:

@@ -12,7 +12,7 @@ from typing import Any
 from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import GRID_TEXT, INPUTS, RECORD
 from comparisons.data.input_files import LARGEST_TABLE, LARGEST_TEXT, read_bytes, read_text
-from comparisons.data.validation import known_name
+from comparisons.data.validation import known_name, label, shown
 from comparisons.domain import Domain
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
@@ -214,7 +214,13 @@ def cases_of_problem(
         problem=problem.name,
         vary=variations,
     )
-    return replace(load_cases(text, None, problem.parent), source=str(problem))
+    try:
+        cases = load_cases(text, None, problem.parent)
+    except ValueError as error:
+        # The user knows the problem file and no grid.
+        of_grid = f"{_TEXT}: {label('grid', {'id': problem.stem}, 1)}: "
+        raise ValueError(str(error).removeprefix(of_grid)) from None
+    return replace(cases, source=str(problem))
 
 
 def grid_text(**entries: Any) -> str:
@@ -292,6 +298,10 @@ def read_gates(
     ValueError
         If the file cannot be read, a gate is not admissible, or a gate needs a model that is not computed.
     """
+    if isinstance(gates, str) and "\n" not in gates:
+        raise ValueError(
+            f"the gates {shown(gates)} are not the text of [[gate]] tables; a file is given as a pathlib.Path"
+        )
     text = gates if isinstance(gates, str) else gates_text(gates)
     if gates is None or standing:
         return Gates(_computed(of_tier(load_gates(text), cases.tier_of_gates), cases, models), text, None)

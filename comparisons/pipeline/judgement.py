@@ -90,14 +90,14 @@ def judge_and_write(
     return judgement
 
 
-def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
+def judge_folder(folder: str | Path, gates: str | Path | None = None) -> Judgement:
     """Judge the stored results of a run again, without any computation.
 
     Parameters
     ----------
-    folder : Path
+    folder : str or Path
         Of a finished run or sweep.
-    gates : Path, optional
+    gates : str or Path, optional
         A gates file in place of the gates of the run.  A sweep has no gates of its own, and becomes a run.
 
     Raises
@@ -106,10 +106,11 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
         If there is no finished run, a file of it was changed, the gates cannot be used, or another process has the
         folder; one sentence says which.
     """
+    folder = Path(folder)
     # Nothing is written, not even the lock, where there is no finished run.
     read_record(folder / RECORD)
     with locked(folder):
-        return _judged_again(folder, gates)
+        return _judged_again(folder, None if gates is None else Path(gates))
 
 
 def _judged_again(folder: Path, gates: Path | None) -> Judgement:

@@ -35,7 +35,7 @@ def run(
     cases: str | Path | Cases = "quick",
     gates: str | Path | None = None,
     models: Sequence[str] | None = None,
-    folder: Path | None = None,
+    folder: str | Path | None = None,
     *,
     jobs: int = 1,
     shard: str | None = None,
@@ -56,7 +56,7 @@ def run(
         A gates file, or the text of one; by default the standing gates for the standing cases, and no gates for others.
     models : sequence of str, optional
         Names or SPECs of the candidates, in place of those each grid names.
-    folder : Path, optional
+    folder : str or Path, optional
         For the results; by default results/runs/TIME.
     jobs : int
         Number of processes.  With more than one, a script needs the guard ``if __name__ == "__main__":``.
@@ -107,7 +107,7 @@ def running(
     cases: str | Path | Cases,
     gates: str | Path | None = None,
     models: Sequence[str] | None = None,
-    folder: Path | None = None,
+    folder: str | Path | None = None,
     *,
     jobs: int = 1,
     shard: str | None = None,
@@ -206,5 +206,6 @@ def _name(row: pd.Series) -> str:
 
 def _text(row: pd.Series, specs: dict[str, str]) -> str:
     has_error = pd.notna(row["error"])
-    lines = [row["reason"], numbers_text(row) if has_error else "", f"computed again by: {command(row, specs)}"]
+    again = command(row, specs)
+    lines = [row["reason"], numbers_text(row) if has_error else "", again and f"computed again by: {again}"]
     return "\n".join(filter(None, lines))

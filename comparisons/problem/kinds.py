@@ -213,15 +213,20 @@ SURFACE_KEYS = tuple(_TABLES["every"]["solid"]["keys"])
 
 
 def absent(name: str) -> str:
-    """Return what to do about physics that no kind has, if a name of a section, a key or a kind is of it; else nothing.
+    """Return what to do about a section, a key or a kind that is absent here or has another name; nothing of others.
 
     Examples
     --------
     >>> absent("solid_temperature").partition(":")[0], absent("E0")
     ('nothing here depends on a temperature', '')
+    >>> absent("diameter")
+    'state the radius R, half the diameter'
     """
     words = {name, *re.split(r"[-_ ]", name)}
-    return next((str(row["remedy"]) for row in _TABLES["absent"] if words & {*row["words"]}), "")
+    for row in _TABLES["absent"]:
+        if name in row.get("names", ()) or words & {*row.get("words", ())}:
+            return str(row["remedy"])
+    return ""
 
 
 def kind_rows() -> Iterator[dict[str, str]]:

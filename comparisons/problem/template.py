@@ -66,6 +66,9 @@ def _section_of(name: str) -> tuple[str, str]:
         known_name("section", section, KINDS, name)
         known_name("kind", kind, KINDS[section], name)
         return section, kind
+    if name in KINDS:
+        kinds = " or ".join(f"{name}.{kind}" for kind in KINDS[name])
+        raise ValueError(f"{name} is a section, of which a kind is named: write {kinds}")
     having = [section for section in SECTIONS if name in KINDS[section]]
     if len(having) > 1:
         raise ValueError(

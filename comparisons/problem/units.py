@@ -7,7 +7,7 @@ import re
 from functools import lru_cache
 from typing import Any
 
-from comparisons.data.validation import shown
+from comparisons.data.validation import nearest_name, shown
 from comparisons.numerics.number_text import short
 
 #: A decimal number in a text.
@@ -70,7 +70,7 @@ def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
         raise NotAValue("has a comma in place of a decimal point")
     plain = unit.translate(_SIGNS)
     if not _UNIT.fullmatch(plain):
-        raise NotAValue(f"has the unit {shown(unit)}, which is no product of units")
+        raise NotAValue(f"has the unit {shown(unit)}, which is no product of units{_meant(unit, target)}")
     prefix = plain.removesuffix(target)
     if power == 1.0 and target in _IN_SI and plain.endswith(target) and prefix in _POWERS:
         return float(f"1e{_POWERS[prefix]}")
@@ -80,12 +80,21 @@ def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
     try:
         source_unit = registry.Unit(plain)
     except Exception:  # pint has several for what it does not know, and the tokens of Python others
-        raise NotAValue(f"has the unknown unit {shown(unit)}") from None
+        raise NotAValue(f"has the unknown unit {shown(unit)}{_meant(unit, target)}") from None
     # An angle has no dimension, nor has a percentage: their root units differ.
     if registry.get_root_units(source_unit)[1] != registry.get_root_units(aim)[1]:
         target_unit = target if power == 1.0 else f"{target}^({power:g})"
         raise NotAValue(f"has the unit {unit}, which is not one of {target_unit}")
     return float(registry.Quantity(1.0, source_unit).to(aim).magnitude)
+
+
+def _meant(unit: str, target: str) -> str:
+    """The usual unit that is written nearly like an unknown one, as the end of a sentence; nothing if none is."""
+    # Units below Pa are refused, and those above the others are of no contact.
+    usual = [f"{prefix}{target}" for prefix in ("GMk" if target == "Pa" else ("", "m", "u", "n", "p")) if target]
+    of_letters = {name.lower(): name for name in usual}
+    near = of_letters.get(unit.lower()) or nearest_name(unit, usual)
+    return f" (did you mean {near}?)" if near else ""
 
 
 def magnitude_in_si(value: object, target: str, power: float = 1.0) -> object:

@@ -25,9 +25,9 @@ def checked_jobs(jobs: int) -> int:
     return jobs
 
 
-def folder_for(out: Path | None) -> Path:
+def folder_for(out: str | Path | None) -> Path:
     """Return the folder for the results: `out`, or one named by the time."""
-    return out or Path("results", "runs", datetime.now().astimezone().strftime("%Y-%m-%dT%H-%M-%S"))
+    return Path(out) if out else Path("results", "runs", datetime.now().astimezone().strftime("%Y-%m-%dT%H-%M-%S"))
 
 
 @dataclass(frozen=True, slots=True)

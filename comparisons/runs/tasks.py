@@ -14,6 +14,7 @@ from itertools import groupby
 from traceback import extract_tb
 from typing import Any
 
+from comparisons.data.validation import known_name
 from comparisons.external.process_model import contradiction
 from comparisons.model import EFFORT, ComputationFailed, Model, NotApplicable, Result
 from comparisons.problem import Problem
@@ -115,8 +116,7 @@ def evaluate(model: str | Model, quantity: str, problem: Problem) -> Row:
     >>> evaluate("bradley", "pull_off_force", Problem.dimensionless(2, 0, 1)).status
     'ok'
     """
-    if quantity not in ALL_QUANTITIES:
-        raise ValueError(f"unknown quantity {quantity!r}; the quantities are {', '.join(ALL_QUANTITIES)}")
+    known_name("quantity", quantity, ALL_QUANTITIES, "evaluate")
     if not isinstance(problem, Problem):
         raise ValueError(f"problem = {problem!r} is no Problem: write Problem.dimensionless(n, k, mu), or Problem.load")
     if isinstance(model, str):

@@ -134,6 +134,15 @@ def test_results_have_the_units_of_the_problem():
     assert state.stability.stiffness == pytest.approx(plain.stability.stiffness * units["stiffness"], rel=1e-6)
 
 
+def test_the_text_of_a_problem_has_its_parts_and_that_of_a_sensitivity_its_value():
+    problem = physical()
+    assert repr(problem.solid) in str(problem)
+    assert f"mu = {problem.mu:.6g}" in str(problem)
+    assert repr(problem.solid) not in str(problem.dimensionless)
+    solved = fscm.sensitivity(physical(k=1.0, nu=0.5), "pull_off_force")
+    assert repr(solved.solution) in repr(solved)
+
+
 def test_the_change_of_a_value_contains_that_of_its_unit():
     rates = fscm.sensitivity(physical(), "pull_off_force")
     perturbed = physical(Q=1.0001e-6)

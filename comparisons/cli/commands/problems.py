@@ -12,11 +12,12 @@ from comparisons.console.progress import log
 from comparisons.problem.template import problem_template
 from comparisons.runs.atomic_files import writing
 
+#: Where a name alone does not say the section.
+_FULL_NAMES = "solid.table where sections share a name, punch_solid.KIND for an elastic punch"
+
 
 @command(
-    option(
-        "kinds", metavar="KIND", nargs="*", help="see: fscm-bench list kinds; solid.table where sections share a name"
-    ),
+    option("kinds", metavar="KIND", nargs="*", help=f"see: fscm-bench list kinds; {_FULL_NAMES}"),
     file("--out", default=Path("problem.toml"), help="new file (default: problem.toml); its tables are put beside it"),
 )
 def new_problem_command(args: argparse.Namespace) -> int:

@@ -66,6 +66,14 @@ def test_bad_keys_and_options_give_one_sentence(options, words, refused):
     assert not Path("never").exists()
 
 
+@pytest.mark.parametrize("name", ["pad.toml", "my pad.toml"])
+def test_a_refused_value_is_one_of_the_problem_file_and_of_no_grid(name, tmp_path, refused):
+    (tmp_path / name).write_bytes(COATED.read_bytes())
+    options = ["--vary", "solid.thickness=0, 5 nm", "--out", tmp_path / "never"]
+    said = refused(["sweep", "--problem", tmp_path / name, *options], "E_substrate")
+    assert "grid" not in said.replace(str(tmp_path), "")
+
+
 def test_the_folder_has_copies_of_the_problem_file_and_its_tables(tmp_path):
     problem = tmp_path / "given"
     (problem / "tips").mkdir(parents=True)

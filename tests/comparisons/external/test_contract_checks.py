@@ -12,7 +12,9 @@ from comparisons.cli.main import main
 from comparisons.external.contract_checks import examine
 from comparisons.external.model_source import GROUP
 from comparisons.judging.gates import load_gates
+from comparisons.judging.selection import cases_of
 from comparisons.model import ComputationFailed, NotApplicable, Result
+from comparisons.runs.cases import grids, grids_for
 
 
 class Stranger:
@@ -97,6 +99,8 @@ def test_a_new_package_is_complete_keeps_the_contract_passes_its_tests_and_is_no
     project = tomllib.loads((package / "pyproject.toml").read_text())
     assert project["project"]["entry-points"][GROUP] == {"my-model": "my_model:MyModel"}
     (gate,) = load_gates((package / "gates.toml").read_text().replace('"my-model"', '"jkr"'))
+    # A model for k = 0 alone is judged in enough cases.
+    assert gate.min_cases == sum(case.k == 0 for case in cases_of(gate, grids_for(grids("quick"), ["jkr"]), ["jkr"]))
     # 1.5 against the FSCM at n = 2, k = 0, mu = 2, the worst of the cases.
     assert gate.worst_measured == pytest.approx(1.5 / 1.58359530 - 1, abs=1e-4)
     before = (package / "my_model.py").read_text()

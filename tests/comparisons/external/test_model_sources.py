@@ -198,6 +198,15 @@ def test_a_program_that_keeps_its_line_or_does_not_start_is_ended(write_program,
         create(write_program("printf '{}'; sleep 60")).evaluate(CASE, QUANTITY)
 
 
+@pytest.mark.parametrize(
+    ("option", "name", "meant"), [("--model", "dtm", "dmt"), ("--quantity", "pulloff", "pull_off_force")]
+)
+def test_a_name_nearly_like_one_of_ours_gets_that(refused, option, name, meant):
+    named = {"--model": "jkr", "--quantity": "pull_off_force"} | {option: name}
+    words = [word for pair in named.items() for word in pair]
+    refused(["solve", *words, "--n", "2", "--k", "0", "--mu", "1"], f"did you mean {meant}?")
+
+
 def test_a_program_that_describes_no_model_cannot_be_loaded(write_program):
     with pytest.raises(ValueError, match="unknown key 'python'"):
         create(write_program(ok(), DESCRIBE[:-1] + ', "python": {}}'))

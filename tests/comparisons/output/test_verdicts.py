@@ -87,11 +87,14 @@ AT = "--quantity pull_off_force --n 2 --k 0.4 --mu 1"
             {"problem": "pad.toml; punch.R=1 um"},
             "sweep --model jkr --quantity pull_off_force --problem pad.toml --vary 'punch.R=1 um'",
         ),
-        (WHOLE_GATE, "list gates"),
     ],
 )
 def test_the_command_of_a_row(row, words):
     assert command(pd.Series(ROW | row), {"mine": "my m/j.py:J"}) == f"fscm-bench {words}"
+
+
+def test_a_whole_gate_has_no_command():
+    assert command(pd.Series(ROW | WHOLE_GATE), {}) == ""
 
 
 def test_the_files_are_worst_first(tmp_path):

@@ -48,12 +48,31 @@ def test_every_case_and_model_has_a_row(toys, tmp_path):
     expected = {"ten-percent": [4, 4, 0, 0, 4], "refuses": [4, 0, 4, 0, 0], "fails": [4, 0, 0, 4, 0]}
     assert {model: row.tolist() for model, row in counts.iterrows()} == expected
     assert [failure.model for failure in compared.failures] == ["fails"] * 8
+    shown = repr(compared)
+    assert {"ten-percent", "refuses", "fails"} <= set(shown.split())
+    assert max(map(len, shown.splitlines())) <= WIDTH
     # A notebook shows escaped tables with every digit.
     hostile = compared.table.replace({"model": {"ten-percent": "<script>alert(1)</script>"}})
     html = replace(compared, table=hostile, summary=error_summary(hostile))._repr_html_()
     assert "<script>" not in html
     assert "&lt;script&gt;" in html
     assert f'<data value="{float(compared.table["kappa"].max())!r}">' in html
+
+
+def test_paths_are_texts_or_path_objects(toys, tmp_path):
+    (tmp_path / "pad.toml").write_text(PAD)
+    arguments = {"reference": "exact", "folder": str(tmp_path / "out")}
+    compared = comparisons.compare("ten-percent", problem=str(tmp_path / "pad.toml"), **arguments)
+    assert compared.table["kappa"].tolist() == pytest.approx([0.1])
+    assert compared.folder == tmp_path / "out"
+    finished = comparisons.run(GRID, models=["ten-percent"], folder=str(tmp_path / "run"))
+    assert finished.folder == tmp_path / "run"
+    with pytest.raises(ValueError, match=r"gates\.toml.*Path"):
+        comparisons.run(GRID, gates="gates.toml", models=["ten-percent"], folder=tmp_path / "judged")
+    # Found and read: it has no gates that this candidate is judged by.
+    (tmp_path / "gates.toml").write_text("")
+    with pytest.raises(ValueError, match="gate"):
+        comparisons.judge_folder(str(tmp_path / "run"), str(tmp_path / "gates.toml"))
 
 
 def test_the_folder_is_a_run_folder_that_is_resumed(toys, with_pictures, tmp_path, capsys):

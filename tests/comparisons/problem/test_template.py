@@ -65,6 +65,8 @@ def test_describe_takes_a_file_of_every_kind(name, tmp_path, capsys):
         (["coating", "homogeneous"], "both a solid"),
         (["coatin"], "did you mean coating"),
         (["punch.coating"], "unknown kind 'coating'"),
+        (["homogeneous", "sphere", "punch_solid"], "punch_solid.homogeneous"),
+        (["punch"], "punch.sphere"),
         (["wall.coating"], "unknown section 'wall'"),
     ],
 )

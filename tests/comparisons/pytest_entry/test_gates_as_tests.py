@@ -55,7 +55,7 @@ def test_each_gate_and_case_is_a_test(small_grid, pytester):
     result.assert_outcomes(passed=8, skipped=4, failed=8 + 1, xfailed=4)
     result.stdout.fnmatch_lines(
         [
-            "ERROR: 0 cases were evaluated, 4 are declared",
+            "ERROR: 0 cases were evaluated, fewer than min_cases = 4*",
             "*FAILS?ten-percent n=2 k=0 mu=0.1?*",
             "FAIL: E = 0.1*, U = *, limits -0.05 to 0.05",
             "computed again by: fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0 --mu 0.1",
