@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from comparisons.description.assumptions import total_errors
 from comparisons.description.choice import LIMITS, is_within, simplest_within
 from comparisons.description.forces import change_of, force_content
+from comparisons.description.rigid_limit import rigid_force
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import REFERENCES
 from comparisons.registry import MODELS
@@ -15,6 +17,9 @@ from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
 Json = dict[str, Any]
+
+#: Closed forms of the limit of soft solids with forces over vertical gaps.
+_OF_SOFT_SOLIDS = ("jkr", "jkr-sphere-projected", "jkr-profile")
 
 
 def model_errors(problem: Problem, force: Row) -> list[Json]:
@@ -30,7 +35,7 @@ def model_errors(problem: Problem, force: Row) -> list[Json]:
     is_of_the_paper = problem.without(*problem.surface).is_of_the_paper()
     names = [name for name in MODELS if name not in REFERENCES] if is_of_the_paper else []
     if problem.punch.kind == "ball":
-        names = ["jkr-sphere", "jkr-sphere-projected"]
+        names = ["jkr-sphere", "jkr-sphere-projected", "md-profile"]
     changes = {name: change_of(evaluate(name, "pull_off_force", problem), force) for name in names}
     errors = [{"model": name, "error": change[0], "u_num": change[1]} for name, change in changes.items() if change]
     return sorted(errors, key=lambda row: abs(row["error"]))
@@ -62,7 +67,7 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None) -> Json:
         "problem": problem.content,
         "tabor_number": problem.posed.mu,
         "critical_tabor_number": critical,
-        "regime": _regime(errors),
+        "regime": _regime(problem, errors, force),
         "pull_off_force": force_content(force),
         "errors": errors,
         "assumptions": assumed,
@@ -83,18 +88,36 @@ def _recommended(errors: Sequence[Json], force: Row, assumed: Json | None, limit
     return simplest_within(errors, limit) or (None if shares_too_much else force.model)
 
 
-def _regime(errors: Sequence[Json]) -> str:
+def _regime(problem: Problem, errors: Sequence[Json], force: Row) -> str:
     """The limit whose pull-off force is within 5 %, by a sentence."""
-    if not errors:
-        return "not classified, because no closed form takes this problem"
-    limits = [
-        row["model"]
-        for row in errors
-        if row["model"] in ("bradley", "jkr", "jkr-sphere-projected") and is_within(row, LIMITS[-1])
-    ]
-    if len(limits) == 2:
-        return "the rigid limit (Bradley) and the limit of JKR are both within 5 % of the pull-off force"
-    if limits:
-        limit = "rigid limit (Bradley, DMT)" if limits == ["bradley"] else "limit of soft solids (JKR)"
+    rigid, soft = _rigid_limit(problem, errors, force), _soft_limit(errors)
+    if rigid is None and soft is None:
+        return "not classified, because neither the rigid limit nor that of soft solids is known for this problem"
+    name = "Bradley, DMT" if any(row["model"] == "bradley" for row in errors) else "a rigid sphere"
+    within = [row is not None and is_within(row, LIMITS[-1]) for row in (rigid, soft)]
+    if all(within):
+        return (
+            f"the rigid limit ({name.partition(',')[0]}) and the limit of JKR are both within 5 % of the pull-off force"
+        )
+    if any(within):
+        limit = f"rigid limit ({name})" if within[0] else "limit of soft solids (JKR)"
         return f"{limit}, within 5 % of the pull-off force"
-    return "transition between the rigid limit (Bradley, DMT) and that of soft solids (JKR)"
+    if rigid is None or soft is None:
+        known, unknown = ("soft solids (JKR)", "a rigid one") if rigid is None else (name, "soft solids")
+        return f"not that of {known}, which is off by more than 5 %; that of {unknown} is not known for this problem"
+    return f"transition between the rigid limit ({name}) and that of soft solids (JKR)"
+
+
+def _rigid_limit(problem: Problem, errors: Sequence[Json], force: Row) -> Json | None:
+    """Error of the force on a rigid solid."""
+    of_bradley = next((row for row in errors if row["model"] == "bradley"), None)
+    value = rigid_force(problem)
+    if of_bradley or value is None:
+        return of_bradley
+    change = change_of(replace(force, value=value, u_num=0.0), force)
+    return change and {"error": change[0], "u_num": change[1]}
+
+
+def _soft_limit(errors: Sequence[Json]) -> Json | None:
+    """Error of the force on a solid so soft that the range of the law does not count."""
+    return next((row for row in errors if row["model"] in _OF_SOFT_SOLIDS), None)

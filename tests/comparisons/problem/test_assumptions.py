@@ -181,7 +181,7 @@ def test_the_exact_sphere_has_no_error_of_its_shape(quickly):
     assert assumed["total"]["error"] == pytest.approx(total)
     force = row("fscm", value=1.5 * math.pi * 5e-6 * 0.05, u_num=1e-15)
     content = overview(ball, force)
-    assert {error["model"] for error in content["errors"]} == {"jkr-sphere", "jkr-sphere-projected"}
+    assert {"jkr-sphere", "jkr-sphere-projected"} <= {error["model"] for error in content["errors"]}
     assert "JKR" in content["regime"]
 
 
