@@ -6,11 +6,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from comparisons.description.assumptions import total_errors
+from comparisons.description.assumptions import errors_of_exact_sphere, total_errors
 from comparisons.description.choice import LIMITS, is_within, simplest_within
+from comparisons.description.equivalent_ball import PARABOLOID
 from comparisons.description.forces import change_of, force_content
 from comparisons.description.rigid_limit import rigid_force
 from comparisons.problem import Problem
+from comparisons.problem.equivalent_solid import LARGEST_DEVIATION
 from comparisons.problem.evaluation import REFERENCES
 from comparisons.registry import MODELS
 from comparisons.runs.rows import Row
@@ -41,7 +43,7 @@ def model_errors(problem: Problem, force: Row) -> list[Json]:
     return sorted(errors, key=lambda row: abs(row["error"]))
 
 
-def overview(problem: Problem, force: Row, assumed: Json | None = None) -> Json:
+def overview(problem: Problem, force: Row, assumed: Json | None = None, equivalent: Json | None = None) -> Json:
     """Return what is known of a problem without a choice of a model; errors are fractions.
 
     Parameters
@@ -51,7 +53,11 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None) -> Json:
         Its pull-off force at small strains.
     assumed : dict, optional
         What `assumptions` returns.  Where the error of the assumptions is known, ``total_errors`` has that of each
-        model with it, and a model is recommended by its total error; none is where the assumptions exceed the limit.
+        model with it, and a model is recommended by what its own error and that of the assumptions make by size; none
+        is where the assumptions exceed the limit.
+    equivalent : dict, optional
+        What `equivalent_power_law` returns.  By its closed forms a problem is classified, and a model is recommended,
+        where none takes the problem itself.
 
     Examples
     --------
@@ -61,21 +67,29 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None) -> Json:
     'md-improved'
     """
     errors = model_errors(problem, force)
-    with_assumptions = total_errors(problem, errors, assumed)
+    candidates = errors or _of_power_law(equivalent)
+    with_assumptions = total_errors(problem, candidates, assumed)
     critical = evaluate("atlas", "critical_tabor_number", problem).value if problem.is_of_the_paper() else None
     return {
         "problem": problem.content,
         "tabor_number": problem.posed.mu,
         "critical_tabor_number": critical,
-        "regime": _regime(problem, errors, force),
+        "regime": _regime(problem, candidates, force),
         "pull_off_force": force_content(force),
         "errors": errors,
         "assumptions": assumed,
         "total_errors": with_assumptions,
         "recommended": {
-            f"{100 * limit:g} %": _recommended(with_assumptions or errors, force, assumed, limit) for limit in LIMITS
+            f"{100 * limit:g} %": _recommended(with_assumptions or candidates, force, assumed, limit)
+            for limit in LIMITS
         },
     }
+
+
+def _of_power_law(equivalent: Json | None) -> list[Json]:
+    """The closed forms of an equivalent power law, if this is near enough to the solid."""
+    is_near = equivalent is not None and equivalent["compliance_deviation"] <= LARGEST_DEVIATION
+    return [row for row in equivalent["closed_forms"] if "at_most" in row] if equivalent and is_near else []
 
 
 def _recommended(errors: Sequence[Json], force: Row, assumed: Json | None, limit: float) -> str | None:
@@ -90,7 +104,7 @@ def _recommended(errors: Sequence[Json], force: Row, assumed: Json | None, limit
 
 def _regime(problem: Problem, errors: Sequence[Json], force: Row) -> str:
     """The limit whose pull-off force is within 5 %, by a sentence."""
-    rigid, soft = _rigid_limit(problem, errors, force), _soft_limit(errors)
+    rigid, soft = _rigid_limit(problem, errors, force), _soft_limit(problem, errors)
     if rigid is None and soft is None:
         return "not classified, because neither the rigid limit nor that of soft solids is known for this problem"
     name = "Bradley, DMT" if any(row["model"] == "bradley" for row in errors) else "a rigid sphere"
@@ -110,14 +124,15 @@ def _regime(problem: Problem, errors: Sequence[Json], force: Row) -> str:
 
 def _rigid_limit(problem: Problem, errors: Sequence[Json], force: Row) -> Json | None:
     """Error of the force on a rigid solid."""
-    of_bradley = next((row for row in errors if row["model"] == "bradley"), None)
     value = rigid_force(problem)
-    if of_bradley or value is None:
-        return of_bradley
+    if value is None:
+        return next((row for row in errors if row["model"] == "bradley"), None)
     change = change_of(replace(force, value=value, u_num=0.0), force)
     return change and {"error": change[0], "u_num": change[1]}
 
 
-def _soft_limit(errors: Sequence[Json]) -> Json | None:
+def _soft_limit(problem: Problem, errors: Sequence[Json]) -> Json | None:
     """Error of the force on a solid so soft that the range of the law does not count."""
-    return next((row for row in errors if row["model"] in _OF_SOFT_SOLIDS), None)
+    # Of a sphere under a law of its own only the exact sphere has a closed form.
+    rows = errors or (errors_of_exact_sphere(problem) if problem.punch.kind == PARABOLOID else [])
+    return next((row for row in rows if row["model"] in _OF_SOFT_SOLIDS), None)
