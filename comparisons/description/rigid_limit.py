@@ -40,8 +40,8 @@ def rigid_force(problem: Problem) -> float | None:
     >>> from comparisons.problem import Section
     >>> solid = Section("homogeneous", {"E": 5e10, "nu": 0.25})
     >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.1, "z0": 4e-10})
-    >>> force = rigid_force(Problem(solid, Section("ball", {"R": 2e-8}), law))
-    >>> round(force / (2.0 * math.pi * 0.1 * (2e-8 - 9.0 / 7.0 * 4e-10)), 3)
+    >>> force = rigid_force(Problem(solid, Section("ball", {"R": 2e-6}), law))
+    >>> round(force / (2.0 * math.pi * 0.1 * (2e-6 - 9.0 / 7.0 * 4e-10)), 6)
     1.0
     """
     if problem.is_dimensionless or problem.punch.kind not in (PARABOLOID, BALL) or "R_solid" in problem.punch.values:
