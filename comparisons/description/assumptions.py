@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from comparisons.description.choice import by_size, size_of
 from comparisons.description.equivalent_ball import BALL, PARABOLOID
 from comparisons.description.forces import change_of, fscm_force
-from comparisons.description.shared_errors import ASSUMPTIONS, Json, error_of, estimates, together
+from comparisons.description.shared_errors import ASSUMPTIONS, NOT_ASSUMED_OF_BALLS, Json, error_of, estimates, together
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models.fscm_model import SharedAnalysis
 from comparisons.models.jkr_sphere import LARGEST_CONTACT
@@ -104,7 +105,7 @@ def _measures(problem: Problem) -> Json:
     of_surface = np.abs(slope_of_gap - slope_of_punch)[near_edge].max()
     measures = (
         ("punch_slope", slope_of_punch[edge], "slope of the punch at the contact edge"),
-        ("surface_slope", of_surface, "slope of the deformed surface there (strain)"),
+        ("surface_slope", of_surface, "slope of the deformed surface there (strain, in the cohesive edge only)"),
         ("gap_slope", np.abs(slope_of_gap)[near_edge].max(), "slope of the gap there (Derjaguin)"),
     )
     unit = problem.units["gap"] / problem.units["radius"]
@@ -127,25 +128,48 @@ def _exact(problem: Problem) -> Problem:
 def total_errors(problem: Problem, errors: Sequence[Json], assumed: Json | None) -> list[Json]:
     """Return the errors of models with those of the assumptions that are known, smallest first; none where none is.
 
+    ``at_most`` of a row is what the size of the error of the model and that of its assumptions together make.
+
     Parameters
     ----------
     problem : Problem
     errors : sequence of dict
-        ``model``, ``error`` and ``u_num`` against the force of small strains.
+        ``model``, ``error`` and ``u_num`` against the force of small strains, with ``at_most`` by which it counts.
     assumed : dict, optional
         What `assumptions` returns.
     """
     if assumed is None or assumed["total"]["error"] is None:
         return []
-    assumptions_known = {name: assumed[name] for name in ASSUMPTIONS}
-    total = {row["model"]: together({"model": row | {"basis": "bound"}, **assumptions_known}) for row in errors}
+    shared = {name: assumed[name] for name in ASSUMPTIONS}
+    rows = {row["model"]: _with_assumptions(row, shared) for row in errors}
     # JKR of the exact sphere does not share the error of the shape, and has the true area of contact.
+    shared = {name: error for name, error in shared.items() if name != "geometry"}
+    rows |= {row["model"]: _with_assumptions(row, shared) for row in errors_of_exact_sphere(problem)}
+    return sorted(rows.values(), key=lambda row: abs(row["error"]))
+
+
+def errors_of_exact_sphere(problem: Problem) -> list[Json]:
+    """Return the errors of the closed forms of JKR for an exact sphere against the force of that sphere."""
     exact = _exact(problem)
-    force = fscm_force(exact)
-    shared = {name: error for name, error in assumptions_known.items() if name != "geometry"}
+    force, rows = fscm_force(exact), []
     for name in ("jkr-sphere", "jkr-sphere-projected"):
         change = change_of(evaluate(name, "pull_off_force", exact), force)
         if change is not None:
-            total[name] = together({"model": error_of(change), **shared})
-    rows = [{"model": name} | {key: error[key] for key in ("error", "u_num", "basis")} for name, error in total.items()]
-    return sorted(rows, key=lambda row: abs(row["error"]))
+            rows.append({"model": name, "error": change[0], "u_num": change[1]})
+    return rows
+
+
+def _with_assumptions(row: Json, shared: Mapping[str, Json]) -> Json:
+    """The error of a model with those of the assumptions; the force of a model without one of these has its effect."""
+    avoided = NOT_ASSUMED_OF_BALLS.get(row["model"], ())
+    known = {name: error for name, error in shared.items() if error["error"] is not None}
+    own = together({"model": row | {"basis": "bound"}} | {name: known[name] for name in avoided if name in known})
+    of_others = together({name: error for name, error in known.items() if name not in avoided})
+    total = together({"model": row | {"basis": "bound"}, **shared})
+    of_model = row["at_most"] if "at_most" in row else size_of(own)
+    assumed = size_of(of_others) if of_others["error"] is not None else 0.0
+    return {
+        "model": row["model"],
+        **{key: total[key] for key in ("error", "u_num", "basis")},
+        "at_most": by_size(of_model, assumed),
+    }

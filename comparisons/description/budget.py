@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from comparisons.description.shared_errors import Json, error_of, estimates, together
+from comparisons.description.shared_errors import NOT_ASSUMED_OF_BALLS, Json, error_of, estimates, together
 from comparisons.numerics.number_text import percent_text
 from comparisons.problem import Problem
 from comparisons.registry import MODELS
@@ -17,8 +17,7 @@ if TYPE_CHECKING:
 #: An error is stated where it may be more than this many bounds of what is printed.
 _BOUNDS = 10.0
 
-#: Assumptions that a model does not make for a ball, and for any punch.
-_OF_BALLS = {"jkr-sphere": ("derjaguin",), "fem-large-strain": ("derjaguin", "strain")}
+#: Assumptions that a model does not make for any punch.
 _OF_ALL = {"fem-large-strain": ("strain",)}
 
 
@@ -49,7 +48,7 @@ def budget(problem: Problem, model: str = "fscm") -> Json | None:
     """
     if problem.is_dimensionless or model not in MODELS:
         return None
-    avoided = (_OF_BALLS if problem.punch.kind == "ball" else _OF_ALL).get(model, ())
+    avoided = (NOT_ASSUMED_OF_BALLS if problem.punch.kind == "ball" else _OF_ALL).get(model, ())
     errors = estimates(problem) | {name: error_of((0.0, 0.0)) for name in avoided}
     return errors | {"total": together(errors)}
 

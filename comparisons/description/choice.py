@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -28,14 +29,34 @@ SIMPLEST_FIRST = (
 
 
 def is_within(row: Mapping[str, Any], limit: float) -> bool:
-    """Return whether an error, with its bound, is certainly within a limit.
+    """Return whether an error, with its bound, is certainly within a limit, by ``at_most`` where the row has it.
 
     Examples
     --------
     >>> is_within({"error": -0.04, "u_num": 0.02}, 0.05)
     False
+    >>> is_within({"error": 0.001, "u_num": 0.0, "at_most": 0.051}, 0.05)
+    False
     """
-    return abs(row["error"]) + row["u_num"] <= limit
+    return float(row.get("at_most", size_of(row))) <= limit
+
+
+def size_of(row: Mapping[str, Any]) -> float:
+    """Return the size of an error with its bound."""
+    return float(abs(row["error"]) + row["u_num"])
+
+
+def by_size(*sizes: float) -> float:
+    """Return what errors of these sizes make at most after each other.
+
+    Errors of different causes that cancel in one problem do not in the next one.
+
+    Examples
+    --------
+    >>> round(by_size(0.02, 0.03), 12)
+    0.0506
+    """
+    return math.prod(1.0 + size for size in sizes) - 1.0
 
 
 def simplest_within(errors: Sequence[Mapping[str, Any]], limit: float) -> str | None:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.description.choice import LIMITS, simplest_within
+from comparisons.description.choice import LIMITS, by_size, simplest_within, size_of
 from comparisons.description.forces import change_of, force_content, reference_force
 from comparisons.description.overview import model_errors
 from comparisons.model import ComputationFailed
@@ -40,8 +40,8 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
         `free_k` is the exponent of the fit without limits; the deviations of the compliance are relative root mean
         squares, of this law and of the modulus of the surface; nine tenths of the elastic energy are between both
         `lengths`; `pull_off_force` has the error of this law, and `closed_forms` those of the closed forms with this
-        law, against the force of the solid itself; `closed_form_within` has the simplest one for which that of the law
-        and its own, added by size, are within.
+        law, against the force of the solid itself, with what the size of that of the law and of their own make together
+        as ``at_most``; `closed_form_within` has the simplest one for which this is within.
 
     Examples
     --------
@@ -63,11 +63,12 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
     similar = power_law_of(problem, spectrum)
     of_law = reference_force(similar)
     error, bound = change_of(of_law, force) or (None, None)
-    summed = []
-    if deviation <= LARGEST_DEVIATION and error is not None and bound is not None:
-        # Errors that cancel in this problem do not in the next one.
-        for row in model_errors(similar, of_law):
-            summed.append(row | {"error": abs(row["error"]) + abs(error), "u_num": row["u_num"] + bound})
+    closed_forms = model_errors(similar, force)
+    if error is not None and bound is not None:
+        own = {row["model"]: size_of(row) for row in model_errors(similar, of_law)}
+        closed_forms = [row | {"at_most": by_size(own[row["model"]], abs(error) + bound)} for row in closed_forms]
+    is_near = deviation <= LARGEST_DEVIATION and error is not None
+    within = {f"{100 * limit:g} %": simplest_within(closed_forms, limit) if is_near else None for limit in LIMITS}
     return {
         **similar.solid.values,
         "free_k": free_k,
@@ -76,8 +77,8 @@ def equivalent_power_law(problem: Problem, force: Row) -> dict[str, Any] | None:
         "tabor_number": similar.posed.mu,
         "lengths": [spectrum.length(share) for share in _MIDDLE],
         "pull_off_force": force_content(of_law) | {"error": error, "error_u_num": bound},
-        "closed_forms": model_errors(similar, force),
-        "closed_form_within": {f"{100 * limit:g} %": simplest_within(summed, limit) for limit in LIMITS},
+        "closed_forms": closed_forms,
+        "closed_form_within": within,
     }
 
 

@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
-from comparisons.description.assumptions import total_errors
+from comparisons.description.assumptions import errors_of_exact_sphere, total_errors
 from comparisons.description.choice import LIMITS, is_within, simplest_within
+from comparisons.description.equivalent_ball import PARABOLOID
 from comparisons.description.forces import change_of, force_content
+from comparisons.description.rigid_limit import rigid_force
 from comparisons.problem import Problem
+from comparisons.problem.equivalent_solid import LARGEST_DEVIATION
 from comparisons.problem.evaluation import REFERENCES
 from comparisons.registry import MODELS
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
 Json = dict[str, Any]
+
+#: Closed forms of the limit of soft solids with forces over vertical gaps.
+_OF_SOFT_SOLIDS = ("jkr", "jkr-sphere-projected", "jkr-profile")
 
 
 def model_errors(problem: Problem, force: Row) -> list[Json]:
@@ -30,13 +37,13 @@ def model_errors(problem: Problem, force: Row) -> list[Json]:
     is_of_the_paper = problem.without(*problem.surface).is_of_the_paper()
     names = [name for name in MODELS if name not in REFERENCES] if is_of_the_paper else []
     if problem.punch.kind == "ball":
-        names = ["jkr-sphere", "jkr-sphere-projected"]
+        names = ["jkr-sphere", "jkr-sphere-projected", "md-profile"]
     changes = {name: change_of(evaluate(name, "pull_off_force", problem), force) for name in names}
     errors = [{"model": name, "error": change[0], "u_num": change[1]} for name, change in changes.items() if change]
     return sorted(errors, key=lambda row: abs(row["error"]))
 
 
-def overview(problem: Problem, force: Row, assumed: Json | None = None) -> Json:
+def overview(problem: Problem, force: Row, assumed: Json | None = None, equivalent: Json | None = None) -> Json:
     """Return what is known of a problem without a choice of a model; errors are fractions.
 
     Parameters
@@ -46,7 +53,11 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None) -> Json:
         Its pull-off force at small strains.
     assumed : dict, optional
         What `assumptions` returns.  Where the error of the assumptions is known, ``total_errors`` has that of each
-        model with it, and a model is recommended by its total error; none is where the assumptions exceed the limit.
+        model with it, and a model is recommended by what its own error and that of the assumptions make by size; none
+        is where the assumptions exceed the limit.
+    equivalent : dict, optional
+        What `equivalent_power_law` returns.  By its closed forms a problem is classified, and a model is recommended,
+        where none takes the problem itself.
 
     Examples
     --------
@@ -56,21 +67,29 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None) -> Json:
     'md-improved'
     """
     errors = model_errors(problem, force)
-    with_assumptions = total_errors(problem, errors, assumed)
+    candidates = errors or _of_power_law(equivalent)
+    with_assumptions = total_errors(problem, candidates, assumed)
     critical = evaluate("atlas", "critical_tabor_number", problem).value if problem.is_of_the_paper() else None
     return {
         "problem": problem.content,
         "tabor_number": problem.posed.mu,
         "critical_tabor_number": critical,
-        "regime": _regime(errors),
+        "regime": _regime(problem, candidates, force),
         "pull_off_force": force_content(force),
         "errors": errors,
         "assumptions": assumed,
         "total_errors": with_assumptions,
         "recommended": {
-            f"{100 * limit:g} %": _recommended(with_assumptions or errors, force, assumed, limit) for limit in LIMITS
+            f"{100 * limit:g} %": _recommended(with_assumptions or candidates, force, assumed, limit)
+            for limit in LIMITS
         },
     }
+
+
+def _of_power_law(equivalent: Json | None) -> list[Json]:
+    """The closed forms of an equivalent power law, if this is near enough to the solid."""
+    is_near = equivalent is not None and equivalent["compliance_deviation"] <= LARGEST_DEVIATION
+    return [row for row in equivalent["closed_forms"] if "at_most" in row] if equivalent and is_near else []
 
 
 def _recommended(errors: Sequence[Json], force: Row, assumed: Json | None, limit: float) -> str | None:
@@ -83,18 +102,37 @@ def _recommended(errors: Sequence[Json], force: Row, assumed: Json | None, limit
     return simplest_within(errors, limit) or (None if shares_too_much else force.model)
 
 
-def _regime(errors: Sequence[Json]) -> str:
+def _regime(problem: Problem, errors: Sequence[Json], force: Row) -> str:
     """The limit whose pull-off force is within 5 %, by a sentence."""
-    if not errors:
-        return "not classified, because no closed form takes this problem"
-    limits = [
-        row["model"]
-        for row in errors
-        if row["model"] in ("bradley", "jkr", "jkr-sphere-projected") and is_within(row, LIMITS[-1])
-    ]
-    if len(limits) == 2:
-        return "the rigid limit (Bradley) and the limit of JKR are both within 5 % of the pull-off force"
-    if limits:
-        limit = "rigid limit (Bradley, DMT)" if limits == ["bradley"] else "limit of soft solids (JKR)"
+    rigid, soft = _rigid_limit(problem, errors, force), _soft_limit(problem, errors)
+    if rigid is None and soft is None:
+        return "not classified, because neither the rigid limit nor that of soft solids is known for this problem"
+    name = "Bradley, DMT" if any(row["model"] == "bradley" for row in errors) else "a rigid sphere"
+    within = [row is not None and is_within(row, LIMITS[-1]) for row in (rigid, soft)]
+    if all(within):
+        return (
+            f"the rigid limit ({name.partition(',')[0]}) and the limit of JKR are both within 5 % of the pull-off force"
+        )
+    if any(within):
+        limit = f"rigid limit ({name})" if within[0] else "limit of soft solids (JKR)"
         return f"{limit}, within 5 % of the pull-off force"
-    return "transition between the rigid limit (Bradley, DMT) and that of soft solids (JKR)"
+    if rigid is None or soft is None:
+        known, unknown = ("soft solids (JKR)", "a rigid one") if rigid is None else (name, "soft solids")
+        return f"not that of {known}, which is off by more than 5 %; that of {unknown} is not known for this problem"
+    return f"transition between the rigid limit ({name}) and that of soft solids (JKR)"
+
+
+def _rigid_limit(problem: Problem, errors: Sequence[Json], force: Row) -> Json | None:
+    """Error of the force on a rigid solid."""
+    value = rigid_force(problem)
+    if value is None:
+        return next((row for row in errors if row["model"] == "bradley"), None)
+    change = change_of(replace(force, value=value, u_num=0.0), force)
+    return change and {"error": change[0], "u_num": change[1]}
+
+
+def _soft_limit(problem: Problem, errors: Sequence[Json]) -> Json | None:
+    """Error of the force on a solid so soft that the range of the law does not count."""
+    # Of a sphere under a law of its own only the exact sphere has a closed form.
+    rows = errors or (errors_of_exact_sphere(problem) if problem.punch.kind == PARABOLOID else [])
+    return next((row for row in rows if row["model"] in _OF_SOFT_SOLIDS), None)

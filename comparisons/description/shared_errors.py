@@ -31,6 +31,9 @@ ASSUMPTIONS = {
     "friction": "friction",
 }
 
+#: Assumptions that a model does not make for a ball.
+NOT_ASSUMED_OF_BALLS = {"jkr-sphere": ("derjaguin",), "fem-large-strain": ("derjaguin", "strain")}
+
 #: Share of an error that its uncertainty has where another ball stands for the problem; of strain, the share of that of
 #: an incompressible solid (measured on layers, films and gradients against solutions: the paraboloid by up to 0.35, the
 #: vertical gap by up to 0.2, strain by up to 0.15).

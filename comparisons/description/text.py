@@ -7,12 +7,16 @@ from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from comparisons.description.equivalent_ball import PARABOLOID
 from comparisons.numerics.number_text import percent_text
 from comparisons.problem import Problem
 from comparisons.problem.equivalent_solid import LARGEST_DEVIATION
 from comparisons.problem.units import si_text
 
 Json = dict[str, Any]
+
+#: Share of a contribution above which a change that it lacks is stated.
+_COMPARABLE = 0.1
 
 
 def description_text(
@@ -40,8 +44,26 @@ def description_text(
         changes=changes,
         stated=stated,
         largest_deviation=LARGEST_DEVIATION,
+        shape_counts=_shape_counts(problem, overview["assumptions"], stated),
         written=[spread.written.strip() for spread in problem.uncertain.values()],
     )
+
+
+def _shape_counts(problem: Problem, assumed: Json | None, stated: Json | None) -> bool:
+    """Whether the range of the law changes the force by the error of the paraboloid as much as by what is stated.
+
+    The error of the paraboloid of a stiff solid is proportional to the range.
+    """
+    if problem.punch.kind != PARABOLOID or not assumed or not stated or stated["status"] != "ok":
+        return False
+    error, row = (
+        assumed["geometry"]["error"],
+        next((row for row in stated["parameters"] if row["parameter"] == "law.z0"), None),
+    )
+    if error is None or row is None or row["contribution"] is None or stated["quantity"] != "pull_off_force":
+        return False
+    size = problem.uncertain["law.z0"].size / row["value"]
+    return bool(abs(error * stated["value"]) * size > _COMPARABLE * row["contribution"])
 
 
 def _padded(text: str, column: Iterable[str]) -> str:

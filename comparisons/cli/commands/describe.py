@@ -51,8 +51,8 @@ def describe_command(args: argparse.Namespace) -> int:
         # First: it may refuse the file or the quantity.
         of_values = uncertainty(problem, args.quantity or "pull_off_force") if args.uncertain else None
         force = reference_force(problem)
-        described = overview(problem, force, assumptions(problem, force, args.large_strain))
         equivalent = equivalent_power_law(problem, force)
+        described = overview(problem, force, assumptions(problem, force, args.large_strain), equivalent)
         changes = profile_sensitivity(problem, force)
     if args.format == "json":
         parts = {"equivalent_power_law": equivalent, "profile_sensitivity": changes, "uncertainty": of_values}

@@ -87,6 +87,24 @@ def test_the_error_is_that_of_both_solids_in_the_solver(coated):
     assert power_law["closed_form_within"] == {"1 %": None, "5 %": "md-improved"}
 
 
+def test_what_is_recommended_and_the_regime_are_those_of_the_power_law(coated):
+    problem, law = coated
+    content = overview(problem, row("fscm", value=law["force"], u_num=1e-16), None, law)
+    assert content["recommended"] == {"1 %": "fscm", "5 %": law["closed_form_within"]["5 %"]}
+    # JKR has 0.8 % by cancellation.
+    assert "transition" in content["regime"]
+    steep = law | {"compliance_deviation": 0.9}
+    assert overview(problem, row("fscm", value=law["force"], u_num=1e-16), None, steep)["recommended"]["5 %"] == "fscm"
+
+
+def test_a_law_in_a_liquid_has_the_rigid_limit_of_its_work():
+    problem = load_problem(COATED.with_name("bead_in_water.toml"))
+    rigid = 2.0 * math.pi * problem.punch["R"] * problem.units["energy_per_area"]
+    regime = overview(problem, row("fscm", value=0.97 * rigid, u_num=1e-16))["regime"]
+    assert "rigid" in regime
+    assert "within 5 %" in regime
+
+
 def force_of_jkr(problem):
     return (3.0 + problem.solid["k"]) / 2.0 * math.pi * 1e-7 * 0.05
 

@@ -12,8 +12,11 @@ from comparisons.description import forces as module
 from comparisons.description.choice import SIMPLEST_FIRST, simplest_within
 from comparisons.description.equivalent_power_law import equivalent_power_law
 from comparisons.description.forces import reference_force
+from comparisons.description.text import _shape_counts
+from comparisons.problem import Problem, Section
 from comparisons.problem.evaluation import REFERENCES
 from comparisons.problem.reading import load_problem
+from comparisons.problem.uncertain import Uncertainty
 from comparisons.registry import MODELS
 from comparisons.runs.tasks import evaluate
 from tests.comparisons.problems import on_solid
@@ -128,3 +131,17 @@ def test_a_failure_is_stated(written, monkeypatch):
     monkeypatch.setattr(module, "evaluate_task", solved)
     content = module.profile_sensitivity(written('smoothing = "0.05 nm"'), row("fscm", value=1.0, u_num=0.0))
     assert [(change["status"], change["change"]) for change in content] == [("ok", 1.0)] * 3 + [("failed", None)]
+
+
+@pytest.mark.parametrize(
+    ("kind", "radius", "counts"), [("sphere", 2e-8, True), ("sphere", 2e-4, False), ("ball", 2e-8, False)]
+)
+def test_the_error_of_the_paraboloid_by_the_range_of_the_law_is_named(kind, radius, counts):
+    values, some = {"work_of_adhesion": 0.1, "z0": 4e-10}, Uncertainty(4e-11, False, "0.4 nm +- 10 %")
+    law = Section("lennard-jones-9-3", values, uncertain={"z0": some})
+    problem = Problem(Section("homogeneous", {"E": 5e10, "nu": 0.25}), Section(kind, {"R": radius}), law)
+    force = 2.0 * math.pi * radius * 0.1
+    known = {"error": 9.0 / 7.0 * 4e-10 / radius, "u_num": 0.0}
+    row = {"parameter": "law.z0", "value": 4e-10, "contribution": 1e-3 * force}
+    stated = {"status": "ok", "quantity": "pull_off_force", "value": force, "parameters": [row]}
+    assert _shape_counts(problem, {"geometry": known}, stated) is counts
