@@ -174,12 +174,15 @@ def draw(rows: pd.DataFrame) -> Figure:
     models = list(rows["model"].unique())
     with styled():
         figure = new_figure(3.4 * len(names), 3.2)
-        lattice = panels(figure, list(names), "size", "CPU time (s)")
+        lattice = panels(figure, list(names), "size", "CPU time (s)", sharey=True)
         for axes, name in zip(lattice, names, strict=True):
             for model, line in rows[rows["problem"] == name].groupby("model", sort=False):
                 index = models.index(model)
                 axes.loglog("size", "cpu_seconds", data=line, color=COLOURS[index], marker=MARKERS[index], label=model)
             axes.set_xlabel(KINDS[name].size)
+            sizes = sorted(rows.loc[rows["problem"] == name, "size"].unique())
+            axes.set_xticks(sizes, [f"{size:g}" for size in sizes])
+            axes.minorticks_off()
             axes.legend()
     return figure
 
