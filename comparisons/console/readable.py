@@ -22,6 +22,7 @@ _IN_ASCII = {
     "°": " deg",
     "√": "sqrt",
     "∞": "inf",
+    "ß": "ss",
 }
 _IN_ASCII |= dict.fromkeys("−–—─", "-") | dict.fromkeys("‘’′", "'") | dict.fromkeys("“”", '"')
 _IN_ASCII |= {"→": "->", "←": "<-", "↑": "^", "↓": "v"}

@@ -242,7 +242,8 @@ def fit_record(
     # The paths of a fit in n or k have no Tabor numbers in common.
     is_costly = model == "fscm" and (not has_limit or any(key.name in ("solid.k", "punch.n") for key in search.keys))
     result, curves = search.best(Curves(model), starts, is_costly)
-    if baseline is None and search.is_level(result):
+    # Paths of its own take seconds each.
+    if baseline is None and not is_costly and search.is_level(result):
         level = Search(search.observed, problem, keys, "constant")
         start = {name: number for name, number in result.numbers.items() if name not in ("tilt", "load_drift")}
         again, its_curves = level.best(Curves(model), [start], is_costly)

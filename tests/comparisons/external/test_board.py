@@ -6,7 +6,7 @@ import re
 import pandas as pd
 
 from comparisons.cli.main import main
-from comparisons.output.report.board_page import _regions
+from comparisons.output.region_table import region_table
 from comparisons.pipeline import board as board_module
 
 from ..conftest import is_locked
@@ -61,7 +61,7 @@ def test_a_region_in_which_a_model_has_no_error_is_empty():
     names = {"model": ["mine"] * 2, "quantity": ["hysteresis_energy"] * 2}
     cases = {"n": [2.0, 2.0], "k": [0.0, 0.4], "mu": [1.0, 3.0]}
     kappa = pd.DataFrame({**names, **cases, "kappa": [math.nan, -0.1], "u_kappa": [math.nan, 0.0]})
-    table = _regions(kappa, kappa.iloc[:1].assign(cases=1)).stored
+    table = region_table(kappa, kappa.iloc[:1].assign(cases=1)).stored
     assert math.isnan(table.loc[0, "kappa k = 0"])
     assert table.loc[0, "kappa k > 0"] == -0.1
 
