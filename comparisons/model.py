@@ -277,6 +277,22 @@ class HasCurve(Protocol):
 
 
 @runtime_checkable
+class HasCurveTo(HasCurve, Protocol):
+    """A model whose force-displacement curve goes on to any load.
+
+    Examples
+    --------
+    >>> from comparisons.registry import create
+    >>> isinstance(create("fscm"), HasCurveTo), isinstance(create("bradley"), HasCurveTo)
+    (True, False)
+    """
+
+    def curve_to(self, problem: Problem, load: float) -> Curve:
+        """Return the curve at least to a compressive load, dimensionless, or raise as `curve`."""
+        ...
+
+
+@runtime_checkable
 class HasProfile(Protocol):
     """A model with gap and pressure over the radius.
 

@@ -9,7 +9,8 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 from comparisons.data.toml_text import shipped
-from comparisons.model import HasCurve, HasProfile, Model, Result
+from comparisons.data.validation import known_name
+from comparisons.model import Curve, HasCurve, HasProfile, Model, Result
 
 if TYPE_CHECKING:
     from comparisons.problem.problem import Problem
@@ -220,12 +221,15 @@ class CurveQuantity(Quantity):
         -2.0
         """
         if self.kind is Kind.CURVE:
-            curve = cast(HasCurve, model).curve(problem)
-            x, y, u_distance, columns = curve.displacement, curve.load, curve.u_distance, curve.columns
-        else:
-            x, y, u_distance = cast(HasProfile, model).pull_off_profile(problem).shown(self.y.name)
-            columns = {}
-        return Points(list(map(float, x)), list(map(float, y)), float(u_distance), columns)
+            return points_of(cast(HasCurve, model).curve(problem))
+        x, y, u_distance = cast(HasProfile, model).pull_off_profile(problem).shown(self.y.name)
+        return Points(list(map(float, x)), list(map(float, y)), float(u_distance))
+
+
+def points_of(curve: Curve) -> Points:
+    """Return the points of a force-displacement curve."""
+    x, y = (list(map(float, values)) for values in (curve.displacement, curve.load))
+    return Points(x, y, float(curve.u_distance), curve.columns)
 
 
 def _axis(name: str, scale: str, **row: Any) -> Axis:
@@ -259,3 +263,24 @@ def title_of(quantity: str) -> str:
     """
     row = ALL_QUANTITIES.get(quantity)
     return row.title if row else quantity.replace("_", " ")
+
+
+def known_scalar(name: str, where: str) -> None:
+    """Refuse what is no scalar quantity.
+
+    Raises
+    ------
+    ValueError
+        One sentence with the command that has it, or with the nearest names.
+
+    Examples
+    --------
+    >>> known_scalar("pull_off_force", "--quantity")
+    >>> known_scalar("stress", "--quantity")
+    Traceback (most recent call last):
+    ValueError: --quantity: stress is no single number: it is a field inside the solid, which fscm-bench fem writes
+    """
+    for row in _TABLES["elsewhere"]:
+        if name in row["names"]:
+            raise ValueError(f"{where}: {name} is no single number: {row['remedy']}")
+    known_name("quantity", name, QUANTITIES, where)

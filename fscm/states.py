@@ -105,6 +105,9 @@ class EquilibriumState:
     >>> (state,) = equilibria(Problem(n=2, k=0.4, mu=1.0), "central_gap", 0.5)
     >>> abs(state.central_gap - 0.5) <= state.u_num < 1e-9
     True
+    >>> (in_contact,) = equilibria(Problem(n=2, k=0.4, mu=1.0), "load", 1.0)
+    >>> round(in_contact.edge_radius, 4)
+    2.7164
     >>> state.stable_under_displacement, state.stable_under_load      # after the jump-in, before pull-off
     (False, False)
     """
@@ -117,6 +120,11 @@ class EquilibriumState:
     parts: Mapping[str, Parts]
     _state: State = field(repr=False, compare=False)
     _units: Mapping[str, float] = field(repr=False, compare=False)
+
+    @property
+    def edge_radius(self) -> float:
+        """Radius of the largest tension, in contact that of its edge; nan before contact."""
+        return float(edge_radius(self._state)) * self._units["radius"]
 
     @cached_property
     @one_thread()

@@ -10,7 +10,7 @@ import fscm
 from comparisons.data.validation import known_name
 from comparisons.problem import Problem
 from comparisons.problem.uncertain import Uncertainty
-from comparisons.quantities import QUANTITIES
+from comparisons.quantities import QUANTITIES, known_scalar
 
 Json = dict[str, Any]
 _Uncertain = Mapping[str, Uncertainty]
@@ -24,7 +24,7 @@ def check_quantity(quantity: str) -> None:
     ValueError
         One sentence.
     """
-    known_name("quantity", quantity, QUANTITIES, "--quantity")
+    known_scalar(quantity, "--quantity")
     if quantity not in fscm.SENSITIVE:
         raise ValueError(
             f"the quantity {quantity} is none of those with a sensitivity, {', '.join(fscm.SENSITIVE)}: "

@@ -139,7 +139,7 @@ def by_jkr(problem: Problem, largest: float) -> Equilibria:
     Before the surfaces touch, which is at zero displacement, they attract each other as rigid ones do (Eq. 42).
     """
     units, force = problem.units, JKR().evaluate(problem, "pull_off_force").value
-    curve = JKR().curve_to(problem, max(largest / units["load"] / force, 1.0))
+    curve = JKR().curve_to(problem, max(largest / units["load"], force))
     gap = np.geomspace(_FAR * abs(float(curve.displacement.min())) + _FAR, 1.0, _POINTS)
     attraction = rigid_load(problem.n, gap)
     weak = attraction > -_WEAK * force

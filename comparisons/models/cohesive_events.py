@@ -95,6 +95,16 @@ class CohesiveEvents:
         w = np.linspace(start, end, int(np.ceil((end - start) / _SCAN_STEP)) + 1)
         return cls(contact, w, contact.at(w, COARSE))
 
+    def first_beyond(self, load: float) -> float:
+        """Return w of the first state beyond pull-off with a load, in the scan or in its steps beyond it."""
+        beyond = self.w[(self.states.load >= load) & (self.w > self.pull_off().w)]
+        if beyond.size:
+            return float(beyond[0])
+        w = float(self.w[-1])
+        while self.contact.at(np.array([w]), COARSE).load[0] < load:
+            w += _SCAN_STEP
+        return w
+
     def pull_off(self) -> Event:
         """Return the deepest minimum of P; it is the end point a = 0 where P only grows with contact.
 

@@ -87,14 +87,21 @@ class CohesiveModel(ContactBranch):
         Columns ``contact_radius`` and ``cohesive_radius``.
         """
         if self._is_jkr(problem):
-            curve = JKR().curve(problem)
+            return self.curve_to(problem, JKR().pull_off_force(problem).value)
+        scale = GradedPunch.of(problem).scales(problem.mu)
+        return self.curve_to(problem, -self._events(problem).pull_off().load * scale.load)
+
+    def curve_to(self, problem: Problem, load: float) -> Curve:
+        """Return the same to a load, in pi Q^(2/n) dgamma z0^(2/n-1)."""
+        if self._is_jkr(problem):
+            curve = JKR().curve_to(problem, load)
             curve.columns["cohesive_radius"] = curve.columns["contact_radius"]
             return curve
+        scale = GradedPunch.of(problem).scales(problem.mu)
         events = self._events(problem)
         contact, pull_off = events.contact, events.pull_off()
+        end = events.first_beyond(load / scale.load)
         # Half the points from first contact on, half about the pull-off, where a large n bends the curve.
-        beyond = (events.states.load >= -pull_off.load) & (events.w > pull_off.w)
-        end = float(events.w[beyond][0])
         log_first = contact.log_contact_radius(end) + np.log(_FIRST_RADIUS)
         start = float(events.w[events.states.contact_radius >= np.exp(log_first)][0])
         bend = max(start, pull_off.w - _NEAR / contact.punch.n)
@@ -102,7 +109,7 @@ class CohesiveModel(ContactBranch):
         w = np.unique(np.concatenate(([-np.inf, pull_off.w], even, dense)))
         state = contact.at(w)
         radii = {"contact_radius": state.contact_radius, "cohesive_radius": state.cohesive_radius}
-        return GradedPunch.of(problem).scales(problem.mu).curve(state.displacement, state.load, **radii)
+        return scale.curve(state.displacement, state.load, **radii)
 
     def pull_off_profile(self, problem: Problem, points: int = 60) -> CohesiveProfiles:
         """Return the surface where P is smallest, with `points` radii in each of its three parts.

@@ -79,11 +79,15 @@ class DMT(ClosedForm):
 
         Column ``contact_radius``.
         """
+        return self.curve_to(problem, self.pull_off_force(problem).value)
+
+    def curve_to(self, problem: Problem, load: float) -> Curve:
+        """Return the same to a load, in pi Q^(2/n) dgamma z0^(2/n-1)."""
         punch = GradedPunch.of(problem)
         n, k = punch.n, punch.k
         adhesion = self.pull_off_force(problem).value
         hertz = _hertz(punch, problem.mu)
-        end = (2.0 * adhesion / hertz) ** (1.0 / (n + k + 1.0))
+        end = ((load + adhesion) / hertz) ** (1.0 / (n + k + 1.0))
         a = end * np.linspace(0.0, 1.0, POINTS)
         return Curve(
             displacement=punch.flattening * a**n,

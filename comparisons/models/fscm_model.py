@@ -63,11 +63,17 @@ class FullSelfConsistent(SolverModel):
         _check_size(problem)
         return result_of(fscm.solve(problem.posed, quantity))
 
-    def _curve(self, problem: Problem) -> Curve:
+    def curve_to(self, problem: Problem, load: float) -> Curve:
+        """Return the equilibrium path to a load, or raise as `evaluate`."""
+        refuse(self.skip(problem, "force_curve"))
+        with translated(fscm):
+            return self._curve(problem, load)
+
+    def _curve(self, problem: Problem, load: float | None = None) -> Curve:
         if problem.posed.k == 1.0:
             return gibson_curve(problem.posed)
         _check_size(problem)
-        path = fscm.trace(problem.posed, longest_step=_STEP)
+        path = fscm.trace(problem.posed, max_load=load, longest_step=_STEP)
         curve = curve_of(path)
         curve.columns.update({name: getattr(path, name).astype(float) for name in _MARKS})
         return curve

@@ -58,13 +58,14 @@ class JKR(ContactBranch):
 
         Column ``contact_radius``.
         """
-        return self.curve_to(problem, 1.0)
+        return self.curve_to(problem, self.pull_off_force(problem).value)
 
-    def curve_to(self, problem: Problem, shares: float) -> Curve:
-        """Return the same to a load of some shares of the pull-off force."""
+    def curve_to(self, problem: Problem, load: float) -> Curve:
+        """Return the same to a load, in pi Q^(2/n) dgamma z0^(2/n-1)."""
         punch = GradedPunch.of(problem)
         n, k, s = punch.n, punch.k, punch.s
         pull_off = monomial(*_radius_power(punch, s + k + 1.0, 1.0)).value
+        shares = load / self.pull_off_force(problem).value
         # P(a) / P(a_c) depends on a / a_c alone: x^(n+k+1) theta_c - x^(s+k+1) (n+k+1) over its value at 1.
         parts = np.linspace(0.0, 1.0, POINTS)
         end = 1.0
@@ -73,8 +74,10 @@ class JKR(ContactBranch):
         a = pull_off * end * parts**2
         scale = punch.scales(problem.mu)
         displacement = punch.flattening * a**n - punch.adhesion * a**s
-        load = punch.hertz_load * a ** (n + k + 1.0) - punch.stiffness * punch.adhesion / (1.0 + k) * a ** (s + k + 1.0)
-        return scale.curve(displacement, load, contact_radius=a)
+        hertz = punch.hertz_load * a ** (n + k + 1.0)
+        return scale.curve(
+            displacement, hertz - punch.stiffness * punch.adhesion / (1.0 + k) * a ** (s + k + 1.0), contact_radius=a
+        )
 
 
 def _radius_power(punch: GradedPunch, theta: float, power: float) -> tuple[tuple[float, float], ...]:

@@ -197,8 +197,13 @@ class JKRSphere(ContactBranch):
         It ends where the contact reaches 0.95 R.  Column ``contact_radius``.
         """
         ball = _Ball.of(problem, self.release)
-        end = pull_off = ball.at("pull_off")
-        while end < LARGEST_CONTACT and ball.load(end) < -ball.load(pull_off):
+        return self.curve_to(problem, -float(ball.load(ball.at("pull_off"))))
+
+    def curve_to(self, problem: Problem, load: float) -> Curve:
+        """Return the same to a load, in pi Q^(2/n) dgamma z0^(2/n-1)."""
+        ball = _Ball.of(problem, self.release)
+        end = ball.at("pull_off")
+        while end < LARGEST_CONTACT and ball.load(end) < load:
             end = min(1.02 * end, LARGEST_CONTACT)
         alpha = end * np.linspace(0.0, 1.0, POINTS) ** 2
         return Curve(

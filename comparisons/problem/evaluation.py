@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import cast
 
+import numpy as np
+import scipy
+
 from comparisons.domain import declared_domain, skip
-from comparisons.model import HasSkip, Model, NotTaken, Result, refuse
+from comparisons.model import HasCurve, HasCurveTo, HasSkip, Model, NotTaken, Result, refuse
 from comparisons.problem.problem import Problem
-from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, Points
+from comparisons.quantities import ALL_QUANTITIES, CURVES, QUANTITIES, Points, points_of
 
 #: Models that solve the equations, and the series of their values; others are closed forms or other approximations.
 REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas", "fem-large-strain")
@@ -69,6 +73,49 @@ def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
     neglected = " and ".join(f"{name} = {value}" for name, value in problem.surface.items())
     sentences = result.reason, f"{model.name} neglects {neglected}" if neglected else ""
     return replace(result, reason="; ".join(filter(None, sentences)))
+
+
+def force_curve_to(problem: Problem, model: Model, load: float) -> Points:
+    """Return the force curve of a model up to a compressive load, both in the units of the problem.
+
+    It ends at this load, or where the curve of a model ends that cannot go on (see `comparisons.model.HasCurveTo`).
+
+    Raises
+    ------
+    NotApplicable, ComputationFailed
+        As the model.
+
+    Examples
+    --------
+    >>> from comparisons.models.jkr import JKR
+    >>> round(force_curve_to(Problem.dimensionless(2, 0, 1), JKR(), 5.0).y[-1], 12)
+    5.0
+    """
+    refuse(skip(model, problem, "force_curve"))
+    quantity, units = CURVES["force_curve"], problem.units
+    if isinstance(model, HasCurveTo):
+        curve = model.curve_to(problem, load / units["load"])
+    else:
+        curve = cast(HasCurve, model).curve(problem)
+    return _up_to(quantity.in_units(points_of(curve), units), load)
+
+
+def _up_to(points: Points, load: float) -> Points:
+    """Return the points with the state of a load, on the cubic through its neighbours, as the last one."""
+    y = np.array(points.y)
+    beyond = int(np.argmin(y)) + np.flatnonzero(y[np.argmin(y) :] >= load)
+    if not beyond.size:
+        return points
+    last = int(beyond[0])
+    near = slice(max(last - 2, int(np.argmin(y))), last + 2)
+
+    def ended(values: Sequence[float]) -> list[float]:
+        column = np.array(values, float)
+        between = scipy.interpolate.BarycentricInterpolator(y[near], column[near])
+        return [*column[:last], float(between(load))]
+
+    columns = {name: np.array(ended(values)) for name, values in points.columns.items()}
+    return Points(ended(points.x), [*points.y[:last], load], points.u_distance, columns)
 
 
 def _with_equivalent_solid(problem: Problem, model: Model, quantity: str) -> Result:

@@ -11,11 +11,10 @@ from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, command, option, o
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
-from comparisons.data.validation import known_name
 from comparisons.numerics.number_text import case_text, short
 from comparisons.problem import Problem
 from comparisons.problem.units import si_text
-from comparisons.quantities import QUANTITIES
+from comparisons.quantities import QUANTITIES, known_scalar
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
@@ -36,7 +35,7 @@ def solve_command(args: argparse.Namespace) -> int:
         fscm-bench solve --model fscm --quantity pull_off_force --problem pad.toml
         fscm-bench solve --model fscm --quantity critical_tabor_number --n 2 --k 0.4
     """
-    known_name("quantity", args.quantity, QUANTITIES, "--quantity")
+    known_scalar(args.quantity, "--quantity")
     without_mu = args.quantity == "critical_tabor_number" and args.problem is None and args.mu is None
     if without_mu:
         # Any mu leads to that at which jumps begin.

@@ -89,15 +89,56 @@ def test_the_contact_radius_has_one_name(capsys):
         (["--stiffness", "2"], "unit"),
         (["--stiffness", "-2 N/m"], "above 0"),
         (["--stiffness", "2 m"], "2 m"),
-        (["--stiffness", "2 N/m", "--plot", "cycle.png"], "--plot"),
+        (["--max-load", "0 nN"], "(0, inf)"),
+        (["--max-load", "2"], "unit"),
+        (["--max-load", "2 nN", "--quantity", "pull_off_gap"], "--quantity"),
         (["--stiffness", "2 N/m", "--quantity", "pull_off_gap"], "--quantity"),
     ],
 )
-def test_what_is_no_stiffness_is_refused(capsys, probe, options, word):
+def test_what_is_no_stiffness_or_load_is_refused(capsys, probe, options, word):
     assert main(["curve", "--model", "jkr", "--problem", str(probe), *options]) == 2
     captured = capsys.readouterr()
     assert not captured.out
     assert word in captured.err
+
+
+def test_a_cycle_is_drawn_over_the_position_of_the_base(capsys, probe, tmp_path):
+    drawn = tmp_path / "cycle.svg"
+    options = ["--stiffness", "1 N/m", "--plot", str(drawn), "--csv", str(tmp_path / "cycle.csv")]
+    assert main(["curve", "--model", "jkr", "--problem", str(probe), *options]) == 0
+    assert "position of the cantilever" in drawn.read_text(encoding="utf-8")
+    assert list(pd.read_csv(tmp_path / "cycle.csv").columns)[1:3] == ["branch", "position [m]"]
+
+
+@pytest.mark.parametrize("largest", [0.3, 9.0])
+def test_a_curve_ends_at_the_load_that_is_asked_for(capsys, largest):
+    """The contact radius there is that of the states at this load; a model that cannot go on says where it ends."""
+    case = {"n": 2.0, "k": 0.4, "mu": 1.0}
+    options = [part for name, value in case.items() for part in (f"--{name}", str(value))]
+    models = ["fscm", "jkr", "dmt", "md-improved", "bradley"]
+    assert main(["curve", "--model", *models, *options, "--max-load", str(largest)]) == 0
+    captured = capsys.readouterr()
+    last = pd.read_csv(io.StringIO(captured.out)).groupby("model").tail(1).set_index("model")
+    going_on = [model for model in models if model != "bradley" or largest < 1.0]
+    assert np.allclose(last.loc[going_on, "load"], largest, rtol=1e-9)
+    assert ("bradley: its curve ends below --max-load" in captured.err) == (largest > 1.0)
+    state = fscm.equilibria(fscm.Problem(**case), "load", largest)[-1]
+    assert last.loc["fscm", "contact_radius"] == pytest.approx(state.edge_radius, rel=1e-5)
+    assert last.loc["fscm", "displacement"] == pytest.approx(state.displacement, abs=1e-5)
+    of_cohesive_zone = last.loc["md-improved"]
+    assert of_cohesive_zone["contact_radius"] < state.edge_radius < of_cohesive_zone["cohesive_radius"]
+
+
+def test_a_curve_in_newtons_ends_at_a_load_in_newtons(capsys, probe):
+    assert main(["curve", "--model", "jkr", "dmt", "--problem", str(probe), "--max-load", "80 nN"]) == 0
+    last = pd.read_csv(io.StringIO(capsys.readouterr().out)).groupby("model").tail(1)
+    assert np.allclose(last["load [N]"], 80e-9, rtol=1e-9)
+
+
+def test_a_contact_radius_is_looked_for_in_the_curve(capsys):
+    case = ["--n", "2", "--k", "0", "--mu", "1"]
+    assert main(["solve", "--model", "jkr", "--quantity", "contact_radius", *case]) == 2
+    assert "--max-load" in capsys.readouterr().err
 
 
 def test_a_cantilever_needs_a_contact_with_units(capsys):

@@ -53,7 +53,8 @@ class Instrument:
         By the FSCM; beyond a Tabor number of 300 by JKR, whose force is within 2e-5, and which snaps in at zero.
         """
         if problem.posed.mu > 300.0:
-            curve = JKR().curve_to(problem, self.largest)
+            model = JKR()
+            curve = model.curve_to(problem, self.largest * model.pull_off_force(problem).value)
             (x, load), lowest = (curve.displacement, curve.load), int(np.argmin(curve.displacement))
             scale, force, begin = -x[lowest], -load.min(), 3.0 * x[lowest]
             touching = np.interp(0.0, x[lowest:], load[lowest:])
