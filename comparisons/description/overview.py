@@ -11,6 +11,7 @@ from comparisons.description.choice import LIMITS, is_within, simplest_within
 from comparisons.description.equivalent_ball import PARABOLOID
 from comparisons.description.forces import change_of, force_content
 from comparisons.description.rigid_limit import rigid_force
+from comparisons.description.unusual_sizes import unusual_sizes
 from comparisons.problem import Problem
 from comparisons.problem.equivalent_solid import LARGEST_DEVIATION
 from comparisons.problem.evaluation import REFERENCES
@@ -75,6 +76,7 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None, equivale
         "tabor_number": problem.posed.mu,
         "critical_tabor_number": critical,
         "regime": _regime(problem, candidates, force),
+        "unusual_sizes": unusual_sizes(problem),
         "pull_off_force": force_content(force),
         "errors": errors,
         "assumptions": assumed,

@@ -13,6 +13,7 @@ from comparisons.description.choice import SIMPLEST_FIRST, simplest_within
 from comparisons.description.equivalent_power_law import equivalent_power_law
 from comparisons.description.forces import reference_force
 from comparisons.description.text import _shape_counts
+from comparisons.description.unusual_sizes import unusual_sizes
 from comparisons.problem import Problem, Section
 from comparisons.problem.evaluation import REFERENCES
 from comparisons.problem.reading import load_problem
@@ -48,6 +49,27 @@ def test_a_power_law_has_errors_of_closed_forms(capsys):
     assert content["recommended"] == {"1 %": "jkr", "5 %": "jkr"}
     assert "JKR" in content["regime"]
     assert "equivalent_power_law" not in content
+
+
+def test_sizes_that_nothing_has_are_named(tmp_path, capsys):
+    """A number without a unit is in SI: a radius of 20 m is that of a ball of 20 um whose unit was forgotten."""
+    path = tmp_path / "forgotten.toml"
+    path.write_text(
+        """
+        solid = {kind = "homogeneous", E = 50, nu = 0.4}
+        punch = {kind = "sphere", R = 20}
+        law = {kind = "lennard-jones-9-3", work_of_adhesion = "50 mJ/m^2", z0 = "0.4 nm"}
+        """,
+        encoding="utf-8",
+    )
+    assert main(["describe", str(path), "--format", "json"]) in (0, 4)
+    named = {row["key"]: row["value"] for row in json.loads(capsys.readouterr().out)["unusual_sizes"]}
+    assert named == {"solid.E": 50.0, "punch.R": 20.0}
+
+
+def test_the_problems_of_the_pages_have_usual_sizes():
+    for path in PROBLEMS.glob("*.toml"):
+        assert not unusual_sizes(Problem.load(path))
 
 
 @pytest.mark.parametrize(
