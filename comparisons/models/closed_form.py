@@ -6,6 +6,7 @@ A closed form computes the quantities for which it has a method of that name, an
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
@@ -116,12 +117,12 @@ class ClosedForm:
         return getattr(self, quantity)(problem)
 
 
-class ContactBranch(ClosedForm):
+class ContactBranch(ClosedForm, ABC):
     """Base of the closed forms of a branch in contact, whose three events have displacements by one function."""
 
+    @abstractmethod
     def displacement_at(self, problem: Problem, event: str) -> Result:
         """Delta at ``pull_off``, ``jump_out`` or ``zero_load``."""
-        raise NotImplementedError
 
     def pull_off_displacement(self, problem: Problem) -> Result:
         """Delta where P is smallest."""

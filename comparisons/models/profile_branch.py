@@ -7,6 +7,7 @@ profile that falls anywhere in the contact is refused.
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -43,7 +44,7 @@ class State:
 
 
 @dataclass(frozen=True)
-class Branch:
+class Branch(ABC):
     """The states in contact of a profile.
 
     Attributes
@@ -68,9 +69,9 @@ class Branch:
         profile = PlaneProfile(shape.height, shape.slope, tuple(sorted(ends)), k)
         return cls(profile, GradedPunch(float(posed.n), k), compliance)
 
+    @abstractmethod
     def at(self, radius: float) -> State:
         """Return the state of a contact radius, 0 or more."""
-        raise NotImplementedError
 
     @property
     def undisplaced(self) -> float | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 from types import ModuleType
@@ -9,7 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.model import EFFORT, Curve, RadialField, Result, refuse, translated
+from comparisons.model import EFFORT, Curve, NotTaken, RadialField, Result, refuse, translated
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.problem import Problem
 from comparisons.problem.problem import beyond_numbers
@@ -18,7 +19,7 @@ from comparisons.quantities import ALL_QUANTITIES, Kind
 _ONES = dict.fromkeys(("displacement", "gap", "load", "radius", "traction"), 1.0)
 
 
-class SolverModel:
+class SolverModel(ABC):
     """A model whose quantities a solver computes.
 
     A subclass has `_result`; `_curve` if it has a curve, and `pull_off_profile` if it has the surface at pull-off.
@@ -69,11 +70,11 @@ class SolverModel:
         with translated(self.package):
             return self._curve(problem)
 
-    def _result(self, problem: Problem, quantity: str) -> Result:
-        raise NotImplementedError
+    @abstractmethod
+    def _result(self, problem: Problem, quantity: str) -> Result: ...
 
     def _curve(self, problem: Problem) -> Curve:
-        raise NotImplementedError
+        raise NotTaken(self._undefined("force_curve"))
 
 
 def no_critical_number(problem: Problem, quantity: str) -> str | None:
