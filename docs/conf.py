@@ -15,6 +15,7 @@ extensions = [
     "sphinx.ext.autodoc",
     "numpydoc",
     "sphinx_gallery.gen_gallery",
+    "accessible",
     "mathml",
     "api_pages",
     "repository_pages",

@@ -56,4 +56,4 @@ class JKRProfile(ProfileModel):
     )
     domain = "problems in physical units, power-law solid, punch without waves, law without barrier; mu -> infinity"
     validity = SOFT
-    branch: ClassVar[type[Branch]] = _JKRBranch
+    _branch_type: ClassVar[type[Branch]] = _JKRBranch

@@ -123,7 +123,7 @@ class MaugisDugdaleProfile(ProfileModel):
         "(comparisons/models/md_profile.py)"
     )
     domain = "problems in physical units, power-law solid with k < 1, punch without waves, law without barrier"
-    branch: ClassVar[type[Branch]] = _CohesiveBranch
+    _branch_type: ClassVar[type[Branch]] = _CohesiveBranch
 
     def skip(self, problem: Problem, quantity: str) -> str | None:
         """Return why not for k = 1 as well, where the surface is a bed of springs."""

@@ -132,14 +132,9 @@ def _root(function: Callable[[float], float], low: float, high: float) -> float:
 
 
 class ProfileModel(ContactBranch):
-    """A model of a punch of any profile without waves.
+    """A model of a punch of any profile without waves; a subclass names the class of its branch."""
 
-    Attributes
-    ----------
-    branch : type of Branch
-    """
-
-    branch: ClassVar[type[Branch]]
+    _branch_type: ClassVar[type[Branch]]
 
     def branch_of(self, problem: Problem) -> Branch:
         """Return the branch of a problem, which keeps its events."""
@@ -211,7 +206,7 @@ class ProfileModel(ContactBranch):
 
 @lru_cache(maxsize=16)
 def _branch(model: ProfileModel, problem: Problem) -> Branch:
-    return model.branch.of(problem)
+    return model._branch_type.of(problem)
 
 
 def _at_minimum(branch: Branch, radius: float) -> float:

@@ -82,6 +82,16 @@ def test_the_reference_has_every_name_of_a_package_and_of_its_public_modules(pac
     assert [name for name in described if is_private(name)] == []
 
 
+@pytest.mark.parametrize("package", [fscm, fem_reference, comparisons], ids=lambda package: package.__name__)
+def test_no_public_attribute_of_a_class_is_a_private_class(package):
+    """The reference writes "alias of" such an attribute, with a link that leads nowhere."""
+    classes = {value for module in public(package) for _, value in getmembers(module, isclass)}
+    own = [value for value in classes if value.__module__.startswith(package.__name__)]
+    assert own
+    attributes = [(cls, name, value) for cls in own for name, value in vars(cls).items() if not name.startswith("_")]
+    assert [(cls, name) for cls, name, value in attributes if isclass(value) and value.__name__.startswith("_")] == []
+
+
 def test_the_first_page_of_the_reference_has_names_that_it_describes(reference):
     names = [name for group in extension("api_start").NAMES.values() for name in group]
     assert len(names) == len(set(names)) == 25
@@ -126,6 +136,9 @@ def test_the_site_builds_without_a_warning_and_needs_no_network(tmp_path):
     pages = {path.relative_to(site).as_posix(): path.read_text(encoding="utf-8") for path in site.rglob("*.html")}
     assert {"index.html", "search.html", "theory.html", "_generated/api/fscm.html"} <= pages.keys()
     assert "<math" in pages["theory.html"]
+    # A heading without a level is no heading for a screen reader.
+    heading = re.compile(r'role="heading"(?! aria-level="\d")')
+    assert [name for name, text in pages.items() if heading.search(text)] == []
     loaded = re.compile(r"<(?:script|img|iframe)[^>]*src=\"(?:https?:)?//|<link[^>]*href=\"(?:https?:)?//")
     assert [name for name, text in pages.items() if loaded.search(text)] == []
     assert (site / "searchindex.js").stat().st_size > 100_000
