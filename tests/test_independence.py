@@ -30,7 +30,7 @@ ALLOWED = {
     # Judges statements on the functions inside the FSCM and on the two Tabor numbers (Eqs. 18-22 and 30).
     "comparisons.paper.statements.formulas": ("fscm",),
     # Measures a solver at every accuracy, and the scheme of the paper beside it.
-    "comparisons.bench.cold_starts": ("fscm",),
+    "comparisons.bench.bead": ("fscm",),
     "comparisons.bench.work_precision": ("fscm", "fem_reference"),
     # Pose the problem of a file to each solver: any solid, punch and law.
     "comparisons.problem.problem": ("fscm",),

@@ -9,47 +9,41 @@ import tempfile
 import time
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 
-import fscm
+from comparisons.bench.bead import BEAD, bead, record
+from comparisons.bench.floor import floor_seconds
 from comparisons.bench.part import Numbers, Part
 from comparisons.external.template import write_template
 from comparisons.problem import Problem
+from comparisons.runs.tasks import evaluate
 
 #: An interpreter that does nothing, to which the others are compared.
 BARE = "python -c pass"
 _OWN_MODEL = "run --model my.py:My"
-_COMMANDS = (
-    BARE,
-    "--help",
-    "list models",
-    "cite",
-    "solve --model jkr --n 2 --k 0 --mu 1 --quantity pull_off_force",
-    "solve --model fscm --n 2 --k 0.4 --mu 1 --quantity pull_off_force",
-    "describe bead.toml",
-    "describe coating.toml",
-    "fit record.csv --problem bead.toml --free solid.E",
-    _OWN_MODEL,
-)
+_SOLVE = "solve --model {} --n 2 --k {} --mu 1 --quantity pull_off_force"
+_FSCM, _FEM = _SOLVE.format("fscm", 0.4), _SOLVE.format("fem", 0.4)
+
+#: Commands, and the imports of the least interpreter that could do each; None where no least is known.
+_COMMANDS = {
+    BARE: "sys",
+    "--help": "argparse",
+    "list models": "argparse",
+    "cite": "argparse",
+    _SOLVE.format("jkr", 0): "argparse",
+    _FSCM: "argparse, numpy",
+    _FEM: "argparse, numpy, scipy.sparse.linalg",
+    "describe bead.toml": None,
+    "describe coating.toml": None,
+    "fit record.csv --problem bead.toml --free solid.E": None,
+    _OWN_MODEL: None,
+}
+#: Of these the floor of the value is a part: the model.
+_SOLVED = {_FSCM: "fscm", _FEM: "fem"}
 
 #: A bead on rubber, and a film of 20 nm under a tip.
 _FILES = {
-    "bead.toml": """
-[solid]
-kind = "homogeneous"
-E = "1.5 MPa"
-nu = 0.5
-
-[punch]
-kind = "sphere"
-R = "5 um"
-
-[law]
-kind = "lennard-jones-9-3"
-work_of_adhesion = "50 mJ/m^2"
-z0 = "0.4 nm"
-""",
+    "bead.toml": BEAD,
     "coating.toml": """
 [solid]
 kind = "coating"
@@ -70,9 +64,6 @@ work_of_adhesion = "50 mJ/m^2"
 z0 = "0.4 nm"
 """,
 }
-#: Points of each branch of a record of the bead, and its noise in the pull-off force.
-_POINTS, _NOISE = 250, 0.01
-
 #: A command is called once so that its files are in memory, then so often; the least CPU time counts.
 _REPEATS = 3
 #: A command that takes so many seconds of CPU is not called again.
@@ -95,7 +86,7 @@ def plan(full: bool) -> list[Numbers]:
 
 
 def cold_start(command: str) -> Numbers:
-    """Return the CPU time of a command, that of its own processes included, and its wall-clock time.
+    """Return the CPU time of a command, that of its own processes included, its wall-clock time, and its floor.
 
     Raises
     ------
@@ -109,24 +100,38 @@ def cold_start(command: str) -> Numbers:
             _, spec = write_template(Path(folder, "my"))
             arguments[-1:] = [spec, "--out", str(Path(folder, "out"))]
         _write_inputs(Path(folder))
-        used = [_call(arguments, Path(folder))]
-        while len(used) <= _REPEATS and used[-1]["cpu_seconds"] < _LONG:
-            used.append(_call(arguments, Path(folder)))
+        return {**_least(arguments, Path(folder)), "floor_seconds": _floor(command, Path(folder))}
+
+
+def _least(arguments: list[str], folder: Path) -> Numbers:
+    """Return the least CPU time of some calls after a first one."""
+    used = [_call(arguments, folder)]
+    while len(used) <= _REPEATS and used[-1]["cpu_seconds"] < _LONG:
+        used.append(_call(arguments, folder))
     return min(used[1:] or used, key=lambda numbers: numbers["cpu_seconds"])
 
 
+def _floor(command: str, folder: Path) -> float | None:
+    """Return the CPU time of an interpreter with the least imports, with the floor of the value of a command."""
+    imports = _COMMANDS.get(command)
+    if imports is None:
+        return None
+    seconds = float(_least(["-c", f"import {imports}"], folder)["cpu_seconds"])
+    if command in _SOLVED:
+        model = _SOLVED[command]
+        row = evaluate(model, "pull_off_force", Problem.dimensionless(n=2.0, k=0.4, mu=1.0))
+        seconds += floor_seconds(model, row.size, row.iterations) or 0.0
+    return seconds
+
+
 def _write_inputs(folder: Path) -> None:
-    """Write the problem files, and a record that a machine of prescribed displacement would make of the bead."""
+    """Write the problem files, and a record of the bead."""
     for name, text in _FILES.items():
         folder.joinpath(name).write_text(text.lstrip(), encoding="utf-8")
-    problem = Problem.load(folder / "bead.toml").build(fscm)
-    curve = fscm.force_curve(problem.n, problem.k, problem.mu).in_units(problem.units)
-    x = np.linspace(2.0 * curve.displacement.min(), -2.0 * curve.displacement.min(), _POINTS)
-    noise = np.random.default_rng(1).normal(0.0, -_NOISE * curve.load.min(), (2, _POINTS))
+    measured = record(bead())
     lines = ["branch,displacement [nm],load [nN]"]
-    for branch, places, added in (("approach", x, noise[0]), ("retreat", x[::-1], noise[1])):
-        load = curve.load_at(places, branch).value + added
-        lines += [f"{branch},{1e9 * u:.6g},{1e9 * P:.6g}" for u, P in zip(places, load, strict=True)]
+    for is_approach, u, P in zip(measured.approach, measured.displacement, measured.load, strict=True):
+        lines.append(f"{'approach' if is_approach else 'retreat'},{1e9 * u:.6g},{1e9 * P:.6g}")
     folder.joinpath("record.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 

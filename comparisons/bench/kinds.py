@@ -1,4 +1,4 @@
-"""CPU time of kinds of problems: Tabor numbers, layers, rows of a measured punch, a ball and finite strain."""
+"""CPU time of kinds of problems: Tabor numbers, layers, rows of a measured punch, a ball, finite strain, and curves."""
 
 from __future__ import annotations
 
@@ -12,8 +12,13 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from comparisons.bench.bead import bead, record
+from comparisons.bench.floor import draw_floor, floor_seconds
 from comparisons.bench.part import Numbers, Part
 from comparisons.bench.work_precision import LONG, NEIGHBOUR, peak_memory
+from comparisons.fitting.fit import fit_record
+from comparisons.fitting.parameters import free_keys
+from comparisons.fitting.record import Record
 from comparisons.output.style import COLOURS, MARKERS, new_figure, styled
 from comparisons.paper.drawing import panels
 from comparisons.problem import Problem, Section
@@ -21,6 +26,8 @@ from comparisons.runs.tasks import evaluate
 
 _LAW = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
 _SPHERE = Section("sphere", {"R": 0.5e-6})
+#: Not a quantity of a model: a fit; the key that is fitted, and its value at the start over the right one.
+FIT, _MODULUS, _OFF = "fit", "solid.E", 1.3
 _PAD = Section("homogeneous", {"E": 1e9, "nu": 0.4})
 
 #: Largest radius of a measured punch, in m.
@@ -68,6 +75,31 @@ def _ball(radius: float, factor: float) -> Problem:
     return Problem(solid, Section("ball", {"R": radius * 1e-6}), law)
 
 
+def _bead(count: float, factor: float) -> Problem:
+    """A bead on rubber, whatever the number of its records."""
+    return bead(work_of_adhesion=0.05 * factor)
+
+
+def _start_of_fit(count: float, factor: float) -> Problem:
+    """A bead on rubber whose modulus is wrong."""
+    return bead(_OFF * 1.5e6, 0.05 * factor)
+
+
+def _evaluated(quantity: str, model: str, problem: Problem) -> Numbers:
+    """Return a value with its bound, unknowns and Newton steps; of a curve only that it is there."""
+    row = evaluate(model, quantity, problem)
+    if row.status != "ok":
+        raise RuntimeError(row.reason)
+    return {"value": row.value, "u_num": row.u_num, "unknowns": row.size, "iterations": row.iterations}
+
+
+def _fitted(problem: Problem, records: Sequence[Record]) -> Numbers:
+    """Fit the modulus to each record, and return the mean."""
+    keys = free_keys(problem, [_MODULUS])
+    values = [fit_record(record, problem, keys, model="fscm").parameters[_MODULUS].value for record in records]
+    return {"value": float(np.mean(values)), "u_num": None, "unknowns": None, "iterations": None}
+
+
 @dataclass(frozen=True)
 class Kind:
     """Problems of one kind, of several sizes.
@@ -82,12 +114,22 @@ class Kind:
         By the name of the model.
     full : dict of str to tuple of float
         Those that take long.
+    quantity : str
+        A quantity, or `FIT`: the modulus of the problem is fitted to as many records as the size.
     """
 
     size: str
     problem: Callable[[float, float], Problem]
     sizes: dict[str, tuple[float, ...]]
     full: dict[str, tuple[float, ...]]
+    quantity: str = "pull_off_force"
+
+    def computation(self, model: str, size: float, factor: float) -> Callable[[], Numbers]:
+        """Return what is measured: a function that computes the quantity of the problem of a size and a factor."""
+        problem = self.problem(size, factor)
+        if self.quantity == FIT:
+            return partial(_fitted, problem, [record(_bead(size, factor), seed) for seed in range(int(size))])
+        return partial(_evaluated, self.quantity, model, problem)
 
 
 KINDS = {
@@ -99,7 +141,12 @@ KINDS = {
     "layers": Kind("films", _layers, {"fscm": (1, 2, 4)}, {"fscm": (8,), "fem": (1, 2, 4)}),
     "measured punch": Kind("rows", _measured, {"fscm": (20, 50)}, {"fscm": (100, 200), "fem": (10, 20)}),
     "ball": Kind("um", _ball, {"fscm": (5,), "fem-large-strain": (5,)}, {}),
+    "force curve": Kind("mu", partial(_of_numbers, 2.0, 0.0), {"fscm": (1, 10, 100)}, {"fem": (1, 10)}, "force_curve"),
+    "fit of curves": Kind("curves", _start_of_fit, {"fscm": (1, 2, 4)}, {"fscm": (8,)}, FIT),
 }
+
+#: More panels are in two rows.
+_MOST_BESIDE = 4
 
 #: The time to which the others are compared.
 _UNIT = ("n = 2, k = 0.4", "fscm")
@@ -116,7 +163,7 @@ def plan(full: bool) -> list[Numbers]:
 
 
 def cost_of_kind(problem: str, size: float, model: str) -> Numbers:
-    """Return the pull-off force of a problem, with its bound, CPU times of the first and of a further one, and memory.
+    """Return the value of a problem, with its bound, CPU times of the first and of a further one, memory and floor.
 
     Raises
     ------
@@ -125,19 +172,18 @@ def cost_of_kind(problem: str, size: float, model: str) -> Numbers:
     """
     kind, seconds, peak = KINDS[problem], [], None
     for factor in (NEIGHBOUR, 1.0, 1.0 + _APART):
+        compute = kind.computation(model, size, factor)
         begin = time.process_time()
-        row = evaluate(model, "pull_off_force", kind.problem(size, factor))
+        computed = compute()
         seconds.append(time.process_time() - begin)
-        if row.status != "ok":
-            raise RuntimeError(row.reason)
         if factor == 1.0:
-            value, u_num = row.value, row.u_num
+            numbers = computed
         if peak is None:
             peak = peak_memory()
         elif seconds[-1] > LONG:
             break
     times = {"cpu_seconds": min(seconds[1:]), "cold_seconds": seconds[0], "megabytes": peak}
-    return {"value": value, "u_num": u_num, **times}
+    return {**numbers, **times, "floor_seconds": floor_seconds(model, numbers["unknowns"], numbers["iterations"])}
 
 
 def ratios(rows: pd.DataFrame) -> pd.DataFrame:
@@ -167,18 +213,24 @@ def summary(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def draw(rows: pd.DataFrame) -> Figure:
-    """Draw the CPU time over the size, one panel for each kind of problem with several sizes."""
+    """Draw CPU time and floor over the size, one panel for each kind of problem with several sizes."""
     names: Sequence[str] = [name for name in rows["problem"].unique() if _sizes(rows, name) > 1] or [
         rows["problem"].iloc[0]
     ]
     models = list(rows["model"].unique())
+    lines = 1 + (len(names) > _MOST_BESIDE)
     with styled():
-        figure = new_figure(3.4 * len(names), 3.2)
-        lattice = panels(figure, list(names), "size", "CPU time (s)", sharey=True)
-        for axes, name in zip(lattice, names, strict=True):
+        columns = -(-len(names) // lines)
+        figure = new_figure(3.4 * columns, 3.2 * lines)
+        lattice = panels(figure, [*names, *[""] * (lines * columns - len(names))], "", "CPU time (s)", lines)
+        for axes in lattice[len(names) :]:
+            axes.remove()
+        for axes, name in zip(lattice, names, strict=False):
             for model, line in rows[rows["problem"] == name].groupby("model", sort=False):
                 index = models.index(model)
-                axes.loglog("size", "cpu_seconds", data=line, color=COLOURS[index], marker=MARKERS[index], label=model)
+                style = {"color": COLOURS[index], "marker": MARKERS[index]}
+                axes.loglog("size", "cpu_seconds", data=line, label=model, **style)
+                draw_floor(axes, line, "size", style)
             axes.set_xlabel(KINDS[name].size)
             sizes = sorted(rows.loc[rows["problem"] == name, "size"].unique())
             axes.set_xticks(sizes, [f"{size:g}" for size in sizes])

@@ -1,4 +1,4 @@
-"""A run of the benchmark: what is measured, stored, written and printed; renewal of the committed one.
+"""A run of the benchmark: what is measured, compared, stored, written and printed; renewal of the committed one.
 
 Each finished measurement is in the store of the folder before the next one begins, so that a run that is stopped can
 be resumed; each keeps the record of the machine that made it.
@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import pandas as pd
 
+from comparisons.bench import adhesion_fft, progress
 from comparisons.bench.cold_starts import COLD_STARTS
 from comparisons.bench.kinds import KINDS_OF_PROBLEMS
 from comparisons.bench.part import Part
@@ -59,7 +60,9 @@ class FinishedBench(NamedTuple):
     failures: list[str]
 
 
-def run_bench(folder: Path, only: Sequence[str] | None = None, *, full: bool = False) -> FinishedBench:
+def run_bench(
+    folder: Path, only: Sequence[str] | None = None, *, full: bool = False, against: Path | None = None
+) -> FinishedBench:
     """Measure what the folder does not have, or has as failures, and write tables, figures and record.
 
     Parameters
@@ -70,13 +73,18 @@ def run_bench(folder: Path, only: Sequence[str] | None = None, *, full: bool = F
         Names of parts (`PARTS`); all by default.
     full : bool
         Whether the settings that take long are measured, too.
+    against : Path, optional
+        Folder of another run, to which the times are compared; by default the committed one where it is at hand.
 
     Raises
     ------
     ValueError
-        For an unknown part, or a folder that cannot be used, as one with measurements of other code.
+        For an unknown part, or a folder that cannot be used, as one with measurements of other code, or one to compare
+        with that is no benchmark.
     """
     parts = parts_of(only)
+    against = against or (BENCH_BASELINE if has_bench(BENCH_BASELINE) else None)
+    earlier = progress.stored_tables(against) if against else None
     with locked(prepare_folder(folder)):
         calls = [call for part in parts for call in part.calls(full)]
         computed = make_calls(calls, folder, apart=True)
@@ -84,9 +92,14 @@ def run_bench(folder: Path, only: Sequence[str] | None = None, *, full: bool = F
         record = environment()
         machine = record["machine"]
         summary = [f"{machine['cpu']}, {machine['cores']} cores; ratios of one run on it:"[:80]]
+        tables = {part.name: part.table(full, computed.outcomes) for part in parts}
         for part in parts:
-            summary += _written(folder, part, part.table(full, computed.outcomes))
-        content = {"arguments": {"only": only and list(only), "full": full}, **record, "parts": computed.parts}
+            summary += _written(folder, part, tables[part.name])
+        summary += _progress_written(folder, progress.progress(tables, earlier), against)
+        if WORK_PRECISION in parts and not adhesion_fft.is_installed():
+            summary.append("adhesion is left out: `pip install Adhesion` adds it")
+        arguments = {"only": only and list(only), "full": full, "against": against and str(against)}
+        content = {"arguments": arguments, **record, "parts": computed.parts}
         write_json({**content, "failures": len(failures)}, folder / BENCH)
         write_file(folder / BENCH_SUMMARY, "".join(f"{line}\n" for line in summary))
     return FinishedBench(summary, failures)
@@ -103,6 +116,18 @@ def _written(folder: Path, part: Part, table: pd.DataFrame) -> list[str]:
         save(part.draw(finished), figure_file)  # type: ignore[misc]  # it has a file
     lines = part.summary(finished).to_string(index=False, float_format="%.3g", na_rep="")
     return [f"{part.title}:", *lines.splitlines()]
+
+
+def _progress_written(folder: Path, table: pd.DataFrame, against: Path | None) -> list[str]:
+    """Write table and figure of the times now, then and at the floor; return what is printed."""
+    if table.empty:
+        return []
+    table_file, figure_file = (folder / name for name in progress.FILES)
+    write_file(table_file, csv_text(table.reset_index(names="row")))
+    save(progress.draw(table), figure_file)
+    lines = progress.summary(table).to_string(index=False, float_format="%.3g", na_rep="")
+    then = [f"then is {against}"[:80]] if against else []
+    return [f"{progress.TITLE}:", *lines.splitlines(), *then]
 
 
 def has_bench(folder: Path) -> bool:
@@ -122,4 +147,8 @@ def renew(folder: Path, target: Path = BENCH_BASELINE) -> list[Path]:
     if failures:
         raise ValueError(f"{folder} has {failures} failed measurements: repeat `fscm-bench bench`")
     sources = {name: [folder / name] for name in (BENCH, BENCH_SUMMARY)}
-    return replace_files(sources | {part.name: part.files(folder) for part in parts_of(None)}, folder, target)
+    sources |= {part.name: part.files(folder) for part in parts_of(None)}
+    compared = [folder / name for name in progress.FILES]
+    if all(file.is_file() for file in compared):
+        sources["progress"] = compared
+    return replace_files(sources, folder, target)

@@ -1,4 +1,4 @@
-"""Error against CPU time: pull-off force of a sphere on a homogeneous half-space by both references and two schemes.
+"""Error against CPU time: pull-off force of a sphere on a homogeneous half-space by both references and other schemes.
 
 A measurement has the CPU time of the first pull-off force of a process and of a further one, and memory.  The error is
 that against the certified pull-off force.
@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 
 import fem_reference
 import fscm
-from comparisons.bench import greenwood
+from comparisons.bench import adhesion_fft, greenwood
+from comparisons.bench.floor import draw_floor, floor_seconds
 from comparisons.bench.part import Numbers, Part
 from comparisons.models.fem_model import FiniteElements
 from comparisons.output.style import COLOURS, MARKERS, new_figure, styled
@@ -31,15 +32,17 @@ CERTIFIED = {
     1.0: (1.6706647764763, 1.6e-12),
 }
 
-#: Settings of each solver: accuracies, segments of the scheme of the paper, which has 2500, and rings of Greenwood's.
+#: Settings of each solver: accuracies, segments of the scheme of the paper, which has 2500, rings of Greenwood's, and
+#: points along a side of the grid of Adhesion.
 _SETTINGS = {
     "fscm": ("1e-04", "1e-05", "1e-06", "1e-07", "1e-08", "1e-09", "1e-10"),
     "fem": ("quick", "default", "fine"),
     "fscm-stieltjes": ("250", "500", "1000", "2500"),
     "greenwood": ("50", "100", "200"),
+    "adhesion": ("64", "128", "256"),
 }
 #: Measured with `full` only.
-_FULL = "2500"
+_FULL = {("fscm-stieltjes", "2500"), ("adhesion", "256")}
 
 #: Computations of one measurement: the least CPU time of them counts, because other programs only add to it.
 _REPEATS = 3
@@ -53,42 +56,63 @@ _APART = 1e-6
 
 
 def plan(full: bool) -> list[Numbers]:
-    """Return the solvers with all their settings."""
+    """Return the solvers with all their settings; Adhesion only where it is installed."""
+    left_out = set() if adhesion_fft.is_installed() else {"adhesion"}
     return [
         {"n": 2.0, "k": 0.0, "mu": mu, "model": model, "setting": setting}
         for mu in CERTIFIED
         for model, settings in _SETTINGS.items()
         for setting in settings
-        if full or setting != _FULL
+        if model not in left_out and (full or (model, setting) not in _FULL)
     ]
 
 
 def _by_fscm(problem: fscm.Problem, accuracy: str) -> Numbers:
     solution = fscm.solve(problem, "pull_off_force", float(accuracy))
-    return {"value": solution.value, "u_num": solution.u_num, "unknowns": solution.size}
+    return {"value": solution.value, "u_num": solution.u_num, **_effort(solution)}
 
 
 def _by_elements(problem: fscm.Problem, accuracy: str) -> Numbers:
     """Solve the physical problem; its load is in the unit of the pull-off force."""
     units, body = FiniteElements().physical(Problem.dimensionless(problem.n, problem.k, problem.mu))
     solution, unit = fem_reference.solve(body, "pull_off_force", accuracy), units["load"]
-    return {"value": solution.value / unit, "u_num": solution.u_num / unit, "unknowns": solution.size}
+    return {"value": solution.value / unit, "u_num": solution.u_num / unit, **_effort(solution)}
+
+
+def _effort(solution: fscm.Solution | fem_reference.Solution) -> Numbers:
+    return {"unknowns": solution.size, "iterations": solution.iterations}
 
 
 def _by_stieltjes(problem: fscm.Problem, segments: str) -> Numbers:
     event = find_event(StieltjesScheme(problem, int(segments)), "pull_off")
-    return {"value": -event.load, "u_num": None, "unknowns": int(segments)}
+    return {"value": -event.load, "u_num": None, "unknowns": int(segments), "iterations": None}
 
 
 def _by_greenwood(problem: fscm.Problem, rings: str) -> Numbers:
-    return {"value": greenwood.pull_off_force(problem.mu, int(rings)), "u_num": None, "unknowns": int(rings)}
+    return {
+        "value": greenwood.pull_off_force(problem.mu, int(rings)),
+        "u_num": None,
+        "unknowns": int(rings),
+        "iterations": None,
+    }
 
 
-_SOLVERS = {"fscm": _by_fscm, "fem": _by_elements, "fscm-stieltjes": _by_stieltjes, "greenwood": _by_greenwood}
+def _by_adhesion(problem: fscm.Problem, points: str) -> Numbers:
+    force = adhesion_fft.pull_off_force(problem.mu, int(points))
+    return {"value": force, "u_num": None, "unknowns": int(points) ** 2, "iterations": None}
+
+
+_SOLVERS = {
+    "fscm": _by_fscm,
+    "fem": _by_elements,
+    "fscm-stieltjes": _by_stieltjes,
+    "greenwood": _by_greenwood,
+    "adhesion": _by_adhesion,
+}
 
 
 def cost_of_pull_off(n: float, k: float, mu: float, model: str, setting: str) -> Numbers:
-    """Return the pull-off force of a problem by a solver, with its bound, unknowns, CPU times and memory.
+    """Return the pull-off force of a problem by a solver, with its bound, unknowns, CPU times, memory and floor.
 
     ``cold_seconds`` is the CPU time of the first pull-off force of the process, with the imports that it needs, and
     ``megabytes`` the peak of the memory of the process after it; ``cpu_seconds`` is the CPU time of a further one.
@@ -97,9 +121,9 @@ def cost_of_pull_off(n: float, k: float, mu: float, model: str, setting: str) ->
     ----------
     n, k, mu : float
     model : str
-        fscm, fem, fscm-stieltjes or greenwood.
+        fscm, fem, fscm-stieltjes, greenwood or adhesion.
     setting : str
-        An accuracy (fscm, fem), how many segments (fscm-stieltjes), or rings (greenwood).
+        An accuracy (fscm, fem), how many segments (fscm-stieltjes), rings (greenwood), or points (adhesion).
     """
     solved: list[Numbers] = []
     seconds: list[float] = []
@@ -112,7 +136,8 @@ def cost_of_pull_off(n: float, k: float, mu: float, model: str, setting: str) ->
             peak = peak_memory()
         elif seconds[-1] > LONG:
             break
-    return {**solved[1], "cpu_seconds": min(seconds[1:]), "cold_seconds": seconds[0], "megabytes": peak}
+    times = {"cpu_seconds": min(seconds[1:]), "cold_seconds": seconds[0], "megabytes": peak}
+    return {**solved[1], **times, "floor_seconds": floor_seconds(model, solved[1]["unknowns"], solved[1]["iterations"])}
 
 
 def peak_memory() -> float | None:
@@ -156,7 +181,7 @@ def time_ratios(rows: pd.DataFrame) -> list[float]:
 
 
 def draw(rows: pd.DataFrame) -> Figure:
-    """Draw error against CPU time, one panel a Tabor number."""
+    """Draw error against CPU time with its floor, one panel a Tabor number."""
     drawn = rows.sort_values("cpu_seconds")
     # A smaller error is drawn where it is known to be.
     drawn = drawn.assign(error=np.maximum(drawn["error"], drawn["u_error"]))
@@ -168,8 +193,11 @@ def draw(rows: pd.DataFrame) -> Figure:
         for axes, mu in zip(lattice, tabor_numbers, strict=True):
             models = list(_SETTINGS)
             for index, line in enumerate(of_model(drawn[drawn["mu"] == mu], *models)):
-                style = {"color": COLOURS[index], "marker": MARKERS[index], "label": models[index]}
-                axes.loglog("cpu_seconds", "error", data=line, **style)
+                if line.empty:
+                    continue
+                style = {"color": COLOURS[index], "marker": MARKERS[index]}
+                axes.loglog("cpu_seconds", "error", data=line, label=models[index], **style)
+                draw_floor(axes, line, "error", style, across=True)
             axes.legend()
     return figure
 

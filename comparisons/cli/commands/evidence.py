@@ -56,6 +56,7 @@ def paper_command(args: argparse.Namespace) -> int:
         default=Path("results", "runs", "bench"),
         help="folder for the files (default: %(default)s); resumed if it has some measurements",
     ),
+    file("--against", metavar="DIR", help="folder of a run to compare with (default: the committed one of a clone)"),
     QUIET,
 )
 def bench_command(args: argparse.Namespace) -> int:
@@ -65,7 +66,7 @@ def bench_command(args: argparse.Namespace) -> int:
 
         fscm-bench bench --only work-precision
     """
-    finished = run_bench(args.out, args.only, full=args.full)
+    finished = run_bench(args.out, args.only, full=args.full, against=args.against)
     if not args.quiet:
         print_lines(finished.summary)
     for failure in finished.failures:
