@@ -26,7 +26,7 @@ _FSCM, _FEM = _SOLVE.format("fscm", 0.4), _SOLVE.format("fem", 0.4)
 
 #: Commands, and the imports of the least interpreter that could do each; None where no least is known.
 _COMMANDS = {
-    BARE: "sys",
+    BARE: None,
     "--help": "argparse",
     "list models": "argparse",
     "cite": "argparse",
