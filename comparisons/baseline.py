@@ -87,7 +87,7 @@ def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
     contents = {}
     for name, source in _FILES[arguments["tier"]].items():
         if not (folder / source).exists():
-            raise ValueError(f"{folder} lacks {source}: renew the baseline from the folder of a finished run")
+            raise ValueError(f"{folder} lacks {source}: renew the baseline from the folder of `fscm-bench run --pdf`")
         contents[name] = (folder / source).read_bytes()
         if name in _COLUMNS:
             table = read_table(folder / source)

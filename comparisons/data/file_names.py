@@ -35,7 +35,7 @@ COMPARISON = "comparison"
 #: Files of `comparisons.compare`.
 COMPARISON_FILES = tuple(f"{COMPARISON}.{suffix}" for suffix in ("csv", "png", "pdf"))
 
-#: Pictures: each is written as PNG and as PDF.
+#: Pictures: each is written as PNG, and with --pdf as PDF.
 KAPPA_FIGURE, REFERENCES = "fig16b_kappa", "references"
 #: All pictures of a run.
 FIGURES = (KAPPA_FIGURE, AGREEMENT, REFERENCES)

@@ -182,8 +182,9 @@ def save(figure: Figure, *paths: Path) -> None:
     suffixes = [picture_path(path).suffix.lower() for path in paths]
     with styled():
         # One layout for all formats.
-        figure.draw_without_rendering()
-        figure.set_layout_engine("none")
+        if engine := figure.get_layout_engine():
+            engine.execute(figure)
+            figure.set_layout_engine("none")
         for path, suffix in zip(paths, suffixes, strict=True):
             with atomic(path) as file:
                 figure.savefig(file, format=suffix[1:], metadata=_METADATA[suffix])

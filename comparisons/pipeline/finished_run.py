@@ -54,7 +54,9 @@ class FinishedRun:
         return self.judgement.verdict if self.judgement else None
 
 
-def write_run(folder: Path, inputs: RunInputs, completed: Completed, started: str, **arguments: Any) -> FinishedRun:
+def write_run(
+    folder: Path, inputs: RunInputs, completed: Completed, started: str, *, pdf: bool = False, **arguments: Any
+) -> FinishedRun:
     """Write what follows from the rows of a run into its folder: tables, pictures, verdicts and the record.
 
     Parameters
@@ -65,6 +67,8 @@ def write_run(folder: Path, inputs: RunInputs, completed: Completed, started: st
         The rows.
     started : str
         When the command began.
+    pdf : bool
+        Whether the pictures are written as PDF, too.
     **arguments
         How they were computed, as the record holds it beside the inputs; None for what was not given.
     """
@@ -73,7 +77,7 @@ def write_run(folder: Path, inputs: RunInputs, completed: Completed, started: st
     tables = make_tables(rows, cases, inputs.models)
     write_tables(tables, folder)
     if cases.tier is not None:
-        write_pictures(tables, folder)
+        write_pictures(tables, folder, pdf=pdf)
     for path, content in texts.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         write_file(path, content)

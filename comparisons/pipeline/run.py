@@ -41,6 +41,7 @@ def run(
     shard: str | None = None,
     random: int = 0,
     seed: int | None = None,
+    pdf: bool = False,
 ) -> FinishedRun:
     """Compute cases, judge the results, and write tables, verdicts and the record into a folder.
 
@@ -66,6 +67,8 @@ def run(
         Number of fresh cases drawn at random for each model and gate, in the domain that the model declares.
     seed : int, optional
         Seed of the fresh cases; by default a new one, which the record states.
+    pdf : bool
+        Whether the pictures of the standing cases are written as PDF beside PNG.
 
     Returns
     -------
@@ -98,7 +101,7 @@ def run(
     >>> finished.verdict, finished.counts["ok"], finished.tables.kappa["kappa"].round(6).tolist()
     (None, 2, [-0.25])
     """
-    with running(cases, gates, models, folder, jobs=jobs, shard=shard, random=random, seed=seed) as finished:
+    with running(cases, gates, models, folder, jobs=jobs, shard=shard, random=random, seed=seed, pdf=pdf) as finished:
         return finished
 
 
@@ -113,6 +116,7 @@ def running(
     shard: str | None = None,
     random: int = 0,
     seed: int | None = None,
+    pdf: bool = False,
 ) -> Iterator[FinishedRun]:
     """Give the finished run of `run` to a block that writes more into its folder, which is locked until its end.
 
@@ -135,7 +139,7 @@ def running(
             by_gates = inputs.cases.tier is not None and (models is not None or gates is not None)
             tasks = inputs.needed() if by_gates else inputs.plan()
             completed = complete(tasks if shard is None else tasks_of_shard(shard, tasks), target, jobs)
-            yield write_run(target, inputs, completed, started, shard=shard)
+            yield write_run(target, inputs, completed, started, pdf=pdf, shard=shard)
 
 
 def _inputs(

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA, LARGEST_KAPPA, RESULTS
+from comparisons.data.file_names import AGREEMENT, CURVES, FIGURES, KAPPA, LARGEST_KAPPA, RESULTS
 from comparisons.output.errors import agreement, largest, relative_error
 from comparisons.output.figures.of_run import figures_of
 from comparisons.output.style import save
@@ -93,7 +93,10 @@ def write_tables(tables: RunTables, folder: Path) -> None:
             write_table(table, folder / name)
 
 
-def write_pictures(tables: RunTables, folder: Path) -> None:
-    """Draw the pictures of the standing cases, as far as there are rows for them, for screen and print."""
+def write_pictures(tables: RunTables, folder: Path, *, pdf: bool = False) -> None:
+    """Draw the pictures of the standing cases, as far as there are rows for them, as PNG and perhaps also as PDF."""
+    for name in FIGURES:
+        # One of an earlier run of the folder could show other rows.
+        (folder / f"{name}.pdf").unlink(missing_ok=True)
     for name, figure in figures_of({KAPPA: tables.kappa, AGREEMENT: tables.agreement, CURVES: tables.curves}):
-        save(figure, *(folder / f"{name}{suffix}" for suffix in (".png", ".pdf")))
+        save(figure, *(folder / f"{name}{suffix}" for suffix in ((".png", ".pdf") if pdf else (".png",))))

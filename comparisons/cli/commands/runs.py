@@ -41,6 +41,7 @@ _FRESH = "also judge each model of --model in N fresh cases of its domain"
     file("--gates", help="judge by these gates instead of the standing ones"),
     option("--random", metavar="N", type=INTEGER, default=0, help=_FRESH),
     option("--seed", metavar="S", type=INTEGER, help="seed of the fresh cases (default: random)"),
+    option("--pdf", action="store_true", help="write the figures as PDF, too"),
     JOBS,
     OUT,
     VERBOSE,
@@ -60,7 +61,8 @@ def run_command(args: argparse.Namespace) -> int:
     if args.cases is not None and args.tier is not None:
         raise ValueError(f"--tier {args.tier} is of the standing cases; give it, or --cases FILE")
     cases = args.cases or args.tier or TIERS[0]
-    finished = run(cases, args.gates, args.model, args.out, jobs=args.jobs, random=args.random, seed=args.seed)
+    fresh = {"random": args.random, "seed": args.seed}
+    finished = run(cases, args.gates, args.model, args.out, jobs=args.jobs, pdf=args.pdf, **fresh)
     if not args.quiet:
         for table in largest_errors(finished.tables.kappa):
             output().print(table)

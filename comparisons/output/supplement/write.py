@@ -6,18 +6,21 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
-from comparisons.data.file_names import RECORD, RUN_FILES
+from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA, RECORD, RUN_FILES
 from comparisons.output.citation import as_bibtex, methods, works
 from comparisons.output.errors import error_summary, ranked, within_ranges
+from comparisons.output.figures.of_run import figures_of
 from comparisons.output.latex import latex
 from comparisons.output.region_table import region_table
 from comparisons.output.report import tables as page_tables
 from comparisons.output.report.stored_run import Stored
+from comparisons.output.style import save
 from comparisons.output.supplement.best_models import best_model_tables
 from comparisons.output.supplement.data_package import data_package
 from comparisons.output.supplement.document import DATA, DOCUMENT, FIGURES, REFERENCES, TABLES, document
 from comparisons.output.table import Table, laid_out
 from comparisons.runs.atomic_files import prepare_folder, write_file, write_json
+from comparisons.runs.csv_format import read_table
 
 #: The description of the data, and of the folder.
 _PACKAGE, _README = "datapackage.json", "README.md"
@@ -72,9 +75,7 @@ def write_supplement(stored: Stored, run: Path, out: Path) -> None:
         write_file(out / TABLES / name, latex(table.on_paper, table.caption, table.id))
     # By our names: those of a record would go into commands of LaTeX.
     kept = [name for name in RUN_FILES if name in stored.record["files"]]
-    figures = [name for name in kept if name.endswith(".pdf")]
-    for name in figures:
-        shutil.copyfile(run / name, out / FIGURES / name)
+    figures = _write_figures(kept, run, out / FIGURES)
     data = [name for name in kept if name.endswith(".csv")]
     for name in (*data, RECORD):
         shutil.copyfile(run / name, out / DATA / name)
@@ -85,6 +86,21 @@ def write_supplement(stored: Stored, run: Path, out: Path) -> None:
     names = {"document": DOCUMENT, "tables": TABLES, "figures": FIGURES, "references": REFERENCES, "data": DATA}
     command = " ".join(stored.record["command"])
     write_file(out / _README, _ABOUT.format(command=command, package=_PACKAGE, **names))
+
+
+def _write_figures(kept: list[str], run: Path, folder: Path) -> list[str]:
+    """Write each figure of a run as PDF, a copy or drawn from the tables of the run; return the names."""
+    names = [Path(name).with_suffix(".pdf").name for name in kept if name.endswith(".png")]
+    for name in names:
+        if name in kept:
+            shutil.copyfile(run / name, folder / name)
+    missing = [name for name in names if name not in kept]
+    if missing:
+        tables = {name: read_table(run / f"{name}.csv") for name in (KAPPA, AGREEMENT, CURVES) if f"{name}.csv" in kept}
+        for stem, figure in figures_of(tables):
+            if f"{stem}.pdf" in missing:
+                save(figure, folder / f"{stem}.pdf")
+    return [name for name in names if (folder / name).exists()]
 
 
 def _references(stored: Stored) -> dict[str, float]:

@@ -54,8 +54,15 @@ def test_the_function_and_the_command_leave_the_same_tables_and_record(small_gri
 def test_the_figure_of_the_paper_is_drawn_where_there_are_its_cases(tmp_path, monkeypatch):
     grid = grid_text(["md-improved"], "fscm", tier="quick", n=[2], k=[0, 0.4], mu=[0.5, 1])
     monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(grid))
-    run(tmp_path)
-    assert (tmp_path / "fig16b_kappa.png").exists()
+    for options, has_pdf in ((["--pdf"], True), ([], False)):
+        run(tmp_path, *options)
+        assert (tmp_path / "fig16b_kappa.png").exists()
+        # A figure that is not written again would be of other rows.
+        assert (tmp_path / "fig16b_kappa.pdf").exists() == has_pdf
+        assert ("fig16b_kappa.pdf" in read_record(tmp_path / "run.json")["files"]) == has_pdf
+    assert main(["supplement", str(tmp_path), "--out", str(tmp_path / "paper")]) == 0
+    assert (tmp_path / "paper" / "figures" / "fig16b_kappa.pdf").read_bytes().startswith(b"%PDF")
+    assert "fig16b_kappa.pdf" in (tmp_path / "paper" / "supplement.tex").read_text()
 
 
 def interrupt_after(count, error=KeyboardInterrupt):
