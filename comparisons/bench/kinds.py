@@ -222,9 +222,8 @@ def draw(rows: pd.DataFrame) -> Figure:
     with styled():
         columns = -(-len(names) // lines)
         figure = new_figure(3.4 * columns, 3.2 * lines)
-        lattice = panels(
-            figure, [*names, *[""] * (lines * columns - len(names))], "", "CPU time (s)", lines, sharey=True
-        )
+        words = [*names, *[""] * (lines * columns - len(names))]
+        lattice = panels(figure, words, "", "CPU time (s)", lines, sharey=True)
         for axes in lattice[len(names) :]:
             axes.remove()
         for axes, name in zip(lattice, names, strict=False):
