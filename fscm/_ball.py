@@ -19,9 +19,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-import scipy
 
 from fscm._ball_under_law import ball_under_law
+from fscm._roots import bracketed_root
 from fscm._typing import Array
 from fscm._whole_punch import WholePunchUnderMie
 from fscm.laws import LennardJones, Mie
@@ -268,4 +268,4 @@ def _peak_distance(body: BallUnderMie) -> float:
         at = _Distances(body.ball_radius, body.law.z0, body.ball_radius + d, d, unknown, unknown)
         return float(body._rate(at))
 
-    return body.ball_radius + body.law.z0 * math.exp(scipy.optimize.brentq(rate, *_LOG_PEAK, xtol=1e-15))
+    return body.ball_radius + body.law.z0 * math.exp(bracketed_root(rate, *_LOG_PEAK, 1e-15))

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-import scipy
-
 __all__ = ["response_factor", "response_factor_per_rest"]
 
 
@@ -31,19 +29,11 @@ def response_factor(k: float, nu: float) -> float:
     if k == 0.0:
         # q = 1 and every factor is elementary; the gamma functions would leave the last digit to chance.
         return 1.0
-    beta = (
-        scipy.special.gamma((3.0 + k + q) / 2.0)
-        * scipy.special.gamma((3.0 + k - q) / 2.0)
-        / scipy.special.gamma(3.0 + k)
-    )
+    beta = math.gamma((3.0 + k + q) / 2.0) * math.gamma((3.0 + k - q) / 2.0) / math.gamma(3.0 + k)
     front = (
-        2.0**k
-        * (k + 2.0)
-        / (k + 1.0)
-        * scipy.special.gamma((1.0 + k) / 2.0)
-        / (math.sqrt(math.pi) * scipy.special.gamma(1.0 + k / 2.0))
+        2.0**k * (k + 2.0) / (k + 1.0) * math.gamma((1.0 + k) / 2.0) / (math.sqrt(math.pi) * math.gamma(1.0 + k / 2.0))
     )
-    return float(front * q * math.sin(q * math.pi / 2.0) * beta)
+    return front * q * math.sin(q * math.pi / 2.0) * beta
 
 
 def response_factor_per_rest(k: float, nu: float) -> float:

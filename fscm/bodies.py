@@ -8,11 +8,11 @@ and without surface tension all bodies together respond there like one power law
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
-import scipy
 
 from fscm._response_factor import response_factor, response_factor_per_rest
 from fscm._typing import Array
@@ -128,7 +128,7 @@ def wave_factor(k: float) -> float:
     >>> wave_factor(0.0)
     1.0
     """
-    return float(scipy.special.gamma(0.5 - 0.5 * k) / (2.0**k * scipy.special.gamma(0.5 + 0.5 * k)))
+    return math.gamma(0.5 - 0.5 * k) / (2.0**k * math.gamma(0.5 + 0.5 * k))
 
 
 def tension_length(solid: Solid) -> float:

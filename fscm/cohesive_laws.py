@@ -25,6 +25,7 @@ from typing import Any
 import numpy as np
 import scipy
 
+from fscm._roots import bracketed_root
 from fscm._typing import Array
 from fscm._validation import real_number
 
@@ -39,6 +40,8 @@ _ROUNDING = 0.1
 _WALL, _STEEPNESS = 2.0, 4.0
 #: Overlap at which the trapezoid ends, in units of the rise: its wall there is 2e17 times the strength.
 _END_OF_TRAPEZOID = _WALL + 10.0
+#: Absolute tolerance of roots, of any size: the relative one counts.
+_NO_FLOOR = 1e-300
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,8 +157,8 @@ class CohesiveTrapezoid:
         object.__setattr__(self, "rise_end", rise)
         object.__setattr__(self, "fall_start", end)
         # The wall moves the origin outwards by less than a tenth of the rise.
-        origin = scipy.optimize.brentq(lambda h: float(self._shape(h, 0)), 0.0, rise, xtol=1e-300, rtol=1e-15)
-        peak = scipy.optimize.brentq(self._rising, 0.0, 0.5 * (1.0 + end), xtol=1e-300, rtol=1e-15)
+        origin = bracketed_root(lambda h: float(self._shape(h, 0)), 0.0, rise, _NO_FLOOR)
+        peak = bracketed_root(self._rising, 0.0, 0.5 * (1.0 + end), _NO_FLOOR)
         factor = -1.0 / float(self._shape(peak, 0))
         unit = self.z0 / (factor * float(self._shape(origin, -1)))
         for name, value in (("_origin", origin), ("_unit", unit), ("_factor", factor)):

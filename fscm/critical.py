@@ -10,13 +10,12 @@ import math
 import time
 from dataclasses import replace
 
-import scipy
-
 from fscm._bound.parts import EventErrors, bounds
 from fscm._path.arc_length import parameter_control, parameter_of, rates_of
 from fscm._path.continuation import moved
 from fscm._path.events import refined, slowest
 from fscm._path.whole_path import path_end, path_until
+from fscm._roots import bracketed_root
 from fscm._surface.discretisation import Discretisation
 from fscm._surface.newton import newton
 from fscm._surface.state import State
@@ -59,7 +58,7 @@ def _coarse_root(problem: Problem, meshes: Meshes) -> State:
         low, high = low - math.log(_WIDEN), low
         if low < -math.log(_WIDEST):
             raise NoSuchEvent(f"jumps persist down to mu = {1 / _WIDEST:.3g} at n = {problem.n}, k = {problem.k}")
-    root = scipy.optimize.brentq(rate, low, high, xtol=_COARSE_ROOT_TOLERANCE)
+    root = bracketed_root(rate, low, high, _COARSE_ROOT_TOLERANCE)
     return states[min(states, key=lambda x: abs(x - root))]
 
 

@@ -24,6 +24,7 @@ from typing import Any
 
 import numpy as np
 
+from fscm._roots import bracketed_root
 from fscm._typing import Array
 from fscm._validation import real_number
 
@@ -33,7 +34,7 @@ __all__ = ["Dlvo"]
 _TURN, _TURN_OF_SLOPE = 0.5 * (13.0 - math.sqrt(61.0)), 0.5 * (15.0 - math.sqrt(65.0))
 #: Least distance that is examined, in z0: the wall exceeds the attraction there by a factor of 1e6.
 _NEAREST = 0.1
-#: Tolerance of roots: four roundings, the least that `scipy.optimize.brentq` takes.
+#: Tolerance of roots: four roundings.
 _ROUNDING = 2.0**-50
 
 
@@ -159,10 +160,8 @@ class Dlvo:
 
         if excess(most) <= 0.0:
             return []
-        from scipy.optimize import brentq
-
         sections = (math.exp((level - math.log(end)) / power), most), (most, end * (1.0 - _ROUNDING))
-        return [length * float(brentq(excess, *section, xtol=_ROUNDING, rtol=_ROUNDING)) for section in sections]
+        return [length * bracketed_root(excess, *section, _ROUNDING, _ROUNDING) for section in sections]
 
 
 def _power(x: Any, exponent: float, order: int) -> Any:
@@ -174,15 +173,12 @@ def _power(x: Any, exponent: float, order: int) -> Any:
 
 def _roots(function: Callable[[float], float], turns: list[float]) -> list[float]:
     """Roots of a function of x that is monotone between its turns, times a power of x."""
-    # Imported here: every command imports the laws, and this takes a tenth of a second.
-    from scipy.optimize import brentq
-
     farthest = 2.0 * max([1.0, *turns])
     while function(farthest) * function(_NEAREST) > 0.0:
         farthest *= 2.0
     ends = [_NEAREST, *(turn for turn in turns if turn > _NEAREST), farthest]
     return [
-        float(brentq(function, a, b, xtol=_ROUNDING, rtol=_ROUNDING))
+        bracketed_root(function, a, b, _ROUNDING, _ROUNDING)
         for a, b in pairwise(ends)
         if function(a) * function(b) < 0.0
     ]

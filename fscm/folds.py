@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
-import scipy
 
 from fscm._path import events
 from fscm._path.arc_length import Point, parameter_of
 from fscm._path.punch_rules import rules_of
+from fscm._roots import bracketed_root
 from fscm._surface.state import State
 
 __all__ = ["Fold", "edge_radius", "fold_at", "folds_between", "folds_of"]
@@ -81,7 +81,7 @@ def edge_radius(state: State) -> float:
         at = np.array([s])
         return float((mesh.evaluate(state.gap, at) - force.peak_gap(state.scale * at))[0])
 
-    s = scipy.optimize.brentq(excess, low, high)
+    s = bracketed_root(excess, low, high)
     return float(state.scale * s)
 
 

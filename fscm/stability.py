@@ -24,8 +24,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import LinAlgError, lu_factor, lu_solve
-from scipy.sparse.linalg import ArpackError, LinearOperator, eigs
+import scipy
 
 from fscm._path.arc_length import Point, rates_of
 from fscm._surface.state import State
@@ -96,13 +95,13 @@ def margins(state: State, count: int = 1) -> Array:
     size = int(np.count_nonzero(attracted))
     try:
         stiffened = np.eye(len(slope)) + K * np.maximum(-slope, 0.0)
-        reduced = lu_solve(lu_factor(stiffened), K[:, attracted] * slope[attracted])[attracted]
+        reduced = np.linalg.solve(stiffened, K[:, attracted] * slope[attracted])[attracted]
         if size <= count + 1:
             values = np.linalg.eigvals(reduced)
         else:
-            operator = LinearOperator((size, size), matvec=lambda x: reduced @ x, dtype=float)
-            values = eigs(operator, k=count, which="LM", v0=np.ones(size), return_eigenvectors=False)
-    except (LinAlgError, ArpackError) as error:
+            largest = scipy.sparse.linalg.eigs
+            values = largest(reduced, k=count, which="LM", v0=np.ones(size), return_eigenvectors=False)
+    except (np.linalg.LinAlgError, scipy.sparse.linalg.ArpackError) as error:
         raise NotConverged(
             f"the stability of the state at H_0 = {state.central_gap:.6g} was not found: {error}",
             Failure.ITERATION,

@@ -48,11 +48,15 @@ def loaded(code):
         ("import fscm", _LARGE | {"scipy.linalg", "scipy.optimize", "scipy.interpolate", "fscm.analysis", "mpmath"}),
         ("import fscm; fscm.force_curve(2, 0, 1)", _LARGE | {"scipy.linalg", "scipy.optimize", "scipy.interpolate"}),
         (
+            "import fscm; fscm.solve(fscm.Problem(n=2, k=0.4, mu=1), 'pull_off_force')",
+            _LARGE | {"scipy.optimize", "scipy.special", "scipy.sparse", "scipy.integrate", "scipy.interpolate"},
+        ),
+        (
             "import fem_reference",
             _LARGE | {"scipy.linalg", "scipy.optimize", "scipy.interpolate", "skfem", "pyamg", "mpmath"},
         ),
     ],
-    ids=["fit", "fscm", "force_curve", "fem_reference"],
+    ids=["fit", "fscm", "force_curve", "fscm.solve", "fem_reference"],
 )
 def test_what_is_not_used_is_not_loaded(code, unused):
     assert not unused & loaded(code)

@@ -56,7 +56,17 @@ ALLOWED = {
 #: First layer to last: the modules and folders of each package.  A module imports from its own layer and those before.
 LAYERS = {
     "fscm": (
-        ("errors", "_typing", "_threads", "_validation", "_presentation", "_numbers", "_response_factor", "_law_curve"),
+        (
+            "errors",
+            "_typing",
+            "_threads",
+            "_validation",
+            "_presentation",
+            "_numbers",
+            "_response_factor",
+            "_law_curve",
+            "_roots",
+        ),
         ("laws", "tabulated_law", "cohesive_laws", "dlvo", "wells", "punch", "custom_punch", "measured_punch"),
         ("_whole_punch", "_chebyshev_tree", "_potential", "_potential_table"),
         ("_ball_under_law", "_ball", "_body_of_revolution", "_curved_face", "interaction"),

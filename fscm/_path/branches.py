@@ -6,10 +6,10 @@ import math
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
 from fscm._path.arc_length import ArcLength, Point
 from fscm._path.punch_rules import rules_of
+from fscm._roots import bracketed_root
 from fscm._surface.adaptivity import on_mesh, resolving
 from fscm._surface.anchors import AtEdge
 from fscm._surface.breaks import at_kinks, edge_mesh
@@ -49,7 +49,7 @@ def follow_edge(state: State, end_height: float, tolerance: float, edge_gap: flo
     inside = state.gap < target(state.radius)
     outer = int(np.flatnonzero(inside)[-1]) if np.any(inside) else -1
     low = -mesh.origin if outer < 0 else float(mesh.node_offsets[outer])
-    offset = scipy.optimize.brentq(excess, low, mesh.node_offsets[outer + 1])
+    offset = bracketed_root(excess, low, mesh.node_offsets[outer + 1])
     ratio = mesh.origin + offset
     scale = state.scale * ratio
 

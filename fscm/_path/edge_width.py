@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-import scipy
-
+from fscm._roots import bracketed_root
 from fscm._surface.response import response_of
 from fscm.errors import Failure, NotConverged
 from fscm.problem import Problem
@@ -43,7 +42,7 @@ def check_edge(problem: Problem) -> None:
         return
     log_mu = math.log10(problem.mu)
     if _log_width(problem, log_mu) < _NARROWEST:
-        largest = scipy.optimize.brentq(lambda x: _log_width(problem, x) - _NARROWEST, -400.0, log_mu)
+        largest = bracketed_root(lambda x: _log_width(problem, x) - _NARROWEST, -400.0, log_mu)
         raise NotConverged(
             f"the contact edge of {problem} is about 10^{_log_width(problem, log_mu):.0f} of its radius wide, below "
             f"10^{_NARROWEST:.0f}, which needs too much memory: the largest Tabor number at n = {problem.n:g}, "

@@ -15,6 +15,7 @@ import scipy
 
 from fscm._path.arc_length import Point, parameter_control, parameter_of, rates_of
 from fscm._path.continuation import moved
+from fscm._roots import bracketed_root
 from fscm._surface.adaptivity import adapted, balanced, indicator, lengthened, newton_tolerance, on_mesh, resolved
 from fscm._surface.breaks import at_joints, off_joints
 from fscm._surface.newton import newton
@@ -161,9 +162,7 @@ def locate(a: Point, b: Point, condition: Condition, tolerance: float = _COARSE_
         Of the continuation parameter.
     """
     between = Between(a, b)
-    root = scipy.optimize.brentq(
-        lambda x: condition(*between(x)), between.low, between.high, xtol=tolerance, rtol=1e-12
-    )
+    root = bracketed_root(lambda x: condition(*between(x)), between.low, between.high, tolerance, 1e-12)
     return between(root)[0]
 
 

@@ -39,8 +39,9 @@ __all__ = ["Kernel", "Phi", "Psi", "box_cox", "kernel_of", "ring_response"]
 #: fall like (3 + sqrt 8)^-m and 24 of them reach 1e-18.
 _NEAR_DEGREE = 24
 _NEAR_LIMIT = 0.5
-#: Terms of the Taylor series summed in extended precision at y <= 1/2: 2^-110 < 1e-33.
-_SERIES_TERMS = 110
+#: Terms of the Taylor series at y <= 1/2.  Those of D, C and F are of the size of 1, so that the others are below
+#: 2^-70 < 1e-21.
+_SERIES_TERMS = 70
 #: Below this exponent the k = 0 limit is exact in double precision even for distances of 1e-300, where the
 #: relative change of the kernel is k log(1e300) < 700 k.
 _SMALLEST_K = 1e-22

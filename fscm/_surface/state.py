@@ -19,8 +19,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import scipy
 
+from fscm._roots import bracketed_root
 from fscm._surface.anchors import Anchor, FixedScale
 from fscm._surface.discretisation import Discretisation
 from fscm._surface.mesh import PanelMesh
@@ -312,7 +312,7 @@ class SteepState(State):
         low = start if change > 0.0 else high - beyond(high)
         if beyond(low) >= 0.0 or beyond(high) <= 0.0:  # the same to rounding
             return math.exp(high)
-        return math.exp(scipy.optimize.brentq(beyond, low, high, xtol=1e-15, rtol=1e-15))
+        return math.exp(bracketed_root(beyond, low, high, 1e-15))
 
     def unknowns_at_scale(self, mesh: PanelMesh, scale: float, radii: Array) -> Array:
         """As for `State`."""

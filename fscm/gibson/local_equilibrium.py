@@ -6,20 +6,17 @@ F(H) = H - M p(H) = u and costs the energy e(u) = M p^2 / 2 + U(H) per area, de/
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import scipy
 
+from fscm._roots import bracketed_root
 from fscm.laws import SurfaceLaw
 
 __all__ = ["Front", "LocalEquilibrium", "root"]
 
-#: Relative accuracy of roots: brentq takes no less than 4 eps.
-_ROOT = 4.0 * sys.float_info.epsilon
 #: Absolute accuracy of roots, for that at zero (the equilibrium gap): M p is then exact to 16 M times as much.
 _ROOT_FLOOR = 1e-20
 
@@ -32,7 +29,7 @@ def root(f: Callable[[float], float], a: float, b: float) -> float:
     >>> root(lambda x: x * x - 2.0, 1.0, 2.0)
     1.41421356237...
     """
-    return float(scipy.optimize.brentq(f, a, b, xtol=_ROOT_FLOOR, rtol=_ROOT, maxiter=500))
+    return bracketed_root(f, a, b, _ROOT_FLOOR)
 
 
 @dataclass(frozen=True)

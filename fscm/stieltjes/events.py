@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
+from fscm._roots import bracketed_root
 from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm.errors import Failure, NoSuchEvent, NotConverged
@@ -100,7 +100,7 @@ def _between(
             f"between the central gaps {low:g} and {high:g} the path turns more than once",
             Failure.SCHEME,
         )
-    return at(float(scipy.optimize.brentq(lambda gap: measure(at(gap)), low, high, xtol=_EVENT_TOLERANCE, rtol=1e-15)))
+    return at(bracketed_root(lambda gap: measure(at(gap)), low, high, _EVENT_TOLERANCE))
 
 
 @dataclass(frozen=True)

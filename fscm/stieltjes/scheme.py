@@ -15,6 +15,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 import scipy
 
+from fscm._roots import bracketed_root
 from fscm._surface.kernel import Psi
 from fscm._threads import one_thread
 from fscm._typing import Array
@@ -175,7 +176,7 @@ class StieltjesScheme:
         high = 1.0
         while excess(high) < 0.0:
             high *= 2.0
-        return float(scipy.optimize.brentq(excess, 0.0, high, xtol=1e-300, rtol=1e-15))
+        return bracketed_root(excess, 0.0, high, 1e-300)
 
     @one_thread()
     def solve(self, central_gap: float, start: Array | None = None) -> StieltjesState:
