@@ -52,11 +52,16 @@ def loaded(code):
             _LARGE | {"scipy.optimize", "scipy.special", "scipy.sparse", "scipy.integrate", "scipy.interpolate"},
         ),
         (
+            "import fscm; solid = fscm.Coating(1.0, 9.0, 1.0, 0.1, 0.3);"
+            "from fscm._surface.response import response_of; response_of(solid).at_center(1e3, by_waves=True)",
+            _LARGE | {"scipy.optimize", "scipy.interpolate", "scipy.sparse"},
+        ),
+        (
             "import fem_reference",
             _LARGE | {"scipy.linalg", "scipy.optimize", "scipy.interpolate", "skfem", "pyamg", "mpmath"},
         ),
     ],
-    ids=["fit", "fscm", "force_curve", "fscm.solve", "fem_reference"],
+    ids=["fit", "fscm", "force_curve", "fscm.solve", "coating", "fem_reference"],
 )
 def test_what_is_not_used_is_not_loaded(code, unused):
     assert not unused & loaded(code)

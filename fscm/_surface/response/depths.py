@@ -11,15 +11,55 @@ from fscm._typing import Array
 from fscm.errors import Failure, NotConverged
 from fscm.solids import GradedHalfSpace
 
-__all__ = ["depth_intervals"]
+__all__ = ["changes_below", "depth_intervals", "interval_ranges"]
 
 #: Degree of the polynomials, and largest size of the last two coefficients of log E and nu: the remainder is below the
 #: error of the integration.
 _DEGREE, _LEFT = 10, 1e-11
+#: Largest ratio of the range of such a polynomial to that at its nodes: Lebesgue's constant is 2.4.
+_BETWEEN = 2.5
 #: First depth of the geometric division, in units of the length of the solid, and its ratio.
 _FIRST, _RATIO = 1.0 / 64.0, 2.0
 #: An interval shorter than this share of its depth is a jump that is not among the interfaces of the solid.
 _SHORTEST = 1e-9
+
+
+def interval_ranges(solid: GradedHalfSpace, ends: Array) -> Array:
+    """Least and largest log E and nu at the nodes of the intervals, shape (2 for log E and nu, 2, intervals)."""
+    values = _at_nodes(solid, ends[:-1], ends[1:])
+    return np.stack([values.min(axis=2), values.max(axis=2)], axis=1)
+
+
+def changes_below(ranges: Array, ends: Array, deepest: Array) -> Array:
+    """Bounds of the changes of log E and nu from any depth of an interval down to each of several deepest ones.
+
+    Parameters
+    ----------
+    ranges : ndarray, shape (2, 2, n)
+        From `interval_ranges`.
+    ends : ndarray, shape (n + 1,)
+        Ends of the intervals.
+    deepest : ndarray, shape (m,)
+        In the last interval.
+
+    Returns
+    -------
+    ndarray, shape (m, n)
+        At least what a polynomial on an interval leaves.
+    """
+    low, high = ranges[:, 0, ::-1], ranges[:, 1, ::-1]
+    changes = np.maximum.accumulate(high, axis=1) - np.minimum.accumulate(low, axis=1)
+    changes = np.tile(np.max(changes, axis=0)[::-1], (len(deepest), 1))
+    # Markov's inequality: the slope of a polynomial is at most the square of its degree times its range, per length.
+    changes[:, -1] *= np.minimum(1.0, _DEGREE**2 * (deepest - ends[-2]) / (ends[-1] - ends[-2]))
+    return np.maximum(_BETWEEN * changes, _LEFT)
+
+
+def _at_nodes(solid: GradedHalfSpace, a: Array, b: Array) -> Array:
+    """Log E and nu at the nodes of intervals, shape (2, n, nodes)."""
+    nodes = chebyshev.chebpts1(_DEGREE + 1)
+    z = a[:, None] + 0.5 * (b - a)[:, None] * (1.0 + nodes)
+    return np.stack([np.log(solid.modulus(z.ravel())), solid.poisson(z.ravel())]).reshape(2, *z.shape)
 
 
 def depth_intervals(solid: GradedHalfSpace, deepest: float) -> Array:
@@ -45,9 +85,7 @@ def depth_intervals(solid: GradedHalfSpace, deepest: float) -> Array:
     to_modes = np.linalg.inv(chebyshev.chebvander(nodes, _DEGREE))
     a, b = ends[:-1], ends[1:]
     while a.size:
-        z = a[:, None] + 0.5 * (b - a)[:, None] * (1.0 + nodes)
-        values = np.stack([np.log(solid.modulus(z.ravel())), solid.poisson(z.ravel())]).reshape(2, *z.shape)
-        bad = np.max(np.abs(values @ to_modes.T)[..., -2:], axis=(0, 2)) > _LEFT
+        bad = np.max(np.abs(_at_nodes(solid, a, b) @ to_modes.T)[..., -2:], axis=(0, 2)) > _LEFT
         a, b = a[bad], b[bad]
         if np.any(b - a < _SHORTEST * b):
             raise NotConverged(

@@ -32,6 +32,8 @@ _REACH = 1e-3
 #: Bessel integral: the first zero of J0 is reached in _HALVINGS intervals that double, then over _INTERVALS between
 #: zeros, the last _AVERAGED of which are weighted by Euler's transformation of an alternating series; nodes of each.
 _HALVINGS, _INTERVALS, _AVERAGED, _NODES = 44, 40, 24, 10
+#: Waves around a place, through which log D is interpolated; step of its slope at the ends.
+_AROUND, _STEP = 6, 1e-3
 
 
 @lru_cache(maxsize=1)
@@ -111,14 +113,26 @@ class DistantRing:
 
     def _compliance(self, log_xi: Array) -> Array:
         """D between the waves at which it is known, and a power of xi beyond them."""
-        log_waves, spline = self._spline
+        log_waves, log_values = self._at_waves
         inside = np.clip(log_xi, log_waves[0], log_waves[-1])
-        at_ends = spline(log_waves[[0, -1]], 1)
-        beyond = np.where(log_xi < inside, at_ends[0], at_ends[1]) * (log_xi - inside)
-        return np.asarray(np.exp(spline(inside) + beyond))
+        after, before = (_interpolated(log_waves, log_values, log_waves[[0, -1]] + x) for x in (_STEP, -_STEP))
+        beyond = np.where(log_xi < inside, *(after - before) / (2.0 * _STEP)) * (log_xi - inside)
+        return np.asarray(np.exp(_interpolated(log_waves, log_values, inside) + beyond))
 
     @cached_property
-    def _spline(self) -> tuple[Array, scipy.interpolate.CubicSpline]:
+    def _at_waves(self) -> tuple[Array, Array]:
         images = self._kernel.images
-        log_waves = np.log(images.waves)
-        return log_waves, scipy.interpolate.CubicSpline(log_waves, np.log(images.values))
+        return np.log(images.waves), np.log(images.values)
+
+
+def _interpolated(x: Array, y: Array, at: Array) -> Array:
+    """Values at any places by the polynomials through the _AROUND nearest of ascending x."""
+    first = np.clip(np.searchsorted(x, at) - _AROUND // 2, 0, len(x) - _AROUND)
+    nodes = [x[first + i] for i in range(_AROUND)]
+    total = np.zeros(at.shape)
+    for i, node in enumerate(nodes):
+        share = y[first + i]
+        for other in nodes[:i] + nodes[i + 1 :]:
+            share = share * (at - other) / (node - other)
+        total += share
+    return total

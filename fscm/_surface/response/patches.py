@@ -37,6 +37,9 @@ _HIGHEST, _ERROR, _PER_STRENGTH, _FALL = 15, 2e-13, 2e-15, 5.0
 #: polynomial is compared with the sum at _COMPARED distances, from the share _FROM of the longest one on.  The error is
 #: _OF_COMPARED times the largest difference: measured at most 1.05 times (offset power laws, k = 0.4 and 0.8).
 _COMPARED, _FROM, _OF_COMPARED = 25, 1e-8, 2.0
+#: Patches of the same A/B that are computed together: octaves from a multiple of this number on, so that no value
+#: depends on what was computed before.
+_TOGETHER = 8
 #: Range of the index of a patch in each direction: a pair of indices is one integer.
 _MOST = 256
 #: Index of the joined patches.
@@ -72,7 +75,7 @@ class _Patches:
         products = [chebyshev.chebmul(slope, [1.0, 1.0]) for slope in slopes.T]
         self._linear = np.stack([np.pad(c, (0, count - len(c))) for c in products], axis=1)
         for self.first_short in range(_SHORT, _LOWEST, -_LOWER):
-            joined = self._coefficients(self.first_short + _APART + _MOST // 2, _JOINED)
+            joined = self._joined(self.first_short + _APART + _MOST // 2)
             if _last(joined)[1] < self.least_error:
                 break
 
@@ -81,13 +84,11 @@ class _Patches:
         """Longest distance on the joined patches."""
         return math.exp(self.first_short * self.size)
 
-    def _coefficients(self, i: int, j: int) -> Array:
-        """Coefficients of the values on a patch, shape (degree + 1, degree + 1): in log A, then in log B or B."""
-        step = _STEPS * (j - _MOST // 2)
-        if j == _JOINED:
-            step = _STEPS * self.first_short - below_joined(self._degree)
+    def _joined(self, i: int) -> Array:
+        """Coefficients of the values on a joined patch, shape (degree + 1, degree + 1): in log A, then in B."""
+        step = _STEPS * self.first_short - below_joined(self._degree)
         apart = _STEPS * (i - _MOST // 2) - step
-        return ring_series(self._degree, _STEPS, apart, j == _JOINED).of(self._lattice, step)
+        return ring_series(self._degree, _STEPS, apart, True).of(self._lattice, np.array([step]))[0]
 
     def at(self, key: int) -> tuple[Array, float]:
         """Coefficients of value, then of derivative, shape (2 degree + 2, degree + 1), and a bound of their error.
@@ -96,12 +97,22 @@ class _Patches:
         """
         if key not in self._stored:
             i, j = divmod(key, _MOST)
-            c = self._coefficients(i, j)
-            in_A, in_B = _last(c)
-            error = max(in_A, self._compared(c, i) if j == _JOINED else in_B)
-            rate = self._derivative @ c + c @ (self._linear if j == _JOINED else self._derivative).T
-            self._stored[key] = np.concatenate([c.T, rate.T]), error
+            if j == _JOINED:
+                c = self._joined(i)
+                self._store([key], c[None], self._linear, [max(_last(c)[0], self._compared(c, i))])
+            else:
+                octaves = np.arange(_TOGETHER) + j // _TOGETHER * _TOGETHER
+                series = ring_series(self._degree, _STEPS, _STEPS * (i - j), False)
+                coefficients = series.of(self._lattice, _STEPS * (octaves - _MOST // 2))
+                keys = ((octaves + i - j) * _MOST + octaves).tolist()
+                self._store(keys, coefficients, self._derivative, [max(_last(c)) for c in coefficients])
         return self._stored[key]
+
+    def _store(self, keys: list[int], c: Array, by_B: Array, errors: list[float]) -> None:
+        """Store the coefficients of patches, shape (n, degree + 1, degree + 1): in log A, then in log B or B."""
+        rate = self._derivative @ c + c @ by_B.T
+        both = np.concatenate([c.swapaxes(1, 2), rate.swapaxes(1, 2)], axis=1)
+        self._stored |= dict(zip(keys, zip(both, errors, strict=True), strict=True))
 
     def _compared(self, c: Array, i: int) -> float:
         """Bound on the error of the polynomials of a joined patch."""

@@ -17,6 +17,7 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
 
 from fscm._surface.response.images import RAY, STEP
 from fscm._surface.response.kernel import image_ring, ring_mean
@@ -74,13 +75,11 @@ class Lattice:
         weights[1 : _HALF - 1] += np.conj(weights[: _HALF - 1 : -1])
         return np.asarray(weights[:_HALF])
 
-    def between(self, start: int, stop: int) -> ComplexArray:
-        """Strengths from one step to before another, shape (2, stop - start)."""
-        rows = np.zeros((2, stop - start), complex)
-        low, high = max(start, self.first), min(stop, self.stop)
-        if low < high:
-            rows[:, low - start : high - start] = self._rows[:, low - self.first : high - self.first]
-        return rows
+    def beginning_at(self, starts: NDArray[np.intp], count: int) -> ComplexArray:
+        """Strengths of so many steps from each of several on, shape (2, len(starts), count)."""
+        places = starts[:, None] + np.arange(count) - self.first
+        inside = (places >= 0) & (places < self._rows.shape[1])
+        return np.where(inside, self._rows[:, np.where(inside, places, 0)], 0.0)
 
 
 class RingSeries:
@@ -106,30 +105,34 @@ class RingSeries:
         self._B = math.exp(STEP * self._largest) * relative[None, :]
         self._A = (math.exp(STEP * apart) * np.exp(STEP * steps * share))[:, None]
         self._powers = (relative ** (2 * np.arange(_TERMS)[:, None])) @ self._to_modes.T
-        self._blocks: dict[tuple[int, int], Array | ComplexArray] = {}
+        self._blocks: dict[tuple[int, int], Array] = {}
         self._shallow = self._series(self._rings(_RADIUS * _CIRCLE[:_HALF]))
 
     def _rings(self, z: ComplexArray) -> ComplexArray:
         z = z[:, None, None]
         return np.asarray(1.0 / ring_mean(self._A**2 + z, self._B**2 + z))
 
-    def _series(self, rings: Array | ComplexArray) -> Array | ComplexArray:
-        series: Array | ComplexArray = self._to_modes @ (self._A * rings) @ self._to_modes.T
-        return series
+    def _series(self, rings: Array | ComplexArray) -> Array:
+        """Parts of the coefficients of rings, shape (parts, rings, degree + 1, degree + 1)."""
+        return _parts(self._to_modes @ (self._A * rings) @ self._to_modes.T)
 
-    def of(self, lattice: Lattice, step: int) -> Array:
-        """Coefficients, shape (degree + 1, degree + 1), in log A, then in log B or B; the least B is at this step."""
-        first, far = step - _CLEAR, step + self._largest + _CLEAR
-        total = np.tensordot(lattice.on_circle(first), self._shallow, 1).real
-        strengths = lattice.between(first, first - (first - far) // _NEAR * _NEAR)
-        strengths[:, far - first :] = 0.0
-        strengths = strengths.reshape(2, -1, _NEAR)
-        for row, block in np.argwhere(strengths.any(axis=2)).tolist():
-            total += np.tensordot(strengths[row, block], self._near(row, block), 1).real
-        return np.asarray(total + (self._far(lattice, step).T @ self._powers).real)
+    def of(self, lattice: Lattice, steps: NDArray[np.intp]) -> Array:
+        """Coefficients of patches, shape (len(steps), degree + 1, degree + 1): in log A, then in log B or B.
 
-    def _near(self, row: int, block: int) -> Array | ComplexArray:
-        """Coefficients of neighbouring images, shape (_NEAR, degree + 1, degree + 1)."""
+        The least B of the patches are at these steps.
+        """
+        first, count = steps - _CLEAR, self._largest + 2 * _CLEAR
+        circles = np.stack([lattice.on_circle(step) for step in first.tolist()])
+        total = _real_sum(circles, self._shallow)
+        strengths = lattice.beginning_at(first, -(-count // _NEAR) * _NEAR)
+        strengths[..., count:] = 0.0
+        strengths = strengths.reshape(2, len(steps), -1, _NEAR)
+        for row, block in np.argwhere(strengths.any(axis=(1, 3))).tolist():
+            total += _real_sum(strengths[row, :, block], self._near(row, block))
+        return np.asarray(total + self._far(lattice, steps).swapaxes(1, 2) @ self._powers)
+
+    def _near(self, row: int, block: int) -> Array:
+        """Parts of the coefficients of neighbouring images, shape (parts, _NEAR, degree + 1, degree + 1)."""
         if (row, block) not in self._blocks:
             depths = np.exp(STEP * (block * _NEAR + np.arange(_NEAR) - _CLEAR))
             on_axis = image_ring(self._A, self._B, depths[:, None, None]) if row == 0 else None
@@ -137,23 +140,38 @@ class RingSeries:
             self._blocks[row, block] = self._series(rings)
         return self._blocks[row, block]
 
-    def _far(self, lattice: Lattice, step: int) -> ComplexArray:
-        """Coefficients in log A of the powers of the square of B over the largest one, shape (_TERMS, degree + 1)."""
-        largest, A = step + self._largest, step + self._apart
-        total = np.zeros((_TERMS, self._degree + 1), complex)
-        for block in range((largest + _CLEAR - A) // _FAR, (lattice.stop - 1 - A) // _FAR + 1):
-            start = A + block * _FAR
-            strengths = lattice.between(start, start + _FAR)
-            strengths[:, : max(largest + _CLEAR - start, 0)] = 0.0
+    def _far(self, lattice: Lattice, steps: NDArray[np.intp]) -> Array:
+        """Real parts of the coefficients in log A of the powers of the square of B over the largest one.
+
+        Their shape is (len(steps), _TERMS, degree + 1).
+        """
+        total = np.zeros((len(steps), _TERMS, self._degree + 1))
+        # Steps from the least A to the images that are far.
+        clear, A = self._largest + _CLEAR - self._apart, steps + self._apart
+        for block in range(clear // _FAR, (lattice.stop - 1 - int(A[0])) // _FAR + 1):
+            strengths = lattice.beginning_at(A + block * _FAR, _FAR)
+            nearer = clear - block * _FAR
+            strengths[..., : max(nearer, 0)] = 0.0
             # A power beyond the circle belongs to an image that is near.
-            logs = np.minimum(2.0 * STEP * (largest + _CLEAR - start - np.arange(_FAR)), 0.0)
+            logs = np.minimum(2.0 * STEP * (nearer - np.arange(_FAR)), 0.0)
             terms = _TERMS if logs[0] > _LEAST / _TERMS else 1 + int(_LEAST / logs[0])
-            shares = np.exp(logs[:, None] * np.arange(terms))
-            for row in np.flatnonzero(strengths.any(axis=1)).tolist():
-                series = _far_series(self._degree, self._steps, row, block)
-                weights = (strengths[row] if row else strengths[row].real)[:, None] * shares
-                total[:terms] += np.einsum("mk,mkn->kn", weights, series[:, :terms])
+            shares = np.exp(logs[:, None] * np.arange(terms))[..., None]
+            for row in np.flatnonzero(strengths.any(axis=(1, 2))).tolist():
+                series = _far_series(self._degree, self._steps, row, block)[:, :, :terms]
+                total[:, :terms] += _real_sum(strengths[row], shares * series)
         return total
+
+
+def _parts(series: Array | ComplexArray) -> Array:
+    """Real numbers of a series in a new first axis: itself, or the real parts and those of the product with i."""
+    return np.stack([series.real, -series.imag] if np.iscomplexobj(series) else [series.real])
+
+
+def _real_sum(strengths: ComplexArray, parts: Array) -> Array:
+    """Real part of the sum over the images of strengths, shape (n, images), times series, given by their parts."""
+    factors = np.concatenate([strengths.real, strengths.imag][: len(parts)], axis=1)
+    total: Array = factors @ parts.reshape(factors.shape[1], -1)
+    return total.reshape(len(strengths), *parts.shape[2:])
 
 
 def below_joined(degree: int) -> int:
@@ -168,8 +186,10 @@ def _nodes_and_modes(degree: int) -> tuple[Array, Array]:
 
 
 @lru_cache(maxsize=256)
-def _far_series(degree: int, steps: int, row: int, block: int) -> Array | ComplexArray:
-    """Coefficients of A f in log A, for the powers of (B/|d|)^2 over _RADIUS, shape (_FAR, _TERMS, degree + 1).
+def _far_series(degree: int, steps: int, row: int, block: int) -> Array:
+    """Parts of the coefficients of A f in log A, for the powers of (B/|d|)^2 over _RADIUS.
+
+    Their shape is (parts, _FAR, _TERMS, degree + 1).
 
     The images are at _FAR steps below the least A of the patch, from the block's first on.
     """
@@ -178,8 +198,8 @@ def _far_series(degree: int, steps: int, row: int, block: int) -> Array | Comple
     A = np.exp(STEP * steps * (0.5 + 0.5 * nodes)) / depths
     B_squared = (_RADIUS * _CIRCLE)[:, None]
     values = A / ring_mean(_SQUARES[row] + A**2, _SQUARES[row] + B_squared)
-    series: ComplexArray = np.asarray(np.fft.fft(values, axis=1) / _TERMS @ to_modes.T, complex)
-    return series if row else np.ascontiguousarray(series.real)
+    series = np.fft.fft(values, axis=1) / _TERMS @ to_modes.T
+    return _parts(series if row else series.real)
 
 
 @lru_cache(maxsize=1024)
@@ -189,7 +209,7 @@ def ring_series(degree: int, steps: int, apart: int, joined: bool) -> RingSeries
     Examples
     --------
     >>> ring = Lattice(np.array([1.0 + 0.0j]), np.array([1.0 + 0.0j]))
-    >>> value = chebyshev.chebval2d(1.0, 1.0, ring_series(15, 6, 0, joined=False).of(ring, 0))    # A = B = 2
+    >>> value = chebyshev.chebval2d(1.0, 1.0, ring_series(15, 6, 0, joined=False).of(ring, np.array([0]))[0])
     >>> bool(abs(value - 2.0 * image_ring(2.0, 2.0, 1.0)) < 1e-13)
     True
     """
