@@ -9,11 +9,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import splu
 
 from fem_reference._elastic.elasticity import element_places, gauss_product
-from fem_reference._elastic.tensor_elements import pressure_functions, unit_functions
+from fem_reference._elastic.gauss import unit_gauss
+from fem_reference._elastic.line_functions import line_functions
+from fem_reference._elastic.tensor_elements import factors, pressure_functions, unit_functions
 from fem_reference._large_strain.block import Block
 from fem_reference._large_strain.core import Core
 from fem_reference._large_strain.equilibrium import State
@@ -78,14 +78,38 @@ def _local(nodes: Array, places: Array) -> tuple[Index, Array]:
 
 
 def _projected(core: Core, X: Array, W: Array, values: Array) -> Array:
-    """Coefficients of the displacement nearest to values at points of each element."""
-    N = unit_functions(core.grid.quads(), core.order, X)[0]
+    """Coefficients of the displacement nearest to values at points of each element.
+
+    All elements have the mass of the unit square, so that the mass of all is the product of one along r and one along
+    z.
+    """
+    mesh, order = core.grid.quads(), core.order
+    N = unit_functions(mesh, order, X)[0]
     numbers = core.rows[:, 0::2] // 2
-    e, n = numbers.shape
-    mass = np.broadcast_to(N.T @ (W[:, None] * N), (e, n, n))
-    rows, cols = np.repeat(numbers, n, axis=1).ravel(), np.tile(numbers, (1, n)).ravel()
-    size = core.size // 2
-    M = sparse.csc_array((mass.ravel(), (rows, cols)), shape=(size, size))
+    places = [
+        _line_places(element, degrees, order)
+        for element, degrees in zip(element_places(mesh), factors(mesh, order), strict=True)
+    ]
+    along_r, along_z = (np.zeros(core.size // 2, np.intp) for _ in places)
+    along_r[numbers], along_z[numbers] = places
     right = N.T @ (W[:, None] * values)
-    b = np.stack([np.bincount(numbers.ravel(), right[..., c].ravel(), size) for c in (0, 1)], axis=1)
-    return np.asarray(splu(M, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve(b)).ravel()
+    sums = [np.bincount(numbers.ravel(), right[..., c].ravel(), core.size // 2) for c in (0, 1)]
+    mass_r, mass_z = (_line_mass(nodes.size - 1, order) for nodes in (core.grid.r, core.grid.z))
+    b = np.empty((2, mass_r.shape[0], mass_z.shape[0]))
+    b[:, along_r, along_z] = sums
+    along_both = np.linalg.solve(mass_z, np.linalg.solve(mass_r, b).swapaxes(1, 2))
+    return np.asarray(along_both[:, along_z, along_r].T.ravel())
+
+
+def _line_places(element: Index, degrees: Index, order: int) -> Index:
+    """Number along a side, in surface order, of the factor of each function of some elements, shape (e, n)."""
+    inside = int(element.max()) + 2 + element[:, None] * (order - 1) + degrees - 2
+    return np.where(degrees < 2, element[:, None] + degrees, inside)
+
+
+def _line_mass(count: int, order: int) -> Array:
+    """Mass of the functions of elements in a row, in surface order, each element of the mass 1."""
+    x, w = unit_gauss(order + 1)
+    nodes = np.arange(count + 1.0)
+    N = line_functions(nodes, order, (nodes[:-1, None] + x).ravel())
+    return np.asarray(N.T @ (np.tile(w, count)[:, None] * N))

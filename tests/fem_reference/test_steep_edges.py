@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 
 from fem_reference import Ball, LennardJones, NeoHookean, Problem, solve_large_strain
+from fem_reference._elastic.elasticity import gauss_product
 from fem_reference._elastic.mesh import edge_grid, uniform_grid
+from fem_reference._elastic.tensor_elements import unit_functions
 from fem_reference._large_strain.block import block_of
 from fem_reference._large_strain.core import core_of
 from fem_reference._large_strain.discretisation import linear_event
 from fem_reference._large_strain.equilibrium import State
 from fem_reference._large_strain.events import Family
-from fem_reference._large_strain.transfer import carried_over
+from fem_reference._large_strain.transfer import _fields, _projected, carried_over
 from fem_reference.large_strain import _discretisation
 
 
@@ -75,6 +77,21 @@ def test_a_smooth_state_is_near_on_other_elements_and_zero_where_it_is_fixed():
     s = np.linspace(0.0, 4.0, 37)
     exact = fine.block.trace.evaluate(s) @ smooth[fine.block.radial + 1]
     assert np.abs(coarse.block.trace.evaluate(s) @ there.u[coarse.block.radial + 1] - exact).max() < 0.05
+
+
+def test_what_other_elements_lose_of_a_displacement_is_orthogonal_to_their_functions():
+    fine, coarse = (state_on(edge_grid(1.0, 0.3, 0.3, 4.0, density), 4) for density in (0.7, 0.9))
+    core = coarse.block.core
+    X, W = gauss_product(core.order + 1, core.order + 1)
+    values, _ = _fields(fine, core, X)
+    N = unit_functions(core.grid.quads(), core.order, X)[0]
+    nearest = _projected(core, X, W, values)[core.rows].reshape(core.rows.shape[0], -1, 2)
+    lost = N.T @ (W[:, None] * (values - N @ nearest))
+    for component in (0, 1):
+        numbers = core.rows[:, component::2]
+        sums, sizes = (np.bincount(numbers.ravel(), part[..., component].ravel()) for part in (lost, np.abs(lost)))
+        assert np.abs(sums).max() < 1e-12
+        assert sizes.max() > 0.01
 
 
 @pytest.mark.heavy
