@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-import scipy
 
+from fem_reference._roots import root_between
 from fem_reference._typing import Array
 from fem_reference.laws import LennardJones, Mie, SurfaceLaw
 
@@ -31,7 +31,7 @@ def stable_gaps(traction: Callable[[Array], Array], gaps: Array) -> list[float]:
     p = traction(gaps)
     falls = np.flatnonzero((p[:-1] > 0) & (p[1:] <= 0))
     return [
-        float(scipy.optimize.brentq(traction, gaps[i], gaps[i + 1], xtol=1e-15 * abs(gaps[i]), rtol=1e-15))
+        root_between(lambda gap: float(traction(np.array(gap))), gaps[i], gaps[i + 1], 1e-15 * abs(gaps[i]), 1e-15)
         for i in falls
     ]
 

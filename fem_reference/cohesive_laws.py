@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import scipy
 
+from fem_reference._roots import root_between
 from fem_reference._typing import Array
 from fem_reference._validation import check_positive
 
@@ -138,7 +139,7 @@ class CohesiveTrapezoid:
                 )
         well = self._gap_without_traction()
         middle = 0.5 * (1.0 + self.fall_start)
-        peak = float(scipy.optimize.brentq(lambda h: float(self._stiffness(np.array(h))), well, middle, xtol=1e-15))
+        peak = float(root_between(lambda h: float(self._stiffness(np.array(h))), well, middle, 1e-15))
         stress = self.strength / -float(self._pressure(np.array(peak)))
         length = self.work_of_adhesion / (stress * -float(self._stored(np.array(well))))
         for name, value in (("_well", well), ("_length", length), ("_stress", stress)):

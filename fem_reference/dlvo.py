@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
-import scipy
 
+from fem_reference._roots import root_between
 from fem_reference._typing import Array
 from fem_reference._validation import check_positive
 from fem_reference._wells import stable_gaps
@@ -73,7 +73,7 @@ class Dlvo:
         deepest = min(wells, key=self._stored)
         slope = partial(self._pressure, order=1)
         rising = np.flatnonzero((slope(D[:-1]) < 0) & (slope(D[1:]) >= 0))
-        peaks = [float(scipy.optimize.brentq(slope, D[i], D[i + 1], xtol=1e-15 * D[i])) for i in rising]
+        peaks = [root_between(lambda d: float(slope(np.array(d))), D[i], D[i + 1], 1e-15 * D[i]) for i in rising]
         peak = min(peaks, key=lambda at: float(self._pressure(np.array(at), 0)))
         object.__setattr__(self, "distance", deepest)
         object.__setattr__(self, "work_of_adhesion", -self._stored(deepest))

@@ -25,16 +25,17 @@ is integrated in closed form (`fem_reference._ball_under_law`), over another sha
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
 import numpy as np
-import scipy
 
 from fem_reference._ball_under_law import face_gap, rate_of_ball, traction_of_ball
 from fem_reference._body_of_revolution import BodyOfRevolution
 from fem_reference._curved_face import CurvedFace, check_curvature
+from fem_reference._roots import root_between
 from fem_reference._surface_force import Interaction
 from fem_reference._typing import Array
 from fem_reference.laws import LennardJones, Mie, SurfaceLaw
@@ -241,7 +242,7 @@ def _peak_distance(body: Body) -> float:
         d = np.array(length * np.exp(log_d))
         return float(body._rate(R + d, d)) * float(d)
 
-    return R + length * float(np.exp(scipy.optimize.brentq(rate, -np.log(_WIDEST), np.log(_WIDEST), xtol=1e-14)))
+    return R + length * math.exp(root_between(rate, -math.log(_WIDEST), math.log(_WIDEST), 1e-14))
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,6 +21,12 @@ _ARGUMENTS = [
 ]
 _FIT = f"from comparisons.cli.main import main; main({_ARGUMENTS})"
 
+_ELEMENTS = (
+    "from fem_reference import Homogeneous, LennardJones, PowerPunch, Problem, solve; "
+    "body = Problem(Homogeneous(50.0, 0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)); "
+    "solve(body, 'pull_off_force', 'quick')"
+)
+
 #: Large libraries of tables, pictures and units.  A module that loads pandas with its first use has its name from the
 #: beginning, not its parts.
 _LARGE = {"pandas.core", "matplotlib", "pint", "jsonschema", "scipy.stats"}
@@ -60,8 +66,9 @@ def loaded(code):
             "import fem_reference",
             _LARGE | {"scipy.linalg", "scipy.optimize", "scipy.interpolate", "skfem", "pyamg", "mpmath"},
         ),
+        (_ELEMENTS, _LARGE | {"scipy.optimize", "scipy.interpolate", "scipy.special", "mpmath"}),
     ],
-    ids=["fit", "fscm", "force_curve", "fscm.solve", "coating", "fem_reference"],
+    ids=["fit", "fscm", "force_curve", "fscm.solve", "coating", "fem_reference", "elements"],
 )
 def test_what_is_not_used_is_not_loaded(code, unused):
     assert not unused & loaded(code)

@@ -85,7 +85,7 @@ LAYERS = {
         ("many",),
     ),
     "fem_reference": (
-        ("_typing", "_threads", "_validation", "_presentation", "_numbers", "errors", "_law_between_points"),
+        ("_typing", "_threads", "_validation", "_presentation", "_numbers", "errors", "_roots", "_law_between_points"),
         ("solid", "solids", "tabulated_modulus", "custom_solid", "neo_hookean"),
         ("punch", "profiles", "laws", "_wells", "tabulated_law", "cohesive_laws", "dlvo"),
         (

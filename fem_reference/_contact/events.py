@@ -12,8 +12,6 @@ from dataclasses import replace
 from functools import cached_property
 from itertools import count, pairwise
 
-import scipy
-
 from fem_reference._contact.completeness import complete_path
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import cusp_from, slowest
@@ -36,6 +34,7 @@ from fem_reference._contact.event_kinds import (
 )
 from fem_reference._contact.path import interpolated
 from fem_reference._contact.states import Point, joined, point_at
+from fem_reference._roots import root_between
 from fem_reference.errors import Failure, NoSuchEvent, NotConverged
 
 __all__ = ["Jump", "Pair", "PathEvents"]
@@ -318,11 +317,7 @@ class PathEvents:
             return function(solved[parameter])
 
         scale = max(abs(pair[0].parameter), abs(pair[1].parameter))
-        root = float(
-            scipy.optimize.brentq(
-                value, pair[0].parameter, pair[1].parameter, xtol=ROOT_TOLERANCE * scale, rtol=4 * ROOT_TOLERANCE
-            )
-        )
+        root = root_between(value, pair[0].parameter, pair[1].parameter, ROOT_TOLERANCE * scale, 4.0 * ROOT_TOLERANCE)
         value(root)
         return solved[root]
 
@@ -330,7 +325,7 @@ class PathEvents:
         def value(x: float) -> float:
             return function(interpolated(a, b, x))
 
-        x = float(scipy.optimize.brentq(value, math.log(a.parameter), math.log(b.parameter)))
+        x = root_between(value, math.log(a.parameter), math.log(b.parameter))
         point = self.between(a, b, math.exp(x))
         slope = (value(x + LOG_SLOPE_STEP) - value(x - LOG_SLOPE_STEP)) / (2.0 * LOG_SLOPE_STEP)
         self._slopes[point] = slope / point.parameter

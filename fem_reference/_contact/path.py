@@ -20,7 +20,6 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-import scipy
 
 from fem_reference._contact.completeness import complete_branch, displacement_range, load_scale
 from fem_reference._contact.contact import Contact
@@ -28,6 +27,7 @@ from fem_reference._contact.controls import CentralGap, GapRise, mesh_control
 from fem_reference._contact.hermite import Interval, Sample
 from fem_reference._contact.mesh_lengths import EDGE_RISE
 from fem_reference._contact.states import SIZE_STEP, Branch, Point, branches_of, contact_branch, continuation, point_at
+from fem_reference._roots import root_between
 from fem_reference._typing import Array
 from fem_reference._wells import outermost_turn
 from fem_reference.errors import Failure, NotConverged
@@ -131,7 +131,7 @@ def first_edge_radius(point: Point) -> float:
         r = np.array(y[-1] * s)
         return -float(y[-2]) + float(contact.punch.height(r)) + w - float(force.peak_gap(r))
 
-    return float(y[-1]) * float(scipy.optimize.brentq(excess, trace.s[above[0] - 1], trace.s[above[0]], xtol=1e-14))
+    return float(y[-1]) * root_between(excess, trace.s[above[0] - 1], trace.s[above[0]], 1e-14)
 
 
 def approach(contact: Contact) -> tuple[list[Point], Point]:

@@ -15,7 +15,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import scipy
+
+from fem_reference._roots import root_between
 
 __all__ = ["largest_tension"]
 
@@ -38,7 +39,7 @@ def largest_tension(nu: float) -> float:
     if not change.size:
         return math.inf
     i = int(change[0])
-    F = float(scipy.optimize.brentq(lambda F: _determinant(F, nu)[0], STRETCHES[i], STRETCHES[i + 1]))
+    F = root_between(lambda F: _determinant(F, nu)[0], STRETCHES[i], STRETCHES[i + 1])
     return _determinant(F, nu)[1] * (1.0 - nu**2)
 
 
