@@ -5,8 +5,14 @@ whatever fixes the state on its path.  Since r G(r, t) = t G(t, r), the adjoint 
 
     z = 2 c^2 + M c^(1-k) W p'(H) z,
 
-the equation of the derivative of the gap by the displacement at a fixed scale: it has the accuracy of the state, at the
-nodes of the higher order as well.  The load is corrected by the first-order error that these nodes see.  The bound is
+the equation of the derivative of the gap by the displacement along the path, at a fixed radius.  That one is known from
+the path on the mesh of the edge, where log c = t goes along it:
+
+    z / (2 c^2) = 1 + (s dw/ds - dw/dt) / (d delta/dt).
+
+The equation itself would not give it: at a fixed radius the narrow edge moves almost freely, so that what the equation
+determines of this motion is the error of the response.  The load is corrected by the first-order error that the nodes of
+the higher order see.  The bound is
 the sum of two parts.
 
 *Evidence.*  The difference of the corrected loads of the two solutions, which differ in the orders of the pressure and
@@ -28,8 +34,7 @@ Estimates are
   of the adjoint with the error of the deformation, at the nodes of the higher order;
 * what these nodes miss: the deformation is singular at the ends of panels, where the polynomials of the pressure jump.
   It is a share of the integral of the sizes of the latter products, computed for such singularities (`unseen_share`);
-* the square of the error of the pressure: what is of second order;
-* an error that both solutions share at the narrowest edges, measured.
+* the square of the error of the pressure: what is of second order.
 """
 
 from __future__ import annotations
@@ -51,9 +56,6 @@ _UNSEEN, _UNSEEN_RATE = 0.08, 1.9
 #: Relative error of the load per square of the error of the pressure (in units of the largest tension, 1.03): measured
 #: worst 12 over 14 problems at k = 0.7 to 0.8 whose edge panels were too long, with errors of the pressure up to 5e-3.
 _SECOND_ORDER = 50.0
-#: Relative error that neither the difference nor the residual shows from this gradient exponent on: measured worst
-#: 1.8e-10 over 90 problems at k = 0.74 to 0.8 and mu = 3 to 10, against order 13.  Its cause is not known.
-_UNSEEN_ABOVE, _UNSEEN_ERROR = 0.7, 5e-10
 #: Relative rounding of a few operations; in units of it, those of an entry of the response and of a pressure times an
 #: area (as in `fscm._bound.defect`).
 _ROUNDOFF, _ENTRY, _WEIGHT = 2.0**-51, 8.0, 4.0
@@ -94,7 +96,8 @@ class _Defect:
         twice, w = 2.0 * at.c[:, None] ** 2, mesh.refined(states.w)
         gap = EDGE_GAP + (at.c_n / batch.n)[:, None] * batch.rise_fine + (w - at.edge_w)
         self.pressure_error = LAW.traction(gap) - mesh.refined(at.pressure)
-        self.density = twice * at.slope * states.free
+        shifted = mesh.coarse.nodes * mesh.slopes(states.w) - states.along
+        self.density = twice * at.slope * (1.0 + shifted / (at.c_n[:, None] + batch.at_edge(states.along)))
         both = np.matmul(batch.response, np.stack([at.pressure, self.density], axis=2))
         both *= at.stiffness[:, None, None]
         self.deformation_error = w - both[..., 0] - at.tails.lift[:, None]
@@ -114,7 +117,6 @@ def bounded_loads(first: Batch, first_states: Stationary, second: Batch, second_
     # The area of the innermost panels is small.
     largest = np.max(np.abs(defect.pressure_error) * np.minimum(mesh.fine.nodes, 1.0), axis=1)
     bound += _SECOND_ORDER * np.abs(defect.load) * largest**2 + second_states.missed
-    bound += np.where(second.k >= _UNSEEN_ABOVE, _UNSEEN_ERROR * np.abs(defect.load), 0.0)
     weighed = y * mesh.fine.weights
     bound += _behind(second, at, weighed) + _of_response(second, at, weighed)
     return Loads(defect.load, bound + _rounding(second, at, defect.density))

@@ -31,12 +31,10 @@ LAW = LennardJones()
 EDGE_GAP = LAW.peak_gap
 #: Newton's method ends no earlier than the load is this close to its extreme, relative to it.
 _MISSED = 1e-11
-#: Largest change of the adjoint in the last step, relative to it: it only weighs errors.  After a larger one than the
-#: second number the factors are renewed.
-_FREE, _LOOSE = 1e-3, 0.1
-#: Corrections of the derivatives along the path with old factors end when that of the load changes by less than this,
-#: relative to the load.
-_SETTLED, _REFINEMENTS = 1e-7, 6
+#: Corrections of the derivatives along the path with old factors end when that of the load changes by less than the
+#: first number, relative to the load, and those of the deformations by less than the second one, relative to the
+#: largest: they only weigh errors.
+_SETTLED, _WEIGHING, _REFINEMENTS = 1e-7, 1e-3, 6
 _ITERATIONS = 30
 #: After a step below _CHORD the factors are reused, as long as each step is smaller than the one before by
 #: _CONTRACTION.
@@ -106,8 +104,8 @@ class Stationary(NamedTuple):
     Attributes
     ----------
     w, t : ndarray
-    free : ndarray, shape (b, m coarse)
-        Minus the derivative of the gap by the displacement at a fixed scale.
+    along : ndarray, shape (b, m coarse)
+        dw/dt along the path.
     curvature : ndarray, shape (b,)
         Second derivative of the load along the path.
     missed : ndarray, shape (b,)
@@ -117,7 +115,7 @@ class Stationary(NamedTuple):
 
     w: Array
     t: Array
-    free: Array
+    along: Array
     curvature: Array
     missed: Array
     converged: NDArray[np.bool_]
@@ -133,16 +131,16 @@ class _Newton:
 
     Attributes
     ----------
-    along, free : ndarray, shape (b, N)
-        dw/dt along the path, and as in `Stationary`.
-    held, back : ndarray, shape (b, N)
-        Change of w by the gap at the edge; the adjoint of the load times the response; both of the last factors.
+    along : ndarray, shape (b, N)
+        As in `Stationary`.
+    back : ndarray, shape (b, N)
+        The adjoint of the load times the response, of the last factors.
     """
 
     def __init__(self, batch: Batch, w: Array, t: Array) -> None:
         self.batch, self.w, self.t = batch, w.copy(), t.copy()
         b = len(t)
-        self.along, self.free, self.held, self.back = np.zeros((4, *w.shape))
+        self.along, self.back = np.zeros((2, *w.shape))
         self.curvature, self.missed, self._last = np.full(b, np.nan), np.full(b, np.inf), np.full(b, np.inf)
         self._factors: dict[int, tuple[Array, NDArray[np.int32]]] = {}
         self.active, self.converged = np.ones(b, bool), np.zeros(b, bool)
@@ -156,44 +154,40 @@ class _Newton:
         weighed = at.ring * at.slope
         by_w = weighed.copy()
         by_w[:, batch.mesh.edge_nodes] += (at.tails.load_slope - weighed.sum(axis=1))[:, None] * batch.mesh.at_end
-        x, along, free, new = self._solved(at, residuals, by_w)
-        # Without the anchor, which the tangent contains.
-        free += self.held * (batch.at_edge(free) / (1.0 - batch.at_edge(self.held)))
+        x, along, new = self._solved(at, residuals, by_w)
         self.along += along
-        self.free += free
         left = np.zeros(len(new))
         for i in np.flatnonzero(self.active & ~new).tolist():
             left[i] = self._refine(at, i, by_w[i])
         opened = at.c_n[:, None] * batch.rise + self.along - batch.at_edge(self.along)
-        unsettled = np.where(new, 0.0, np.abs(free).max(axis=1) / np.abs(self.free).max(axis=1))
         rate = self._rate(at, weighed, by_w, opened, x - batch.at_edge(x), new)
         self.missed = np.where(self.active, 0.5 * (np.abs(rate) + left) ** 2 / np.abs(self.curvature), self.missed)
         growth = -rate / self.curvature
         change, whole = self._move(at, x + growth[:, None] * self.along, growth)
         shrunk = np.where(new, change, change / self._last)
-        done = self.active & whole & (unsettled < _FREE) & (change * np.minimum(shrunk, 1.0) < remainder)
+        done = self.active & whole & (change * np.minimum(shrunk, 1.0) < remainder)
         done &= self.missed < _MISSED * np.abs(at.load)
         self.converged |= done
         self.active &= ~done
-        slow = (change > _CONTRACTION * self._last) & (change > remainder) | (unsettled > _LOOSE)
+        slow = (change > _CONTRACTION * self._last) & (change > remainder)
         for i in np.flatnonzero(~self.active | ~whole | (change > _CHORD) | (slow & ~new)).tolist():
             self._factors.pop(i, None)
         self._last = change
 
     def _residuals(self, at: Fields) -> Array:
-        """Minus the residuals of the equilibrium, of `along` and of `free`, shape (b, N, 3)."""
+        """Minus the residuals of the equilibrium and of `along`, shape (b, N, 2)."""
         batch, tails = self.batch, at.tails
         edge = batch.at_edge(self.along)
         opened = at.c_n[:, None] * batch.rise + self.along - edge
-        densities = np.stack([at.pressure, at.slope * opened, at.slope * self.free], axis=2)
+        densities = np.stack([at.pressure, at.slope * opened], axis=2)
         pushed = at.stiffness[:, None, None] * np.matmul(batch.square, densities)
         lift = tails.lift_rate + tails.lift_slope * (at.c_n + edge[:, 0])
         of_along = (1.0 - batch.k)[:, None] * pushed[..., 0] + pushed[..., 1] + lift[:, None] - self.along
         of_w = pushed[..., 0] + tails.lift[:, None] - self.w
-        return np.stack([of_w, of_along, 1.0 + pushed[..., 2] - self.free], axis=2)
+        return np.stack([of_w, of_along], axis=2)
 
     def _refine(self, at: Fields, i: int, by_w: Array) -> float:
-        """Correct `along` with old factors until the derivative of the load does not change; its last change."""
+        """Correct `along` with old factors until it has settled; the last change of the derivative of the load."""
         batch, tails, left = self.batch, at.tails, np.inf
         nodes, end, Q, rise = batch.mesh.edge_nodes, batch.mesh.at_end, batch.square[i], at.c_n[i] * batch.rise[i]
         fixed = (1.0 - batch.k[i]) * at.stiffness[i] * (Q @ at.pressure[i])
@@ -204,23 +198,24 @@ class _Newton:
             change = self._back_substituted(i, fixed + pushed + lift - self.along[i])
             self.along[i] += change
             left = abs(float(by_w @ change))
-            if left < _SETTLED * abs(at.load[i]):
+            unsettled = np.abs(change).max() > _WEIGHING * np.abs(self.along[i]).max()
+            if left < _SETTLED * abs(at.load[i]) and not unsettled:
                 break
         return left
 
     def _back_substituted(self, i: int, right: Array) -> Array:
         return np.asarray(scipy.linalg.lapack.dgetrs(*self._factors[i], right, trans=1)[0])
 
-    def _solved(self, at: Fields, residuals: Array, by_w: Array) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
-        """Corrections of w, `along` and `free`, shape (b, N) each, and which problems have new factors."""
+    def _solved(self, at: Fields, residuals: Array, by_w: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """Corrections of w and `along`, shape (b, N) each, and which problems have new factors."""
         corrections, new = np.zeros(residuals.shape), np.zeros(len(residuals), bool)
         for i in np.flatnonzero(self.active).tolist():
             if i not in self._factors:
                 new[i] = True
                 self._factors[i] = self._factorised(at, i, by_w[i])
             corrections[i] = self._back_substituted(i, residuals[i])
-        x, along, free = np.ascontiguousarray(corrections.transpose(2, 0, 1))
-        return x, along, free, new
+        x, along = np.ascontiguousarray(corrections.transpose(2, 0, 1))
+        return x, along, new
 
     def _factorised(self, at: Fields, i: int, by_w: Array) -> tuple[Array, NDArray[np.int32]]:
         """Factors of the transpose of the tangent, which is in the order of the packages."""
@@ -231,7 +226,6 @@ class _Newton:
         by_edge = Q @ weights - at.tails.lift_slope[i]
         A[:, mesh.edge_nodes] += by_edge[:, None] * mesh.at_end
         lu, pivots, _ = scipy.linalg.lapack.dgetrf(A.T, overwrite_a=1)
-        self.held[i] = scipy.linalg.lapack.dgetrs(lu, pivots, by_edge, trans=1)[0]
         self.back[i] = at.stiffness[i] * (scipy.linalg.lapack.dgetrs(lu, pivots, by_w)[0] @ Q)
         return lu, pivots
 
@@ -286,4 +280,4 @@ def stationary_states(batch: Batch, w: Array, t: Array, remainder: float) -> Sta
             newton.step(remainder)
             if not newton.active.any():
                 break
-    return Stationary(newton.w, newton.t, newton.free, newton.curvature, newton.missed, newton.converged)
+    return Stationary(newton.w, newton.t, newton.along, newton.curvature, newton.missed, newton.converged)

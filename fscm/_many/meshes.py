@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial import legendre
 
 from fscm._many.response import INTEGRATION_ERROR, Orders, ResponseTable
 from fscm._surface.mesh import PanelMesh, gauss_rule
@@ -108,6 +109,8 @@ class CommonMesh:
         Interpolation on a panel between the orders.
     at_end : ndarray
         Interpolation to the end of a panel.
+    to_slopes : ndarray
+        Derivative on a panel of unit length, at its coarse nodes.
     end : float
         Radius s where the mesh ends.
     """
@@ -124,12 +127,19 @@ class CommonMesh:
         rule, fine_rule = gauss_rule(orders.coarse), gauss_rule(orders.fine)
         self.to_fine, self.to_coarse = rule.interpolation(fine_rule.nodes), fine_rule.interpolation(rule.nodes)
         self.at_end = rule.interpolation(np.ones(1))[0]
+        polynomials = legendre.legvander(2.0 * rule.nodes - 1.0, rule.order - 2)
+        self.to_slopes = 2.0 * polynomials @ legendre.legder(rule.to_modes)
         self.end = float(1.0 + self.offsets[-1])
 
     def refined(self, values: Array) -> Array:
         """Values at the coarse nodes, shape (b, N), at the fine ones."""
         by_panel = values.reshape(len(values), self.count, self.orders.coarse)
         return np.asarray((by_panel @ self.to_fine.T).reshape(len(values), -1))
+
+    def slopes(self, values: Array) -> Array:
+        """Derivatives by s of functions with values at the coarse nodes, shape (b, N), there."""
+        by_panel = values.reshape(len(values), self.count, self.orders.coarse)
+        return np.asarray((by_panel @ self.to_slopes.T / self.coarse.lengths[:, None]).reshape(len(values), -1))
 
     def transferred(self, w: Array, k: Array, target: CommonMesh) -> Array:
         """Deformations, shape (b, N), on another mesh; beyond this one they decrease as under a distant load."""
