@@ -34,7 +34,7 @@ from fscm.solids import PowerLaw
 #: below and as 1/xi above the contact (less than that above the width of its edge): 2 % are missing at most.
 _LOWEST, _HIGHEST, _POINTS = 1e-2, 1e3, 32
 
-#: Argument from which Struve's functions are taken by their asymptotic series, a tenth of the time of SciPy's, and its
+#: Argument from which Struve's functions are taken by their asymptotic series, a fifth of the time of SciPy's, and its
 #: terms: what is left is below rounding.
 _ASYMPTOTIC, _TERMS = 30.0, 12
 

@@ -11,9 +11,8 @@ the path on the mesh of the edge, where log c = t goes along it:
     z / (2 c^2) = 1 + (s dw/ds - dw/dt) / (d delta/dt).
 
 The equation itself would not give it: at a fixed radius the narrow edge moves almost freely, so that what the equation
-determines of this motion is the error of the response.  The load is corrected by the first-order error that the nodes of
-the higher order see.  The bound is
-the sum of two parts.
+determines of this motion is the error of the response.  The load is corrected by the first-order error that the nodes
+of the higher order see.  The bound is the sum of two parts.
 
 *Evidence.*  The difference of the corrected loads of the two solutions, which differ in the orders of the pressure and
 of the residual, in the terms of the expansion in k, in the narrowest panels at the edge and at the tip, and in the end
