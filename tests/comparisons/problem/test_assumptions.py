@@ -189,6 +189,24 @@ def test_nothing_is_recommended_where_the_contact_is_larger_than_the_sphere(quic
     assert overview(BEAD, FORCE, assumed)["recommended"] == {"1 %": None, "5 %": None}
 
 
+@pytest.mark.parametrize(("share", "is_recommendable"), [(0.45, True), (0.55, False)])
+def test_nothing_is_recommended_for_a_wide_contact_whose_errors_are_unknown(share, is_recommendable, quickly):
+    """The table has no solid as soft; vertical gaps alone cost 12 % where the contact has half of the radius."""
+    gel = replace(BEAD, solid=Section("homogeneous", {"E": 5e4, "nu": 0.5}))
+    assumed = quickly(gel, contact_radius=share * 5e-6, fscm=2.0)
+    assert assumed["derjaguin"]["basis"] == assumed["strain"]["basis"] == "unknown"
+    assert assumed["recommendable"] is is_recommendable
+    assert bool(assumed["refusal"]) is not is_recommendable
+    assert any(overview(gel, FORCE, assumed)["recommended"].values()) is is_recommendable
+
+
+def test_a_gel_under_a_large_bead_has_slopes():
+    """At a Tabor number of 8e6 neighbouring nodes of the edge are one number to rounding."""
+    problem = on_solid("homogeneous", {"E": 20.0, "nu": 0.49}, R=1e-2)
+    measures = module._measures(problem)["measures"]
+    assert all(row["value"] > 0.5 for row in measures)
+
+
 def test_the_exact_sphere_has_no_error_of_its_shape(quickly):
     ball = replace(BEAD, punch=Section("ball", {"R": 5e-6}))
     assumed = quickly(ball)
