@@ -56,7 +56,9 @@ def root_between(
     opposite, at_opposite = x, y
     last = step = best - x
     if y * at_best > 0.0:
-        raise NotConverged(f"a function has the same sign at {low:.9g} and {high:.9g}: {y:.1e} and {at_best:.1e}")
+        raise NotConverged(
+            f"a function has the same sign at {low:.9g} and {high:.9g}: {y:.1e} and {at_best:.1e}", Failure.EVENT
+        )
     for _ in range(EVALUATIONS):
         if math.copysign(1.0, at_opposite) == math.copysign(1.0, at_best):
             opposite, at_opposite = x, y

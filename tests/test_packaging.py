@@ -43,14 +43,14 @@ def external(*folders: str) -> set[str]:
 
 def test_every_import_of_the_packages_is_declared_and_nothing_else():
     # An optional package is imported where it is used.
-    optional = [requirement for name in ("report", "pytest", "afm") for requirement in EXTRAS[name]]
+    optional = [requirement for name in ("report", "pytest", "afm", "peers") for requirement in EXTRAS[name]]
     assert external(*PACKAGES) == {canonical(requirement) for requirement in RUNTIME + optional}
 
 
 def test_every_import_of_the_tests_is_declared():
     modules = {"tests", *(path.stem for folder in ("tests", "docs") for path in (ROOT / folder).rglob("*.py"))}
-    # A heavy test has the notebooks run by Jupyter.
-    declared = {canonical(requirement) for requirement in RUNTIME + FOR_TESTS + EXTRAS["docs"]}
+    # A heavy test has the notebooks run by Jupyter; that of the other code is skipped where it is not installed.
+    declared = {canonical(requirement) for requirement in RUNTIME + FOR_TESTS + EXTRAS["docs"] + EXTRAS["peers"]}
     assert external("tests") - declared - {canonical(name) for name in modules} == set()
 
 
