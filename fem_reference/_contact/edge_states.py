@@ -8,9 +8,11 @@ or on that of a neighbour if that one resolves it: one that scales follows the e
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import TypeVar
 
 import numpy as np
 
@@ -31,6 +33,7 @@ from fem_reference._contact.states import (
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._typing import Array
 from fem_reference.errors import Failure, NotConverged
+from fem_reference.laws import SurfaceLaw
 
 __all__ = ["EdgeStates"]
 
@@ -44,6 +47,13 @@ MOST_STEPS = 15
 #: Ratio of an element at the edge to the resolved edge width up to which the mesh of a neighbour is taken: on those of
 #: the search it leaves 1e-5 of a load.
 SHARED = 2.0
+
+#: Difference of the logarithms of the radii of two states from which both are extrapolated, and its least share of the
+#: distance to the third: the difference of states on meshes of their own is divided by it.
+APART, APART_SHARE = 1e-3, 0.5
+
+#: Distance of a gap above the singular one, in lengths of the law, below which its logarithm is not extrapolated.
+SMALLEST_DISTANCE = 1e-3
 
 #: Largest number of states: 40 are usual where the contact grows to a hundred times the radius at which it begins.
 MOST_STATES = 400
@@ -66,6 +76,9 @@ CUBIC_STEPS = 1.5
 #: Change of the logarithm of the radius between states whose values tell an extremum: the polynomial of degree 4 has it
 #: to 3e-7 for a load of the limit of a short range (by its fifth derivative), which changes the load by 2e-13.
 EXTREMUM_STEP = 0.02
+
+
+Value = TypeVar("Value", float, Array)
 
 
 @dataclass(slots=True)
@@ -120,8 +133,7 @@ class EdgeStates:
         NotConverged
             If the state is not found, or its edge is narrower than a mesh can resolve.
         """
-        nearest = self._nearest(radius)
-        width = self.share * edge_width(nearest) * nearest.edge_radius / radius
+        width = self.share * self._expected_width(radius)
         for _ in range(WIDTHS):
             spec = self.meshes.spec_at(width, radius)
             contact = self.meshes.contact(replace(spec, order=self.degree, density=self.density), radius)
@@ -193,6 +205,15 @@ class EdgeStates:
         similar = replace(self.meshes.spec_at(spec.edge_width, radius), order=self.degree, density=self.density)
         return self._reached(self.meshes.contact(similar, radius), radius)
 
+    def _expected_width(self, radius: float) -> float:
+        """Width of the edge at a radius, relative to it, from those of its neighbours."""
+        nearest = self._nearest(radius)
+        beside = self._second(nearest, radius)
+        if beside is None:
+            return edge_width(nearest) * nearest.edge_radius / radius
+        widths = [math.log(edge_width(point)) for point in (nearest, beside)]
+        return math.exp(_extrapolated(widths, _share(nearest, beside, radius)))
+
     def _on_neighbour_mesh(self, radius: float) -> Point | None:
         """The state on the mesh of the nearest one, if its elements there are short enough."""
         nearest = self._nearest(radius)
@@ -220,24 +241,35 @@ class EdgeStates:
             return self.start
         return self.states[min(self.states, key=lambda r: abs(math.log(r / radius)))]
 
+    def _second(self, nearest: Point, radius: float) -> Point | None:
+        """A state to be extrapolated with the nearest one, if both have a width of the edge."""
+        at = nearest.edge_radius
+        least = max(APART, APART_SHARE * abs(math.log(radius / at)))
+        apart = [point for other, point in self.states.items() if abs(math.log(other / at)) >= least]
+        second = min(apart, key=lambda point: abs(math.log(point.edge_radius / at)), default=None)
+        return None if second is None or min(edge_width(nearest), edge_width(second)) <= 0.0 else second
+
     def _reached(self, contact: Contact, radius: float) -> Point:
         """State on a mesh whose edge is at that radius, by way of states between if it is not found at once."""
         while True:
             nearest = self._nearest(radius)
             try:
-                return _state_from(nearest, contact, radius)
+                return _state_from(nearest, self._second(nearest, radius), contact, radius)
             except NotConverged:
                 if abs(math.log(nearest.edge_radius / radius)) <= CLOSE:
                     raise
                 self.at(math.sqrt(nearest.edge_radius * radius))
 
 
-def _state_from(nearest: Point, contact: Contact, radius: float) -> Point:
-    """The state with the contact edge at a radius where a mesh is fine, from one on another mesh."""
+def _state_from(nearest: Point, beside: Point | None, contact: Contact, radius: float) -> Point:
+    """The state with the contact edge at a radius where a mesh is fine, from one or two on other meshes."""
     branch = contact_branch(contact)
-    for start in (_shifted, _projected):
+    starts = [partial(_projected, nearest)]
+    if beside is not None:
+        starts.insert(0, partial(_continued, nearest, beside))
+    for start in starts:
         with suppress(NotConverged):
-            point = branch.solve(radius, start(nearest, contact, radius))
+            point = branch.solve(radius, start(contact, radius))
             if point.state.iterations <= MOST_STEPS:
                 return point
     raise NotConverged(
@@ -250,21 +282,46 @@ def _projected(point: Point, contact: Contact, radius: float) -> Array:
     return projected(point_at(point, radius), contact, radius)
 
 
-def _shifted(point: Point, contact: Contact, radius: float) -> Array:
-    """Start on a mesh whose edge is at a radius: the gap of another state, moved with its edge.
+def _continued(nearest: Point, beside: Point, contact: Contact, radius: float) -> Array:
+    """Start on a mesh whose edge is at a radius: two other states, extrapolated in the logarithm of the radius.
 
-    The edge keeps its shape where it moves.  The displacement that belongs to the gap is no equilibrium, but the first
-    Newton step finds it: it depends linearly on the traction, which changes little.
+    Where the gap is narrower than the displacement is large, the logarithm of the gap is extrapolated: the traction is
+    like a power of it, and steep.  Beyond, it is the displacement, small against the height of the punch.
     """
-    trace, target, y, size = (
-        point.branch.contact.compliance.trace,
-        contact.compliance.trace,
-        point.state.y,
-        point.state.size,
-    )
-    move, r = radius - point.edge_radius, radius * target.s
-    s = np.clip((r - move) / size, 0.0, trace.extent)
-    gap = -y[-2] + contact.punch.height(size * s) + trace.evaluate(s) @ y[:-2]
-    approach = point.state.displacement + move * point.displacement_rate
-    w = target.projection(gap + approach - contact.punch.height(r))
-    return np.concatenate([w, [approach, radius]])
+    law, trace = contact.law, contact.compliance.trace
+    share = _share(nearest, beside, radius)
+    displacements, distances = [], []
+    for point in (nearest, beside):
+        own = point.branch.contact.compliance.trace
+        r = point.edge_radius * trace.s
+        w = own.evaluate(np.minimum(r / point.state.size, own.extent)) @ point.state.y[:-2]
+        gap = contact.punch.height(r) - point.state.displacement + w
+        displacements.append(w)
+        distances.append(_distance(gap, law))
+    approach = _extrapolated([point.state.displacement for point in (nearest, beside)], share)
+    w, gap = _extrapolated(displacements, share), _gap_at(_extrapolated(distances, share), law)
+    wide = gap**2 / (gap**2 + w**2 + law.z0**2)
+    w = (1.0 - wide) * (gap + approach - contact.punch.height(radius * trace.s)) + wide * w
+    return np.concatenate([trace.projection(w), [approach, radius]])
+
+
+def _distance(gap: Array, law: SurfaceLaw) -> Array:
+    """Logarithm of the distance of a gap from the singular one, or the gap if there is none."""
+    if not math.isfinite(law.singular_gap):
+        return gap
+    return np.log(np.maximum(gap - law.singular_gap, SMALLEST_DISTANCE * law.z0))
+
+
+def _gap_at(distance: Array, law: SurfaceLaw) -> Array:
+    """The gap of a `_distance`."""
+    return law.singular_gap + np.exp(distance) if math.isfinite(law.singular_gap) else distance
+
+
+def _share(nearest: Point, beside: Point, radius: float) -> float:
+    """Place of a radius on a logarithmic scale that is 0 at the edge of one state and 1 at that of another."""
+    return math.log(radius / nearest.edge_radius) / math.log(beside.edge_radius / nearest.edge_radius)
+
+
+def _extrapolated(values: Sequence[Value], share: float) -> Value:
+    """Value at a share of the way from the first of two to the second."""
+    return values[0] + share * (values[1] - values[0])

@@ -50,6 +50,10 @@ TIE = 1e-2
 #: there, and the rates have the error of a load divided by the length of an element.
 EVENT_SHARE = 0.07
 
+#: Height of a punch, in lengths of the law, up to which its path is followed at least: nearer, the range of the law may
+#: move an extremum by more than in the limit of a short range.
+REACH = 4.0
+
 #: Density of the mesh for the limit of a short range: an element is at most half as long as its distance.
 SCAN_DENSITY = 0.5
 
@@ -156,7 +160,8 @@ class FollowedPath:
 
     def _last_turn(self, kinks: tuple[float, ...]) -> float:
         """Radius beyond which neither load nor displacement turns back; edges out of reach up to it are refused."""
-        problem, size = self.meshes.problem, self._first[1]
+        problem = self.meshes.problem
+        size = radius_at_height(problem.punch, REACH * problem.law.z0)
         spec = replace(self.meshes.spec_at(WIDEST, size), density=SCAN_DENSITY, order=SEARCH_DEGREE)
         turn = last_turn(self.meshes.contact(spec, size), size)
         ratio = EDGE_PER_BALANCE / BEYOND_LAST_TURN if not kinks and are_one_power_law(problem.solids) else WIDEST_EDGE

@@ -254,3 +254,39 @@ def test_an_edge_that_no_mesh_resolves_is_refused_before_the_path_is_followed(mo
     monkeypatch.setattr(EdgeStates, "at", None)
     with pytest.raises(NotConverged, match="contact edge needs elements"):
         solve(soft_coating(1e-3), "pull_off_force", "quick")
+
+
+#: Pull-off forces of `blunt` by the integral equation, `fscm` at the accuracy "fine"; bounds 5e-12.
+FORCES_OF_BLUNT_PUNCHES = {7.8: 3.62164646196, 9.4: 3.54705376898, 9.98: 3.52465225575}
+
+
+def blunt(n):
+    """A punch with a flat face and steep walls on a soft film of about the size of the face."""
+    return Problem(Coating(0.8, 1.6, 1.2, 0.6, 0.3), PowerPunch(n, 1.0), LennardJones(1.0, 1.0))
+
+
+@pytest.mark.parametrize("n", heavy(9.4, 7.8, 9.98))
+def test_a_blunt_punch_on_a_coating_has_the_force_of_the_integral_equation(n):
+    result, expected = solve(blunt(n), "pull_off_force"), FORCES_OF_BLUNT_PUNCHES[n]
+    assert result.value == pytest.approx(expected, abs=result.u_num)
+    assert result.u_num < 1e-6
+
+
+def touching_of(problem):
+    """States of the search, on meshes of their own, by their radii."""
+    path = followed.FollowedPath(Meshes(problem, level_for("default")))
+    return [point for point in path.events().points if point.branch.touching]
+
+
+def test_states_are_extrapolated_to_another_mesh_in_few_steps():
+    """The repulsion is like the 9th power of the gap: from the gap of a neighbour Newton takes 12 steps or fails."""
+    assert max(point.state.iterations for point in touching_of(blunt(9.4))[2:]) <= 6
+
+
+def test_the_path_goes_on_where_the_range_of_the_law_may_matter():
+    problem = blunt(9.4)
+    touching = touching_of(problem)
+    heights = problem.punch.height(np.array([touching[-2].edge_radius, touching[-1].edge_radius]) / BEYOND_LAST_TURN)
+    assert heights[1] >= 4.0
+    # No farther than asked for: a flat face under many lengths of the law has steep states without any event.
+    assert heights[0] < 40.0
