@@ -1,4 +1,4 @@
-r"""Least loads with bounds on their errors: from two solutions, and from the residual of the second one.
+r"""Least loads with bounds on their errors: from two solutions on one mesh, and from the residual of the second one.
 
 At an extreme the error of the load is, to first order, what the adjoint y of the equilibrium weighs the residual with,
 whatever fixes the state on its path.  Since r G(r, t) = t G(t, r), the adjoint is p'(H) r z with
@@ -14,15 +14,18 @@ The equation itself would not give it: at a fixed radius the narrow edge moves a
 determines of this motion is the error of the response.  The load is corrected by the first-order error that the nodes
 of the higher order see.  The bound is the sum of two parts.
 
-*Evidence.*  The difference of the corrected loads of the two solutions, which differ in the orders of the pressure and
-of the residual, in the terms of the expansion in k, in the narrowest panels at the edge and at the tip, and in the end
-of the mesh.  It exceeds the error of the second solution if that is at most half that of the first one: an estimate,
-measured (`docs/sweeps.md`).
+*Evidence.*  The difference of the corrected loads of the two solutions, which differ in the order of the pressure.  It
+exceeds the error of the second solution if that is at most half that of the first one: an estimate, measured
+(`docs/sweeps.md`).  Errors that both have are in the other part.
 
 *Residual of the second solution.*  Derived are
 
 * the closed tail: its expansion, and what it neglects;
-* the effect of the last two coefficients of the expansion in k, by the largest of each block.
+* the effect of the last two coefficients of the expansion in k, by the largest of each block;
+* what the nodes of the higher order miss.  The deformation is singular at the ends of panels, where the polynomials of
+  the pressure jump.  Only the error of the pressure makes it so, and near its panel the kernel is that of a line,
+  proportional to |u - v|^-k, to first order in the length of the panel over its radius.  So what is missed is the sum
+  over the Legendre modes of that error, times what is missed of the response to a mode, computed (`missed_share`).
 
 Estimates are
 
@@ -31,8 +34,6 @@ Estimates are
 * the distance from the extreme, from what is left of the derivative of the load, to second order in it;
 * sums over the Legendre modes of each panel of the products of the adjoint with the error of the pressure, and of those
   of the adjoint with the error of the deformation, at the nodes of the higher order;
-* what these nodes miss: the deformation is singular at the ends of panels, where the polynomials of the pressure jump.
-  It is a share of the integral of the sizes of the latter products, computed for such singularities (`unseen_share`);
 * the square of the error of the pressure: what is of second order.
 """
 
@@ -41,17 +42,19 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from scipy.special import gamma
 
 from fscm._many.equilibrium import EDGE_GAP, LAW, Batch, Fields, Stationary
 from fscm._typing import Array
 
-__all__ = ["Loads", "bounded_loads", "unseen_share"]
+__all__ = ["Loads", "bounded_loads", "corrected_loads", "missed_share"]
 
 #: Factor on the sums over the modes.
 _SAFETY = 2.0
-#: Share at k = 0, and its rate in k: twice the worst share of singularities of any two sizes at both ends (computed:
-#: 0.04 at k = 0, 0.08 at k = 0.4 and 0.17 at k = 0.8 for 12 and 16 nodes; less for the other orders).
-_UNSEEN, _UNSEEN_RATE = 0.08, 1.9
+#: Share at k = 0, and its rate in k: twice the worst of modes 6 to 11 with 12 nodes of the residual (computed: 4.7e-5
+#: at k = 0, 4.6e-4 at k = 0.4 and 4.2e-3 at k = 0.8; less with 14 nodes).  Share of this on the panel beside it, per
+#: ratio of the lengths: twice the worst of ratios 1/4 to 4 (computed).
+_MISSED, _MISSED_RATE, _BESIDE = 1e-4, 5.8, 0.5
 #: Relative error of the load per square of the error of the pressure (in units of the largest tension, 1.03): measured
 #: worst 12 over 14 problems at k = 0.7 to 0.8 whose edge panels were too long, with errors of the pressure up to 5e-3.
 _SECOND_ORDER = 50.0
@@ -60,13 +63,12 @@ _SECOND_ORDER = 50.0
 _ROUNDOFF, _ENTRY, _WEIGHT = 2.0**-51, 8.0, 4.0
 
 
-def unseen_share(k: Array) -> Array:
-    """Share of the size of a product that its sum over the nodes of the higher order may differ from its integral by.
+def missed_share(k: Array) -> Array:
+    """What the fine nodes miss of the integral of a unit mode's response over a panel of unit length.
 
-    The product is that of a polynomial of degree 3 with the error of interpolating the deformation, which is singular
-    like u^(1 - k) at the ends of panels (u log u for k = 0).
+    The kernel is |u - v|^-k / k (-log |u - v| for k = 0), the weight a polynomial of degree 3 of the size of 1.
     """
-    return np.asarray(_UNSEEN * np.exp(_UNSEEN_RATE * k))
+    return np.asarray(_MISSED * np.exp(_MISSED_RATE * k))
 
 
 class Loads(NamedTuple):
@@ -85,19 +87,21 @@ class _Defect:
     pressure_error, deformation_error : ndarray, shape (b, m fine)
     by_pressure, by_deformation : ndarray, shape (b, m fine)
         Densities of the derivatives of the load by these errors, the second one times -1.
-    density : ndarray, shape (b, m coarse)
+    density : ndarray, shape (b, N)
         The adjoint over the radius, at the nodes of the pressure.
+    load : ndarray, shape (b,)
+        Corrected by the errors.
     """
 
     def __init__(self, batch: Batch, states: Stationary) -> None:
-        mesh = batch.mesh
+        mesh, nodes = batch.mesh, batch.nodes
         self.at = at = Fields(batch, states.w, states.t)
-        twice, w = 2.0 * at.c[:, None] ** 2, mesh.refined(states.w)
+        twice, w = 2.0 * at.c[:, None] ** 2, nodes.interpolated(states.w, nodes.to_fine)
         gap = EDGE_GAP + (at.c_n / batch.n)[:, None] * batch.rise_fine + (w - at.edge_w)
-        self.pressure_error = LAW.traction(gap) - mesh.refined(at.pressure)
-        shifted = mesh.coarse.nodes * mesh.slopes(states.w) - states.along
-        self.density = twice * at.slope * (1.0 + shifted / (at.c_n[:, None] + batch.at_edge(states.along)))
-        both = np.matmul(batch.response, np.stack([at.pressure, self.density], axis=2))
+        self.pressure_error = LAW.traction(gap) - nodes.interpolated(at.pressure, nodes.to_fine)
+        self.density = twice * at.slope * (1.0 + batch.adjoint_excess(at, states.along))
+        densities = [nodes.interpolated(values, nodes.to_coefficients) for values in (at.pressure, self.density)]
+        both = np.matmul(batch.response, np.stack(densities, axis=2))
         both *= at.stiffness[:, None, None]
         self.deformation_error = w - both[..., 0] - at.tails.lift[:, None]
         self.by_pressure = mesh.fine.nodes * (twice + both[..., 1])
@@ -106,19 +110,41 @@ class _Defect:
         self.load = at.load + seen @ mesh.fine.weights
 
 
-def bounded_loads(first: Batch, first_states: Stationary, second: Batch, second_states: Stationary) -> Loads:
-    """Corrected loads of the second solutions of problems, with an extreme load."""
-    mesh, defect = second.mesh, _Defect(second, second_states)
+def corrected_loads(batch: Batch, states: Stationary) -> Array:
+    """Loads of solutions, corrected to first order by their errors at the fine nodes."""
+    return _Defect(batch, states).load
+
+
+def bounded_loads(batch: Batch, states: Stationary, before: Array) -> Loads:
+    """Corrected loads of solutions with an extreme load; `before` are those of the first solutions."""
+    mesh, defect = batch.mesh, _Defect(batch, states)
     at, y = defect.at, defect.by_deformation
-    bound = np.abs(defect.load - _Defect(first, first_states).load)
-    by_modes = mesh.by_modes(defect.by_pressure, defect.pressure_error) + mesh.by_modes(y, defect.deformation_error)
-    bound += _SAFETY * by_modes + unseen_share(second.k) * (np.abs(y * defect.deformation_error) @ mesh.fine.weights)
+    errors = mesh.modes(defect.pressure_error)
+    products = np.abs(mesh.modes(defect.by_pressure) * errors) + np.abs(
+        mesh.modes(y) * mesh.modes(defect.deformation_error)
+    )
+    squares = 1.0 / (2.0 * np.arange(mesh.fine.order) + 1.0)
+    bound = np.abs(defect.load - before) + _SAFETY * (products @ squares) @ mesh.fine.lengths
+    bound += _missed(batch, at, np.abs(errors).sum(axis=2), np.abs(mesh.by_panel(y)).max(axis=2))
     # The area of the innermost panels is small.
     largest = np.max(np.abs(defect.pressure_error) * np.minimum(mesh.fine.nodes, 1.0), axis=1)
-    bound += _SECOND_ORDER * np.abs(defect.load) * largest**2 + second_states.missed
+    bound += _SECOND_ORDER * np.abs(defect.load) * largest**2 + states.missed
     weighed = y * mesh.fine.weights
-    bound += _behind(second, at, weighed) + _of_response(second, at, weighed)
-    return Loads(defect.load, bound + _rounding(second, at, defect.density))
+    bound += _behind(batch, at, weighed) + _of_response(batch, at, weighed)
+    return Loads(defect.load, bound + _rounding(batch, at, defect.density))
+
+
+def _missed(batch: Batch, at: Fields, errors: Array, y: Array) -> Array:
+    """What the fine nodes miss of the response to the error of the pressure, on its panel and on those beside it."""
+    k, lengths = batch.k[:, None], batch.mesh.fine.lengths
+    # Of the kernel: near the ring it is this number over k, times the distance to the power -k.
+    strength = gamma(1.0 + 0.5 * k) / (np.sqrt(np.pi) * gamma(0.5 + 0.5 * k))
+    weighed = y * lengths
+    beside = np.zeros_like(weighed)
+    beside[:, 1:] += weighed[:, :-1]
+    beside[:, :-1] += weighed[:, 1:]
+    shares = missed_share(k) * (1.0 - k) * strength * lengths ** (1.0 - k) * errors
+    return np.asarray(at.stiffness * (shares * (weighed + _BESIDE * beside)).sum(axis=1))
 
 
 def _behind(batch: Batch, at: Fields, y: Array) -> Array:
@@ -136,9 +162,8 @@ def _of_response(batch: Batch, at: Fields, y: Array) -> Array:
     """Effect of the last two coefficients of the response in k, each at most the largest of its block."""
     mesh = batch.mesh
     by_panel = (len(y), mesh.count, -1)
-    pushed = np.matmul(batch.scale * mesh.uncertain, np.abs(at.pressure).reshape(by_panel).sum(axis=2)[..., None])[
-        ..., 0
-    ]
+    pressure = np.abs(at.pressure).reshape(by_panel).sum(axis=2)
+    pushed = np.matmul(batch.scale * mesh.uncertain, pressure[..., None])[..., 0]
     return np.asarray(at.stiffness * np.einsum("bi,bi->b", np.abs(y).reshape(by_panel).sum(axis=2), pushed))
 
 

@@ -12,15 +12,17 @@ the path are closed forms.  Matrices are factorised one by one, almost everythin
 
 from __future__ import annotations
 
+from copy import copy
 from typing import NamedTuple
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from fscm._many.meshes import CommonMesh
+from fscm._many.meshes import CommonMesh, Nodes
 from fscm._many.response import assembled, scales
 from fscm._many.tail import tails_of
+from fscm._surface.mesh import PanelMesh
 from fscm._typing import Array
 from fscm.laws import LennardJones
 
@@ -30,11 +32,11 @@ LAW = LennardJones()
 #: H_e.
 EDGE_GAP = LAW.peak_gap
 #: Newton's method ends no earlier than the load is this close to its extreme, relative to it.
-_MISSED = 1e-11
+_MISSED = 1e-10
 #: Corrections of the derivatives along the path with old factors end when that of the load changes by less than the
 #: first number, relative to the load, and those of the deformations by less than the second one, relative to the
 #: largest: they only weigh errors.
-_SETTLED, _WEIGHING, _REFINEMENTS = 1e-7, 1e-3, 6
+_SETTLED, _WEIGHING, _REFINEMENTS = 1e-6, 1e-3, 6
 _ITERATIONS = 30
 #: After a step below _CHORD the factors are reused, as long as each step is smaller than the one before by
 #: _CONTRACTION.
@@ -50,38 +52,58 @@ class Batch:
     Attributes
     ----------
     mesh : CommonMesh
+    nodes : Nodes
+        Of the pressure.
     n, k, M : ndarray, shape (b,)
     scale : ndarray, shape (b, panels, panels)
         Of the blocks of the response.
     response : ndarray, shape (b, m fine, m coarse)
-        (1 - k) W, from the pressures at the coarse nodes to the fine ones.
-    square : ndarray, shape (b, m coarse, m coarse)
-        The same to the coarse nodes.
+        (1 - k) W, from the pressures at the nodes of the second solution to the fine nodes.
+    square : ndarray, shape (b, N, N)
+        The same from the nodes to them.
     rise, rise_fine : ndarray
-        s^n - 1 at the coarse and at the fine nodes.
-    area : ndarray, shape (m coarse,)
+        s^n - 1 at the nodes and at the fine ones.
+    area : ndarray, shape (N,)
         Weights times radii.
     """
 
     def __init__(self, mesh: CommonMesh, n: Array, k: Array, M: Array) -> None:
         self.mesh, self.n, self.k, self.M = mesh, n, k, M
         self.scale = scales(mesh.offsets, k)
-        self.response = assembled(mesh.table.polynomials(k, mesh.orders.terms), mesh.coefficients, self.scale)
-        size = mesh.coarse.size
-        by_panel = (len(n), mesh.count, mesh.orders.fine, size)
-        self.square = np.matmul(mesh.to_coarse, self.response.reshape(by_panel)).reshape(len(n), size, size)
-        self.rise, self.rise_fine = (
-            np.expm1(n[:, None] * np.log1p(of_order.node_offsets)) for of_order in (mesh.coarse, mesh.fine)
-        )
-        self.area = mesh.coarse.weights * mesh.coarse.nodes
+        self.response = assembled(mesh.table.polynomials(k), mesh.coefficients, self.scale)
+        self.rise_fine = self._rise(mesh.fine)
+        self._on(mesh.second)
+
+    def on(self, nodes: Nodes) -> Batch:
+        """The same problems with the nodes of a first solution."""
+        batch = copy(self)
+        batch._on(nodes)
+        return batch
+
+    def _on(self, nodes: Nodes) -> None:
+        self.nodes, size = nodes, nodes.mesh.size
+        by_panel = (len(self.n), self.mesh.count, self.mesh.fine.order, -1)
+        self.square = np.matmul(nodes.to_coarse, self.response.reshape(by_panel)).reshape(len(self.n), size, -1)
+        if nodes is not self.mesh.second:
+            lowered = self.square.reshape(len(self.n), -1, self.mesh.second.mesh.order) @ nodes.to_coefficients
+            self.square = lowered.reshape(len(self.n), size, size)
+        self.rise, self.area = self._rise(nodes.mesh), nodes.mesh.weights * nodes.mesh.nodes
+
+    def _rise(self, mesh: PanelMesh) -> Array:
+        return np.asarray(np.expm1(self.n[:, None] * np.log1p(mesh.node_offsets)))
+
+    def adjoint_excess(self, at: Fields, along: Array) -> Array:
+        """z / (2 c^2) - 1 at the nodes (see `fscm._many.bounds`), from the derivative of w along the path."""
+        shifted = self.nodes.mesh.nodes * self.nodes.slopes(at.w) - along
+        return np.asarray(shifted / (at.c_n[:, None] + self.at_edge(along)))
 
     def at_edge(self, values: Array) -> Array:
-        """Values of functions on the coarse nodes, shape (b, N), at the edge; shape (b, 1)."""
-        return np.asarray((values[:, self.mesh.edge_nodes] @ self.mesh.at_end)[:, None])
+        """Values of functions on the nodes, shape (b, N), at the edge; shape (b, 1)."""
+        return np.asarray((values[:, self.nodes.edge] @ self.nodes.at_end)[:, None])
 
 
 class Fields:
-    """Fields of a batch at deformations w, shape (b, m coarse), and logarithms t of the scale, shape (b,)."""
+    """Fields of a batch at deformations w, shape (b, N), and logarithms t of the scale, shape (b,)."""
 
     def __init__(self, batch: Batch, w: Array, t: Array) -> None:
         mesh, n = batch.mesh, batch.n
@@ -104,7 +126,7 @@ class Stationary(NamedTuple):
     Attributes
     ----------
     w, t : ndarray
-    along : ndarray, shape (b, m coarse)
+    along : ndarray, shape (b, N)
         dw/dt along the path.
     curvature : ndarray, shape (b,)
         Second derivative of the load along the path.
@@ -133,14 +155,12 @@ class _Newton:
     ----------
     along : ndarray, shape (b, N)
         As in `Stationary`.
-    back : ndarray, shape (b, N)
-        The adjoint of the load times the response, of the last factors.
     """
 
     def __init__(self, batch: Batch, w: Array, t: Array) -> None:
         self.batch, self.w, self.t = batch, w.copy(), t.copy()
         b = len(t)
-        self.along, self.back = np.zeros((2, *w.shape))
+        self.along = np.zeros(w.shape)
         self.curvature, self.missed, self._last = np.full(b, np.nan), np.full(b, np.inf), np.full(b, np.inf)
         self._factors: dict[int, tuple[Array, NDArray[np.int32]]] = {}
         self.active, self.converged = np.ones(b, bool), np.zeros(b, bool)
@@ -153,18 +173,19 @@ class _Newton:
         self.active &= np.isfinite(residuals).all(axis=(1, 2)) & (at.gap > LAW.singular_gap).all(axis=1)
         weighed = at.ring * at.slope
         by_w = weighed.copy()
-        by_w[:, batch.mesh.edge_nodes] += (at.tails.load_slope - weighed.sum(axis=1))[:, None] * batch.mesh.at_end
-        x, along, new = self._solved(at, residuals, by_w)
+        by_w[:, batch.nodes.edge] += (at.tails.load_slope - weighed.sum(axis=1))[:, None] * batch.nodes.at_end
+        x, along, new = self._solved(at, residuals)
         self.along += along
         left = np.zeros(len(new))
         for i in np.flatnonzero(self.active & ~new).tolist():
             left[i] = self._refine(at, i, by_w[i])
         opened = at.c_n[:, None] * batch.rise + self.along - batch.at_edge(self.along)
-        rate = self._rate(at, weighed, by_w, opened, x - batch.at_edge(x), new)
+        rate, self.curvature = self._derivatives(at, weighed, by_w, opened, x - batch.at_edge(x))
         self.missed = np.where(self.active, 0.5 * (np.abs(rate) + left) ** 2 / np.abs(self.curvature), self.missed)
         growth = -rate / self.curvature
         change, whole = self._move(at, x + growth[:, None] * self.along, growth)
-        shrunk = np.where(new, change, change / self._last)
+        # With new factors the derivatives along the path are those of the state before the step.
+        shrunk = np.where(new, 1.0, change / self._last)
         done = self.active & whole & (change * np.minimum(shrunk, 1.0) < remainder)
         done &= self.missed < _MISSED * np.abs(at.load)
         self.converged |= done
@@ -189,7 +210,7 @@ class _Newton:
     def _refine(self, at: Fields, i: int, by_w: Array) -> float:
         """Correct `along` with old factors until it has settled; the last change of the derivative of the load."""
         batch, tails, left = self.batch, at.tails, np.inf
-        nodes, end, Q, rise = batch.mesh.edge_nodes, batch.mesh.at_end, batch.square[i], at.c_n[i] * batch.rise[i]
+        nodes, end, Q, rise = batch.nodes.edge, batch.nodes.at_end, batch.square[i], at.c_n[i] * batch.rise[i]
         fixed = (1.0 - batch.k[i]) * at.stiffness[i] * (Q @ at.pressure[i])
         for _ in range(_REFINEMENTS):
             edge = self.along[i, nodes] @ end
@@ -206,47 +227,47 @@ class _Newton:
     def _back_substituted(self, i: int, right: Array) -> Array:
         return np.asarray(scipy.linalg.lapack.dgetrs(*self._factors[i], right, trans=1)[0])
 
-    def _solved(self, at: Fields, residuals: Array, by_w: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+    def _solved(self, at: Fields, residuals: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
         """Corrections of w and `along`, shape (b, N) each, and which problems have new factors."""
         corrections, new = np.zeros(residuals.shape), np.zeros(len(residuals), bool)
         for i in np.flatnonzero(self.active).tolist():
             if i not in self._factors:
                 new[i] = True
-                self._factors[i] = self._factorised(at, i, by_w[i])
+                self._factors[i] = self._factorised(at, i)
             corrections[i] = self._back_substituted(i, residuals[i])
         x, along = np.ascontiguousarray(corrections.transpose(2, 0, 1))
         return x, along, new
 
-    def _factorised(self, at: Fields, i: int, by_w: Array) -> tuple[Array, NDArray[np.int32]]:
+    def _factorised(self, at: Fields, i: int) -> tuple[Array, NDArray[np.int32]]:
         """Factors of the transpose of the tangent, which is in the order of the packages."""
-        mesh, Q = self.batch.mesh, self.batch.square[i]
+        nodes, Q = self.batch.nodes, self.batch.square[i]
         weights = at.stiffness[i] * at.slope[i]
         A = Q * -weights
         A.flat[:: len(A) + 1] += 1.0
         by_edge = Q @ weights - at.tails.lift_slope[i]
-        A[:, mesh.edge_nodes] += by_edge[:, None] * mesh.at_end
+        A[:, nodes.edge] += by_edge[:, None] * nodes.at_end
         lu, pivots, _ = scipy.linalg.lapack.dgetrf(A.T, overwrite_a=1)
-        self.back[i] = at.stiffness[i] * (scipy.linalg.lapack.dgetrs(lu, pivots, by_w)[0] @ Q)
         return lu, pivots
 
-    def _rate(
-        self, at: Fields, weighed: Array, by_w: Array, opened: Array, corrected: Array, new: NDArray[np.bool_]
-    ) -> Array:
-        """Derivative of the load along the path, at the corrected state; new factors get the curvature.
+    def _derivatives(
+        self, at: Fields, weighed: Array, by_w: Array, opened: Array, corrected: Array
+    ) -> tuple[Array, Array]:
+        """First derivative of the load along the path, at the corrected state, and the second one.
 
         `opened` and `corrected` are the changes of the gap along the path and by the residual.
         """
         batch, tails, in_mesh = self.batch, at.tails, at.load_in_mesh
         n, k = batch.n[:, None], batch.k[:, None]
         rise, bend = at.c_n[:, None] * batch.rise, LAW.curvature(at.gap)
+        # The adjoint of the load times the response.
+        back = at.ring * batch.adjoint_excess(at, self.along)
         curve = bend * opened * opened + at.slope * (n * rise)
         of_back = (1.0 - k) ** 2 * at.pressure + 2.0 * (1.0 - k) * at.slope * opened + curve
-        curvature = _dot(at.ring, curve) + 4.0 * (_dot(weighed, opened) + in_mesh) + _dot(self.back, of_back)
-        self.curvature = np.where(new, curvature, self.curvature)
+        curvature = _dot(at.ring, curve) + 4.0 * (_dot(weighed, opened) + in_mesh) + _dot(back, of_back)
         rate = _dot(by_w, self.along) + 2.0 * in_mesh + _dot(weighed, rise)
         rate += tails.load_rate + tails.load_slope * at.c_n
-        mixed = (at.ring + self.back) * (bend * opened) + 2.0 * weighed + (1.0 - k) * self.back * at.slope
-        return np.asarray(rate + _dot(mixed, corrected))
+        mixed = (at.ring + back) * (bend * opened) + 2.0 * weighed + (1.0 - k) * back * at.slope
+        return rate + _dot(mixed, corrected), curvature
 
     def _move(self, at: Fields, step: Array, growth: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Move the active problems; the largest change of a gap, relative to 1 + |H|, and whether the step is whole."""

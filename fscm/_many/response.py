@@ -15,6 +15,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from fscm._many.kernels import Kernels, are_apart
 from fscm._surface.deformation import response_blocks
 from fscm._surface.kernel import kernel_of
 from fscm._surface.mesh import PanelMesh, gauss_rule
@@ -32,31 +33,33 @@ class Orders(NamedTuple):
 
     Attributes
     ----------
+    first : tuple of int
+        Nodes a panel of the pressure of a first solution, and of another one where the bound is too large.
     coarse, fine : int
-        Nodes a panel of the pressure, and of the residual.
+        Those of the second solution, and of the residuals.
     terms : int
         Of the expansion in k.
     """
 
+    first: tuple[int, int]
     coarse: int
     fine: int
     terms: int
 
 
 class Interval(NamedTuple):
-    """An interval of k with its own expansion, and the orders of the first and of the second solution there."""
+    """An interval of k with its own expansion, and the orders there."""
 
     low: float
     high: float
-    first: Orders
-    second: Orders
+    orders: Orders
 
 
 #: The deformation is the more singular at the ends of panels the larger k is.
 INTERVALS = (
-    Interval(0.0, 0.35, Orders(7, 12, 12), Orders(9, 12, 14)),
-    Interval(0.35, 0.7, Orders(7, 12, 12), Orders(9, 12, 14)),
-    Interval(0.7, 0.8, Orders(9, 14, 8), Orders(11, 14, 10)),
+    Interval(0.0, 0.35, Orders((6, 7), 8, 12, 14)),
+    Interval(0.35, 0.67, Orders((6, 7), 8, 12, 14)),
+    Interval(0.67, 0.8, Orders((8, 9), 10, 14, 12)),
 )
 
 
@@ -71,10 +74,11 @@ class ResponseTable:
     """
 
     def __init__(self, interval: Interval, meshes: Iterable[Array]) -> None:
-        low, high, _, orders = interval
-        self._low, self._high, self.orders = low, high, orders
+        self._low, self._high, self.orders = interval
+        orders = self.orders
         cosines = np.cos(np.pi * (np.arange(orders.terms) + 0.5) / orders.terms)
-        self._nodes = 0.5 * (low + high + (high - low) * cosines)
+        self._nodes = 0.5 * (self._low + self._high + (self._high - self._low) * cosines)
+        self._kernels = Kernels(self._nodes)
         self._to_coefficients = np.linalg.inv(chebyshev.chebvander(cosines, orders.terms - 1))
         self._to_fine = gauss_rule(orders.coarse).interpolation(gauss_rule(orders.fine).nodes)
         self._panels: dict[tuple[float, float], int] = {}
@@ -93,39 +97,40 @@ class ResponseTable:
             if rows.size:
                 self._blocks[rows] = self._expanded(offsets, targets, sources)
             lacking[np.ix_(panels, panels)] = False
+        sizes = np.array([np.abs(block).max(axis=(1, 2)) for block in self._blocks]).reshape(-1, orders.terms)
+        self._uncertain = sizes[:, -2:].sum(axis=1) + INTEGRATION_ERROR * sizes.sum(axis=1)
 
-    def coefficients(self, offsets: Array, orders: Orders) -> Array:
-        """Coefficients of the scaled blocks between the panels of a mesh, shape (terms, m, fine, m, coarse).
+    def coefficients(self, offsets: Array) -> tuple[Array, Array]:
+        """Coefficients of the scaled blocks between the panels of a mesh, and the largest error of an entry of each.
 
-        The orders of the pressure and of the expansion are at most those of the table.
+        The shapes are (terms, m, fine, m, coarse) and (m, m); the error is that of the last two coefficients and of
+        the integration.
         """
         panels = [self._panels[panel] for panel in _panels(offsets)]
-        (own, fine, _), (coarse, _, terms), m = self.orders, orders, len(panels)
-        coarser = gauss_rule(coarse).interpolation(gauss_rule(own).nodes)
+        (_, coarse, fine, terms), m, rows = self.orders, len(panels), self._rows[np.ix_(panels, panels)]
         coefficients = np.empty((terms, m, fine, m, coarse))
         # Row by row: the blocks of a row are in the cache when they are transposed.
-        for i, rows in enumerate(self._rows[np.ix_(panels, panels)]):
-            blocks = self._blocks[rows, :terms]
-            if coarse != own:
-                blocks = (blocks.reshape(-1, own) @ coarser).reshape(m, terms, fine, coarse)
-            coefficients[:, i] = blocks.transpose(1, 2, 0, 3)
-        return coefficients
+        for i, row in enumerate(rows):
+            coefficients[:, i] = self._blocks[row].transpose(1, 2, 0, 3)
+        return coefficients, self._uncertain[rows]
 
     def _expanded(self, offsets: Array, targets: NDArray[np.intp], sources: NDArray[np.intp]) -> Array:
-        coarse, fine, terms = self.orders
+        _, coarse, fine, terms = self.orders
         mesh = PanelMesh(offsets, fine, -float(offsets[0]))
         distance = _distances(offsets)[targets, sources]
-        values = np.empty((terms, len(targets), fine * coarse))
+        values = np.empty((terms, len(targets), fine, coarse))
+        apart = are_apart(mesh, targets, sources, _NEAR)
+        values[:, apart] = self._kernels.blocks(mesh, targets[apart], sources[apart], distance[apart]) @ self._to_fine
+        close = ~apart
         for i, k in enumerate(self._nodes):
-            blocks = response_blocks(kernel_of(float(k)), mesh, targets, sources, _NEAR) @ self._to_fine
-            values[i] = ((1.0 - k) * distance**k)[:, None] * blocks.reshape(len(targets), -1)
-        expanded = np.tensordot(values, self._to_coefficients, axes=(0, 1))
-        return expanded.reshape(len(targets), fine, coarse, terms).transpose(0, 3, 1, 2)
+            blocks = response_blocks(kernel_of(float(k)), mesh, targets[close], sources[close], _NEAR) @ self._to_fine
+            values[i, close] = ((1.0 - k) * distance[close] ** k)[:, None, None] * blocks
+        return np.tensordot(values, self._to_coefficients, axes=(0, 1)).transpose(0, 3, 1, 2)
 
-    def polynomials(self, k: Array, terms: int) -> Array:
+    def polynomials(self, k: Array) -> Array:
         """Chebyshev polynomials at exponents, shape (len(k), terms)."""
         x = (2.0 * k - self._low - self._high) / (self._high - self._low)
-        return np.asarray(chebyshev.chebvander(x, terms - 1), float)
+        return np.asarray(chebyshev.chebvander(x, self.orders.terms - 1), float)
 
 
 def _panels(offsets: Array) -> list[tuple[float, float]]:

@@ -33,12 +33,12 @@ from numpy.polynomial import chebyshev
 
 from fscm._typing import Array
 
-__all__ = ["Kernel", "Phi", "Psi", "box_cox", "kernel_of", "ring_response"]
+__all__ = ["NEAR_LIMIT", "Kernel", "Phi", "Psi", "box_cox", "kernel_of", "ring_response"]
 
 #: The near form is expanded on 0 <= y <= 1/2; its nearest singularity is y = 1, so Chebyshev coefficients
 #: fall like (3 + sqrt 8)^-m and 24 of them reach 1e-18.
 _NEAR_DEGREE = 24
-_NEAR_LIMIT = 0.5
+NEAR_LIMIT = 0.5
 #: Terms of the Taylor series at y <= 1/2.  Those of D, C and F are of the size of 1, so that the others are below
 #: 2^-70 < 1e-21.
 _SERIES_TERMS = 70
@@ -120,6 +120,13 @@ class Kernel:
     k : float
         Gradient exponent, 0 <= k < 1.
 
+    Attributes
+    ----------
+    near_D, near_C : ndarray
+        Power coefficients of D and C in 2 y / NEAR_LIMIT - 1.
+    far : ndarray
+        Those of F in the square of the ratio of the radii.
+
     Raises
     ------
     ValueError
@@ -139,9 +146,9 @@ class Kernel:
             # F(a, 1/2; 1; 1 - y) = A + y^{-k/2} B
             A = _scaled(_gauss_series(a, half, 1 + q / 2, terms), gamma(-q / 2) / (gamma(1 - a) * gamma(half)))
             B = _scaled(_gauss_series(1 - a, half, 1 - q / 2, terms), gamma(q / 2) / (gamma(a) * gamma(half)))
-            self._near_D = _polynomial([x + y for x, y in zip(A, B, strict=True)], _NEAR_LIMIT)
-            self._near_C = _polynomial([x * q / 2 for x in B], _NEAR_LIMIT)
-            self._far = np.array([float(c) for c in _gauss_series(a, a, mpmath.mpf(1), 12)])
+            self.near_D = _polynomial([x + y for x, y in zip(A, B, strict=True)], NEAR_LIMIT)
+            self.near_C = _polynomial([x * q / 2 for x in B], NEAR_LIMIT)
+            self.far = np.array([float(c) for c in _gauss_series(a, a, mpmath.mpf(1), 12)])
 
     def _primitive_series(self, less: int, c: int) -> _Primitive:
         with mpmath.workdps(_digits(self.k)):
@@ -167,11 +174,11 @@ class Kernel:
         total = r + t
         ratio = distance / total
         u = ratio * ratio
-        u *= 2.0 / _NEAR_LIMIT
+        u *= 2.0 / NEAR_LIMIT
         u -= 1.0
         front = t * total ** (-1.0 - self.k)
         # y = ratio^2, so L_{k/2}(y) = 2 L_k(ratio).
-        return front * _horner(self._near_D, u), 2.0 * front * _horner(self._near_C, u)
+        return front * _horner(self.near_D, u), 2.0 * front * _horner(self.near_C, u)
 
     def response(self, r: Array, t: Array, distance: Array) -> Array:
         """G_k(r, t), dimension radius^-k; `distance` is abs(r - t), > 0, to full relative accuracy.
@@ -179,7 +186,7 @@ class Kernel:
         All arguments are arrays of one shape; r may be 0.
         """
         out = np.empty(np.shape(distance))
-        is_near = distance <= math.sqrt(_NEAR_LIMIT) * (r + t)
+        is_near = distance <= math.sqrt(NEAR_LIMIT) * (r + t)
         rn, tn, dn = r[is_near], t[is_near], distance[is_near]
         S, C = self.near_parts(rn, tn, dn)
         with np.errstate(divide="ignore"):
@@ -189,7 +196,7 @@ class Kernel:
         rf, tf = r[far], t[far]
         larger = np.maximum(rf, tf)
         x = np.minimum(rf, tf) / larger
-        out[far] = tf * larger ** (-1.0 - self.k) * _horner(self._far, x * x)
+        out[far] = tf * larger ** (-1.0 - self.k) * _horner(self.far, x * x)
         return out
 
     def Phi(self, s: Array, offset: Array) -> Array:
@@ -246,24 +253,24 @@ class _Primitive:
         self._k = float(k) if k >= _SMALLEST_K else 0.0
         self._at_one = float(A[0])
         self._at_one_minus_one = float(A[0] - 1)
-        self._D = _polynomial([x + y for x, y in zip(A[1:], B, strict=True)], _NEAR_LIMIT)
-        self._C = _polynomial([x * k for x in B], _NEAR_LIMIT)
+        self._D = _polynomial([x + y for x, y in zip(A[1:], B, strict=True)], NEAR_LIMIT)
+        self._C = _polynomial([x * k for x in B], NEAR_LIMIT)
         taylor = _gauss_series(a, b, c, terms)
-        self._taylor_minus_one = _polynomial(taylor[1:], _NEAR_LIMIT)
+        self._taylor_minus_one = _polynomial(taylor[1:], NEAR_LIMIT)
 
     def value(self, x: Array, y: Array, minus_one: bool = False) -> Array:
         """F(x^2), or F - 1; `y` is 1 - x^2 to full relative accuracy."""
         out = np.empty_like(x)
-        is_near = y <= _NEAR_LIMIT
+        is_near = y <= NEAR_LIMIT
         yn = y[is_near]
-        u = yn * (2.0 / _NEAR_LIMIT) - 1.0
+        u = yn * (2.0 / NEAR_LIMIT) - 1.0
         # y = 0 is the value at one; the smallest float stands in for it under the logarithm.
         L = box_cox(np.log(np.maximum(yn, np.finfo(float).tiny)), self._k)
         start = self._at_one_minus_one if minus_one else self._at_one
         # y L first: near k = 1 either factor alone is at the end of the range of numbers.
         out[is_near] = start + yn * _horner(self._D, u) + _horner(self._C, u) * (yn * L)
         x2 = x[~is_near] ** 2
-        out[~is_near] = x2 * _horner(self._taylor_minus_one, x2 * (2.0 / _NEAR_LIMIT) - 1.0) + (
+        out[~is_near] = x2 * _horner(self._taylor_minus_one, x2 * (2.0 / NEAR_LIMIT) - 1.0) + (
             0.0 if minus_one else 1.0
         )
         return out

@@ -38,7 +38,7 @@ def state_nodes(count: int) -> tuple[Array, Array, Array]:
 
 def _described(batch: Batch, at: Fields, i: int, mu: float) -> Array:
     """Numbers that describe a state (`fscm._many.guess.described`)."""
-    mesh, n, k, c = batch.mesh.coarse, float(batch.n[i]), float(batch.k[i]), float(at.c[i])
+    mesh, n, k, c = batch.nodes.mesh, float(batch.n[i]), float(batch.k[i]), float(at.c[i])
 
     def gap(offsets: Array) -> Array:
         w = mesh.evaluate_at_offsets(at.w[i], offsets)
@@ -71,9 +71,10 @@ def fit_states(count: int, degree: int, path: Path = DATA) -> dict[str, float]:
         groups = groups_of(n, k, guess, problems)
         table = ResponseTable(interval, [panels.offsets for panels in groups])
         for panels, group in groups.items():
-            mesh = CommonMesh(panels, interval.second, table)
+            mesh = CommonMesh(panels, table)
             for part in parts_of(group, mesh):
-                for i, row in _rows(*solved(mesh, n, k, mu, guess, part), mu[part]):
+                _, _, batch, states = solved(mesh, mesh.first[0], n, k, mu, guess, part)
+                for i, row in _rows(batch, states, mu[part]):
                     nodes.append(int(part[i]))
                     numbers.append(row)
     values, degrees = np.array(numbers), terms(degree)
