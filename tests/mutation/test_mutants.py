@@ -9,7 +9,6 @@ import pytest
 from tests.mutation import score
 from tests.mutation.score import ROOT, main, mutants, noticed_by
 
-
 MUTANTS = mutants()
 
 

@@ -68,14 +68,15 @@ def test_the_traction_of_a_ball_is_that_of_its_atoms(package, exponents, R):
                 assert float(ball.size(r, gap)) == pytest.approx(size, rel=1e-11)
 
 
-@both
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("exponents", EXPONENTS)
-def test_the_traction_is_that_of_all_atoms_of_the_volume(package, exponents, shape):
-    force = force_of(package, SHAPES[shape](package), exponents)
+def test_the_traction_is_that_of_all_atoms_of_the_volume(exponents, shape):
+    """In both references."""
+    forces = [force_of(package, SHAPES[shape](package), exponents) for package in PACKAGES]
     for x, v in ((0.0, 0.9), (1.5, 1.1), (6.0, 1.4)):
-        exact, size = of_powers(exponents, [power_of_profile(force.punch, m, x, v) for m in exponents])
-        assert float(force.traction(np.array(x), np.array(v - 1.0))) == pytest.approx(exact, abs=VOLUME * size)
+        exact, size = of_powers(exponents, [power_of_profile(forces[0].punch, m, x, v) for m in exponents])
+        for force in forces:
+            assert float(force.traction(np.array(x), np.array(v - 1.0))) == pytest.approx(exact, abs=VOLUME * size)
 
 
 @pytest.mark.parametrize(("package", "shape"), OFTEN)
