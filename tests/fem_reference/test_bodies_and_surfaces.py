@@ -7,6 +7,8 @@ import pytest
 
 from fem_reference import Homogeneous, LennardJones, PowerLaw, PowerPunch, Problem, solve, solve_large_strain
 from fem_reference._contact.mesh_lengths import scales
+from fem_reference._contact.meshes import Meshes
+from fem_reference.accuracy import level_for
 from tests.marks import heavy
 from tests.refusals import refused
 
@@ -39,11 +41,27 @@ def test_two_bodies_of_different_ratios_are_one_of_the_combined_modulus():
     assert _agree(_force(half, other), _force(Homogeneous(0.91 * plane_strain, 0.3)))
 
 
+GRADED, UNIFORM = PowerLaw(1.0, 1.0, 0.4, 0.3), Homogeneous(2.0, 0.3)
+
+
 def test_two_power_laws_of_one_exponent_scale_and_bodies_can_be_exchanged():
-    graded, uniform = PowerLaw(1.0, 1.0, 0.4, 0.3), Homogeneous(2.0, 0.3)
-    assert scales(Problem(graded, *PARTS, replace(graded, E0=0.5)))
-    assert not scales(Problem(graded, *PARTS, uniform))
-    solution, exchanged = _force(graded, uniform), _force(uniform, graded)
+    """The mesh and what a load displaces on it are those of both bodies, whichever is the punch."""
+    assert scales(Problem(GRADED, *PARTS, replace(GRADED, E0=0.5)))
+    meshes, exchanged = (
+        Meshes(Problem(solid, *PARTS, punch_solid), level_for("quick"))
+        for solid, punch_solid in ((GRADED, UNIFORM), (UNIFORM, GRADED))
+    )
+    assert not meshes.scale
+    spec, size = meshes.first()
+    assert spec == exchanged.first()[0]
+    both = (of_pair.contact(spec, size).compliance for of_pair in (meshes, exchanged))
+    one, other = (compliance.factor(size) * compliance.matrix for compliance in both)
+    assert other == pytest.approx(one, rel=ROUNDING, abs=ROUNDING * one.max())
+
+
+@pytest.mark.heavy
+def test_exchanged_bodies_have_one_force():
+    solution, exchanged = _force(GRADED, UNIFORM), _force(UNIFORM, GRADED)
     assert exchanged.value == pytest.approx(solution.value, rel=ROUNDING)
     assert min(solution.iterations, exchanged.iterations) > 5
 
