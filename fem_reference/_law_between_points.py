@@ -8,6 +8,7 @@ relative to its scale, over the logarithm of that distance.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -60,8 +61,11 @@ class _TwoPowers(NamedTuple):
         return np.hypot(self.net(x), 0.5 * SHARE * tension * (attraction + repulsion))
 
 
-def _fit(x: Array, p: Array) -> _TwoPowers:
+# One problem makes the law several times.
+@lru_cache(maxsize=8)
+def _fit(gaps: tuple[float, ...], tractions: tuple[float, ...]) -> _TwoPowers:
     """Two powers with the smallest squares of relative deviations."""
+    x, p = np.array(gaps), np.array(tractions)
     tension, lowest = -float(p.min()), int(np.argmin(p))
     zero = float(np.interp(0.0, -p[: lowest + 1], x[: lowest + 1]))
     wall = min(zero - 1.0, x[0] - 0.1 * (zero - x[0]))
@@ -97,7 +101,7 @@ def denser_points(x: Array, p: Array) -> tuple[Array, Array]:
     >>> len(x), bool(abs(p - (x**-9 - x**-3)).max() < 1e-6)
     (210, True)
     """
-    powers = _fit(x, p)
+    powers = _fit(tuple(x.tolist()), tuple(p.tolist()))
     log_distance = np.log(x - powers.wall)
     rest = scipy.interpolate.make_interp_spline(log_distance, (p - powers.net(x)) / powers.scale(x), k=5)
     parts = math.ceil(DENSE / (len(x) - 1))

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -63,8 +64,11 @@ class _Powers:
         return np.hypot(attraction * net, 0.5 * _FLOOR * largest * attraction * (net + 2.0))
 
 
-def _fitted_powers(gap: Array, p: Array) -> _Powers:
+# A file is read, checked and posed with a law for each, of the same points.
+@lru_cache(maxsize=8)
+def _fitted_powers(gaps: tuple[float, ...], tractions: tuple[float, ...]) -> _Powers:
     """Least squares of the relative deviations from the points."""
+    gap, p = np.array(gaps), np.array(tractions)
     tension = float(np.max(-p))
     weight = np.abs(p) + _FLOOR * tension
     falling = slice(0, int(np.argmin(p)) + 1)
@@ -100,7 +104,7 @@ def law_curve(gap: Array, p: Array, error: float) -> tuple[Array, Array]:
     ndarray, ndarray
         Each interval between two points is cut into equal steps of the logarithm of the distance from the wall.
     """
-    powers, scale = _fitted_powers(gap, p), error or 1.0
+    powers, scale = _fitted_powers(tuple(gap.tolist()), tuple(p.tolist())), error or 1.0
     distance, left = np.log(gap - powers.wall), (p - powers.traction(gap)) / (scale * powers.size(gap))
     if error == 0.0:
         correction = scipy.interpolate.make_interp_spline(distance, left, k=5)

@@ -25,6 +25,8 @@ LONG = {
     "comparisons.problem.equivalent_solid",
     "comparisons.description.equivalent_power_law",
     "comparisons.models.fem_model",
+    "comparisons.models.fscm_model",
+    "comparisons.paper.tasks",
     "fem_reference.large_strain",
     "fem_reference.verification.element_checks",
 }

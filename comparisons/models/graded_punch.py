@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.special import beta
@@ -75,7 +76,7 @@ class GradedPunch:
     @property
     def stiffness(self) -> float:
         """2 cos(k pi/2) / (pi (1 - k)); P = stiffness (1 + k)^-1 a^(1+k) delta for a flat punch."""
-        return float(np.sinc(self.s))
+        return _sinc(self.s)
 
     @property
     def flattening(self) -> float:
@@ -96,3 +97,9 @@ class GradedPunch:
     def scales(self, mu: float) -> Scales:
         """Return the factors from tilde to barred variables at Tabor number `mu`."""
         return Scales(mu, mu ** (1.0 / self.n), mu ** (2.0 / self.n - 1.0), 1.0 / mu)
+
+
+@lru_cache(maxsize=64)
+def _sinc(s: float) -> float:
+    """sin(pi s) / (pi s): a solution of the width of a cohesive zone asks for it thousands of times."""
+    return float(np.sinc(s))

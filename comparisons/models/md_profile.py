@@ -34,6 +34,8 @@ from comparisons.problem import Problem
 
 #: Widths L among which that of the zone is looked for, as exponents of e over the unit of radii.
 _NARROWEST, _WIDEST = -300.0, 40.0
+#: Work that stands for what is not positive, by rounding, where the zone is narrow.
+_LEAST_WORK = 1e-300
 #: Change of log(L) by which the slope of H(c) is found.
 _STEP = 1e-4
 
@@ -60,7 +62,7 @@ class _CohesiveBranch(Branch):
             )
         log_width = float(
             scipy.optimize.brentq(
-                lambda log_L: self._gap(radius, profile, log_L)[0] - 1.0 / self.stress,
+                lambda log_L: self._log_work(radius, profile, log_L),
                 _NARROWEST,
                 _WIDEST,
                 xtol=4.0 * EPS,
@@ -78,6 +80,10 @@ class _CohesiveBranch(Branch):
         displacement_error = ROUNDING * (profile + lift) + 2.0 * s * shift * lift
         load_error = ROUNDING * terms + (2.0 * s + 2.0) * shift * stiffness * lift * (inner + zone)
         return State(profile - lift, load, displacement_error, load_error)
+
+    def _log_work(self, radius: float, profile: float, log_width: float) -> float:
+        """Log of sigma_0 H(c), nearly linear in log(L), so that few steps find its root."""
+        return math.log(max(self.stress * self._gap(radius, profile, log_width)[0], _LEAST_WORK))
 
     def _lift(self, log_width: float) -> float:
         """T."""

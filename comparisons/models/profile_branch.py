@@ -98,6 +98,11 @@ class Branch(ABC):
         radii = np.geomspace(_NEAREST * middle, end, _RADII)
         return tuple(sorted({*radii.tolist(), *(r for r in self.profile.breaks if radii[0] < r < end)}))
 
+    @lru_cache(maxsize=4)  # noqa: B019  # a few numbers for each radius, and every event is looked for among them
+    def _scan(self) -> tuple[State, ...]:
+        """Return the states of these radii."""
+        return tuple(self.at(a) for a in self.radii())
+
     @lru_cache(maxsize=16)  # noqa: B019  # a number each
     def radius_at(self, event: str) -> float:
         """Return the contact radius at ``pull_off``, ``jump_out`` or ``zero_load``."""
@@ -106,13 +111,13 @@ class Branch(ABC):
         if event == "jump_out":
             return self._least(lambda state: state.displacement)
         first = self.radius_at("pull_off")
-        last = next(a for a in self.radii() if a > first and self.at(a).load > 0.0)
+        last = next(a for a, state in zip(self.radii(), self._scan(), strict=True) if a > first and state.load > 0.0)
         return _root(lambda a: self.at(a).load, first, last)
 
     def _least(self, value: Callable[[State], float]) -> float:
         """Return the contact radius where a number of the states is least."""
         radii = self.radii()
-        values = [value(self.at(a)) for a in radii]
+        values = [value(state) for state in self._scan()]
         i = int(np.argmin(values))
         # At a = 0 for a bed of springs (k = 1), and with a cohesive zone on a stiff solid.
         candidates = [(values[i], radii[i]), (value(self.at(0.0)), 0.0)]
@@ -138,7 +143,7 @@ class ProfileModel(ContactBranch):
 
     def branch_of(self, problem: Problem) -> Branch:
         """Return the branch of a problem, which keeps its events."""
-        return _branch(self, problem)
+        return _branch(self._branch_type, problem)
 
     def skip(self, problem: Problem, quantity: str) -> str | None:
         """Return why not, unless a punch without waves at vertical gaps is on a power-law solid."""
@@ -205,8 +210,8 @@ class ProfileModel(ContactBranch):
 
 
 @lru_cache(maxsize=16)
-def _branch(model: ProfileModel, problem: Problem) -> Branch:
-    return model._branch_type.of(problem)
+def _branch(kind: type[Branch], problem: Problem) -> Branch:
+    return kind.of(problem)
 
 
 def _at_minimum(branch: Branch, radius: float) -> float:

@@ -228,7 +228,7 @@ class Problem:
         """Whether n, k and mu state the problem: its law has neither a work of adhesion nor a length."""
         return not self.law.values
 
-    @property
+    @cached_property
     def _sections(self) -> dict[str, Section]:
         """The sections that the problem has, by name."""
         sections = {name: getattr(self, name) for name in (*SECTIONS, PUNCH_SOLID)}
@@ -329,7 +329,7 @@ class Problem:
         """Where the surface force is taken: "derjaguin", unless the file states "body"."""
         return str(self.law.get("interaction", "derjaguin"))
 
-    @property
+    @cached_property
     def _is_one_power_law(self) -> bool:
         """Whether the compliance of the surface is that of one power law."""
         kinds = [KINDS["solid"][body.kind] for body in self.bodies]

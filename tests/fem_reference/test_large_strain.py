@@ -30,7 +30,7 @@ from fem_reference._elastic.trace import trace_of
 from fem_reference._large_strain import whole_path
 from fem_reference._large_strain.block import block_of, linear_response
 from fem_reference._large_strain.core import core_of
-from fem_reference._large_strain.discretisation import linear_event
+from fem_reference._large_strain.discretisation import _reason, linear_event
 from fem_reference._large_strain.equilibrium import Control, solve_state
 from fem_reference._large_strain.error_parts import state_bounds, variants_of
 from fem_reference._large_strain.events import Family, found_event
@@ -397,6 +397,20 @@ def test_what_has_no_answer_is_refused():
     refused("z_s = -1", NeoHookean, 1.0, 0.5, 0.5, 1.0, -1.0)
     soft_surface = replace(problem, solid=PowerLaw(200.0, 1.0, 0.4, 0.3))
     refused("vanishes at the surface", solve_large_strain, soft_surface, "pull_off_force")
+
+
+def test_the_reason_why_no_state_is_found_is_the_tension_at_which_a_flat_surface_is_unstable():
+    """Where the law has it; a solid whose modulus changes at the surface has no such limit."""
+    remedy = "take a stiffer solid or less adhesion"
+    assert _reason(sphere(5e-3, 0.5, 0.3)) == remedy
+    assert _reason(replace(sphere(0.02, 3.0, 0.3), solid=NeoHookean(45.5, 0.3, 0.5, 1.0, 1.0))) == remedy
+    of_flat = _reason(sphere(0.02, 3.0, 0.3))
+    assert "unstable from 0.548" in of_flat
+    assert of_flat.endswith(remedy)
+
+
+@pytest.mark.heavy
+def test_a_surface_that_is_unstable_is_refused_with_this_reason():
     refused(r"unstable from 0\.548", family(sphere(0.02, 3.0, 0.3)).state, 0.0, error=NotConverged)
 
 

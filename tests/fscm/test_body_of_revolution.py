@@ -17,6 +17,7 @@ from fscm._surface.state import Control, rigid_state
 from fscm._surface.tail_of_body import TailOfBody
 from fscm.measured_punch import MeasuredPunch
 from fscm.punch import ScaledPunch
+from tests.marks import heavy
 from tests.refusals import refused
 from tests.solvers.potentials import composite
 
@@ -30,12 +31,14 @@ SHAPES = {
     "kinked": MeasuredPunch([0.0, 4.0, 9.0], [0.0, 0.5, 6.0], growth=1.0),
     "reentrant": MeasuredPunch([0.0, 4.0, 9.0, 12.0], [0.0, 6.0, 2.0, 20.0]),
 }
-by_shape = pytest.mark.parametrize("punch", SHAPES.values(), ids=SHAPES.keys())
+#: Several seconds each, with charts that the others have.
+LONG = ("reentrant", "sum")
 
 
-@by_shape
-def test_the_table_is_the_quadrature_within_its_measured_error(punch):
+@pytest.mark.parametrize("name", [*(name for name in SHAPES if name not in LONG), *heavy(*LONG)])
+def test_the_table_is_the_quadrature_within_its_measured_error(name):
     """At contact, at the surface seen from there, and far away; the values of both charts."""
+    punch = SHAPES[name]
     table, exponents = power_table(ScaledPunch(punch, 3.0, 1.0), (12.0, 3.0)), np.array([[12.0], [3.0]])
     r = np.array([0.0, 0.4, 1.3, 2.9, 3.1, 40.0])
     f = punch.height(3.0 * r)

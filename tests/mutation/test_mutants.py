@@ -1,6 +1,7 @@
 """The mutants are changes of the present code."""
 
 import subprocess
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import pytest
@@ -8,10 +9,12 @@ import pytest
 from tests.mutation import score
 from tests.mutation.score import ROOT, main, mutants, noticed_by
 
+MUTANTS = mutants()
 
-@pytest.mark.parametrize("path", sorted({mutant.path for mutant in mutants()}))
+
+@pytest.mark.parametrize("path", sorted({mutant.path for mutant in MUTANTS}))
 def test_a_mutant_changes_one_text_of_a_file_and_names_tests(path):
-    for mutant in mutants():
+    for mutant in MUTANTS:
         if mutant.path == path:
             text = mutant.text()
             assert text != (ROOT / path).read_text(encoding="utf-8")
@@ -22,12 +25,12 @@ def test_a_mutant_changes_one_text_of_a_file_and_names_tests(path):
 
 
 def test_they_are_many_and_no_two_are_the_same():
-    assert len(set(mutants())) == len(mutants()) >= 150
+    assert len(set(MUTANTS)) == len(MUTANTS) >= 150
 
 
 #: A file of the table with few mutants.
 FILE = "comparisons/models/dmt.py"
-OF_FILE = [mutant for mutant in mutants() if mutant.path == FILE]
+OF_FILE = [mutant for mutant in MUTANTS if mutant.path == FILE]
 
 
 @pytest.mark.parametrize(("outcomes", "status"), [("all", 0), ("one missed", 1), ("one error", 1)])
@@ -38,6 +41,9 @@ def test_the_status_is_0_only_if_every_mutant_is_noticed(outcomes, status, monke
         return "" if mutant == OF_FILE[0] and outcomes == "one missed" else "tests/a.py::test"
 
     monkeypatch.setattr(score, "is_noticed", is_noticed)
+    if outcomes != "all":
+        # The copy takes seconds, and what stands for the tests does not read it.
+        monkeypatch.setattr(score, "copy_of_the_repository", lambda: nullcontext(ROOT))
     assert main(["--only", FILE]) == status
     *lines, last = capsys.readouterr().out.splitlines()
     # An error does not end the run: the others have their outcome.

@@ -31,9 +31,9 @@ def table(heights: np.ndarray, radii: np.ndarray, **values: float) -> Section:
 POWER_LAWS = [(2.0, 0.0, 3.0), (1.0, 0.0, 1.0), (1.5, 0.4, 3.0), (3.0, 0.8, 0.5), (5.0, 0.3, 3.0), (2.0, 1.0, 3.0)]
 
 
-@pytest.mark.parametrize(("name", "closed"), CLOSED)
-@pytest.mark.parametrize(("n", "k", "mu"), POWER_LAWS)
 @pytest.mark.parametrize("quantity", QUANTITIES)
+@pytest.mark.parametrize(("n", "k", "mu"), POWER_LAWS)
+@pytest.mark.parametrize(("name", "closed"), CLOSED)
 def test_a_power_law_is_that_of_the_closed_form(
     name: str, closed: str, n: float, k: float, mu: float, quantity: str
 ) -> None:

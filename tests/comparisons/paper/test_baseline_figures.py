@@ -21,7 +21,7 @@ FIGURES = {figure.name: figure for figure in paper_figures()}
 #: Figures of closed forms, which take seconds; the others take minutes.
 CHEAP = ("2", "12")
 #: Every so many pictures are drawn in every test run.
-LIGHT = 8
+LIGHT = 16
 
 
 def marked(names, is_light):

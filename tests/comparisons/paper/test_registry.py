@@ -14,6 +14,7 @@ from comparisons.pipeline.figures import make_figures
 from comparisons.pipeline.judgement import judge_folder
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.workers import LOST
+from tests.comparisons.calls import defect, end, process
 
 
 def fail(x):
@@ -69,18 +70,6 @@ def refuse(x):
     raise NotApplicable(f"{x} is refused")
 
 
-def process(x):
-    return os.getpid()
-
-
-def end(x):
-    os._exit(1)
-
-
-def defect(x):
-    return x["key"]
-
-
 def test_each_call_is_made_once_and_its_result_or_failure_is_read_again(tmp_path):
     MADE.clear()
     calls = [CachedCall.of(double, 1), CachedCall.of(double, 2.5), CachedCall.of(fail, 3), CachedCall.of(refuse, 4)]
@@ -97,7 +86,7 @@ def test_each_call_is_made_once_and_its_result_or_failure_is_read_again(tmp_path
 
 
 def test_a_call_apart_has_a_process_of_its_own_and_a_defect_costs_its_own_result(tmp_path):
-    calls = [*(CachedCall.of(process, x) for x in range(2)), CachedCall.of(end, 3), CachedCall.of(defect, 4)]
+    calls = [*(CachedCall.of(process, x) for x in range(2)), CachedCall.of(end, "always"), CachedCall.of(defect, 4)]
     outcomes = make_calls(calls, tmp_path, apart=True).outcomes
     assert len({os.getpid(), *(outcomes[call].result for call in calls[:2])}) == 3
     assert outcomes[calls[2]].failure == LOST

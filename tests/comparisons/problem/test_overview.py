@@ -12,7 +12,8 @@ from comparisons.description import forces as module
 from comparisons.description.choice import SIMPLEST_FIRST, simplest_within
 from comparisons.description.equivalent_power_law import equivalent_power_law
 from comparisons.description.forces import reference_force
-from comparisons.description.text import _shape_counts
+from comparisons.description.overview import overview
+from comparisons.description.text import _shape_counts, description_text
 from comparisons.description.unusual_sizes import unusual_sizes
 from comparisons.problem import Problem, Section
 from comparisons.problem.evaluation import REFERENCES
@@ -51,7 +52,7 @@ def test_a_power_law_has_errors_of_closed_forms(capsys):
     assert "equivalent_power_law" not in content
 
 
-def test_sizes_that_nothing_has_are_named(tmp_path, capsys):
+def test_sizes_that_nothing_has_are_named(tmp_path):
     """A number without a unit is in SI: a radius of 20 m is that of a ball of 20 um whose unit was forgotten."""
     path = tmp_path / "forgotten.toml"
     path.write_text(
@@ -62,9 +63,10 @@ def test_sizes_that_nothing_has_are_named(tmp_path, capsys):
         """,
         encoding="utf-8",
     )
-    assert main(["describe", str(path), "--format", "json"]) in (0, 4)
-    named = {row["key"]: row["value"] for row in json.loads(capsys.readouterr().out)["unusual_sizes"]}
-    assert named == {"solid.E": 50.0, "punch.R": 20.0}
+    problem = Problem.load(path)
+    described = overview(problem, row("fscm", value=1.0, u_num=0.0), None)
+    assert {row["key"]: row["value"] for row in described["unusual_sizes"]} == {"solid.E": 50.0, "punch.R": 20.0}
+    assert "unusual size: solid.E = 50 Pa, punch.R = 20 m; " in description_text(problem, described, None, [], None)
 
 
 def test_the_problems_of_the_pages_have_usual_sizes():

@@ -7,11 +7,9 @@ import sys
 import time
 from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-import threadpoolctl
 
 from comparisons.model import Result
 from comparisons.problem import Problem
@@ -19,24 +17,7 @@ from comparisons.runs import workers
 from comparisons.runs.computation import compute
 from comparisons.runs.tasks import Task, evaluate, evaluate_task
 from comparisons.runs.workers import LOST, each, processes
-
-
-def threads(_):
-    """The process, and the threads of its linear algebra libraries."""
-    return os.getpid(), {library["num_threads"] for library in threadpoolctl.threadpool_info()}
-
-
-def fail(item):
-    raise ValueError(f"{item} is refused")
-
-
-def end(item):
-    """End this process as the system does when there is no memory: always, or the first time for a path."""
-    path = Path(item)
-    if item == "always" or (path.is_absolute() and not path.exists()):
-        path.is_absolute() and path.touch()
-        os.kill(os.getpid(), signal.SIGKILL)
-    return item, tuple(threads(item)[1])
+from tests.comparisons.calls import end, fail, nap, threads
 
 
 def test_one_job_needs_no_worker_and_no_item_no_work():
@@ -63,11 +44,6 @@ def test_processes_that_cannot_work_are_given_up(monkeypatch):
     monkeypatch.setattr(workers, "processes", lambda function, items, jobs: ((item, None) for item in items))
     with pytest.raises(BrokenExecutor, match="3 worker processes"):
         list(each(end, ["always"] * 5, 2, lost=str))
-
-
-def nap(seconds):
-    time.sleep(seconds)
-    return os.getpid()
 
 
 def test_processes_end_with_the_call_also_those_at_work():
