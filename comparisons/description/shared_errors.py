@@ -72,6 +72,19 @@ def together(errors: Mapping[str, Json]) -> Json:
     return {"error": total - 1.0, "u_num": bound, "basis": basis, "reason": reason}
 
 
+def direction(error: Json) -> str:
+    """Return in brackets what the sign of a relative error says of a force, where it is certain.
+
+    Examples
+    --------
+    >>> direction({"error": -0.02, "u_num": 0.003}), direction({"error": -0.02, "u_num": 0.03})
+    (' (too small)', '')
+    """
+    if abs(error["error"]) <= error["u_num"]:
+        return ""
+    return " (too large)" if error["error"] > 0.0 else " (too small)"
+
+
 def _listed(names: list[str]) -> str:
     return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
 
@@ -127,7 +140,7 @@ def _surface_tension(problem: Problem) -> Json:
     """None where the problem states the surface tension of each body, so that it has been computed with it."""
     if all(body.get("surface_tension") is not None for body in problem.bodies):
         return error_of((0.0, 0.0))
-    return error_of(None, reason="no value is stated")
+    return error_of(None, reason="solid.surface_tension is not stated")
 
 
 def _friction(problem: Problem) -> Json:

@@ -157,7 +157,7 @@ def curve(model: str | Model, problem: Problem) -> Curve:
     Examples
     --------
     >>> path = curve("jkr", Problem.dimensionless(2, 0, 1))
-    >>> round(-path.load.min(), 3)
+    >>> round(float(-path.load.min()), 3)
     1.5
     """
     points = cast(Points, evaluated(_known(problem), _model(model, problem), "force_curve"))

@@ -16,7 +16,7 @@ from comparisons.cli.options import (
     option,
     several,
 )
-from comparisons.cli.screen import output, print_end, print_lines
+from comparisons.cli.screen import output, print_end, print_text
 from comparisons.console.exit_status import FAILED
 from comparisons.console.progress import log
 from comparisons.description.budget import line_of_results
@@ -91,7 +91,7 @@ def _show(finished: FinishedRun, quiet: bool) -> int:
             console.print(table)
         problems = (problem for grid in finished.inputs.cases.grids for problem in grid.cases)
         line = line_of_results(problems, finished.tables.results)
-        print_lines([computations_sentence(finished.counts), *filter(None, [line])])
+        print_text([computations_sentence(finished.counts), *filter(None, [line])])
     return print_end(finished.failures, finished.folder)
 
 
@@ -138,7 +138,7 @@ def compare_command(args: argparse.Namespace) -> int:
         console = output()
         for table in terminal_tables(finished.table, finished.summary, args.every, console.width):
             console.print(table)
-        print_lines(filter(None, [finished.assumptions]))
+        print_text(filter(None, [finished.assumptions]))
     status = print_end(finished.failures, finished.folder, "comparison.csv, comparison.png and the results are")
     if finished.table["kappa"].isna().all():
         log("nothing was evaluated: in no case do both the reference and another model have a value")

@@ -51,6 +51,12 @@ def test_a_power_law_has_errors_of_closed_forms(capsys):
     assert "equivalent_power_law" not in content
 
 
+def test_the_lines_of_a_description_have_80_characters(capsys):
+    assert main(["describe", str(PROBLEMS / "graded_pad.toml")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 80
+
+
 def test_sizes_that_nothing_has_are_named(tmp_path, capsys):
     """A number without a unit is in SI: a radius of 20 m is that of a ball of 20 um whose unit was forgotten."""
     path = tmp_path / "forgotten.toml"

@@ -161,7 +161,7 @@ def test_a_row_prints_with_a_prefix_and_a_format():
 
 @pytest.mark.parametrize("name", ["fscm", "jkr"])
 def test_a_curve_has_the_units_of_its_problem(name):
-    """Its least load is the pull-off force but for the distance of its points; the states of a plain problem are those of the model."""
+    """Its least load is the pull-off force but for the distance of its points."""
     force = comparisons.evaluate(name, "pull_off_force", BEAD)
     path = comparisons.curve(name, BEAD)
     assert -path.load.min() == pytest.approx(force.value, rel=1e-4)
@@ -173,6 +173,6 @@ def test_a_curve_has_the_units_of_its_problem(name):
 
 def test_a_model_without_a_curve_says_so():
     with pytest.raises(comparisons.NotApplicable):
-        comparisons.curve("schwarz", BEAD)
+        comparisons.curve("jump-asymptotes", BEAD)
     with pytest.raises(ValueError, match=r"Problem\.load"):
         comparisons.curve("jkr", fscm.Problem(n=2, k=0, mu=1.0))
