@@ -42,8 +42,12 @@ def print_text(lines: Iterable[str]) -> None:
     """Print lines of words and numbers, a long one in several of `_WIDTH` characters, indented after the first."""
     for line in lines:
         indent = " " * (len(line) - len(line.lstrip()) + 2)
-        whole = {"break_long_words": False, "break_on_hyphens": False}
-        print_lines(textwrap.wrap(line, _WIDTH, subsequent_indent=indent, **whole) if len(line) > _WIDTH else [line])
+        pieces = [line]
+        if len(line) > _WIDTH:
+            pieces = textwrap.wrap(
+                line, _WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+            )
+        print_lines(pieces)
 
 
 def print_end(failures: Sequence[Row], folder: Path, files: str = "results are") -> int:

@@ -99,8 +99,10 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None, equivale
 
 def _corrected(force: Row, assumed: Json | None) -> Json | None:
     """The force that leads to the given one with the error of the assumptions."""
-    total = assumed["total"] if assumed and assumed["recommendable"] else {"error": None}
-    if total["error"] is None or force.value is None or force.u_num is None:
+    if assumed is None or not assumed["recommendable"] or force.value is None or force.u_num is None:
+        return None
+    total = assumed["total"]
+    if total["error"] is None:
         return None
     factor = 1.0 + total["error"]
     if factor <= total["u_num"]:

@@ -25,7 +25,7 @@ from comparisons.output.terminal import rich_table
 from comparisons.problem.units import si_text
 from comparisons.quantities import QUANTITIES, title_of
 from comparisons.runs import rows as stored_rows
-from comparisons.runs.frames import varied_of, with_problem
+from comparisons.runs.frames import varied_keys, varied_of, with_problem
 
 #: Columns of the tables where no terminal states its own; rows that a terminal shows; spaces between columns.
 WIDTH, _ROWS, _GAP = 80, 40, 2
@@ -67,16 +67,39 @@ def case_tables(table: pd.DataFrame) -> Iterator[Table]:
         of_models = group.pivot(index="case", columns="model", values=["status", "kappa", "u_kappa"]).infer_objects()
         of_models.columns = pd.Index([" ".join(names) for names in of_models.columns])
         cases = group.drop_duplicates("case").set_index("case")
-        cases = cases[["quantity", *stored_rows.CASE, "reference", "reference_value", "u_reference"]]
+        keys = varied_keys(cases)
+        cases = cases[["quantity", *stored_rows.CASE, *keys, "reference", "reference_value", "u_reference"]]
+        of_case = [*columns(*(name for name in CASE if not keys or name != "problem")), *key_columns(keys)]
         models = [
             Column(model, partial(_error_text, model), f"kappa {model}") for model in dict.fromkeys(group["model"])
         ]
         yield Table(
             f"cases-{quantity}-{reference}",
             f"{title_of(quantity)}: kappa in percent (bound) against {reference}",
-            [*columns(*CASE), Column(str(reference), _reference_text, "reference_value"), *models],
+            [*of_case, Column(str(reference), _reference_text, "reference_value"), *models],
             cases.join(of_models),
         )
+
+
+def refusal_lines(table: pd.DataFrame) -> Iterator[str]:
+    """Yield for each model without a value in some cases their number and the first reason.
+
+    Parameters
+    ----------
+    table : DataFrame
+        As of `comparisons.output.errors.comparison_table`.
+
+    Examples
+    --------
+    >>> row = {"model": "jkr", "quantity": "pull_off_force", "status": "not-applicable", "reason": "no power law"}
+    >>> [*refusal_lines(pd.DataFrame([row, row | {"status": "ok"}]))]
+    ['jkr, pull-off force: n/a in 1 of 2 cases: no power law']
+    """
+    for (model, quantity), rows in table.groupby(["model", "quantity"], sort=False):
+        refused = rows[rows["status"] == "not-applicable"]
+        if len(refused):
+            where = f"n/a in {len(refused)} of {len(rows)} cases"
+            yield f"{model}, {title_of(quantity)}: {where}: {refused['reason'].iloc[0]}"
 
 
 def summary_tables(summary: pd.DataFrame) -> Iterator[Table]:
