@@ -51,7 +51,8 @@ _COMMANDS = {
     "solve": ("solve", "compute one quantity of one problem by one model"),
     "curve": (
         "curve",
-        "compute force-displacement curves: the whole equilibrium path, or with --stiffness approach and retreat; or pressure or gap at pull-off; as CSV and as a plot",
+        "compute force-displacement curves (the whole equilibrium path, or with --stiffness approach and retreat), "
+        "or pressure or gap at pull-off, as CSV and as a plot",
     ),
     "describe": ("describe", "print pull-off force, Tabor number and recommended models of a problem file"),
     "new-problem": ("problems", "write a commented problem file of the kinds of solid, punch and law that you name"),

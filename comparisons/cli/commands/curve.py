@@ -38,6 +38,8 @@ _FAR = 0.1
 _AT_LOAD = 1.0 - 1e-9
 _QUANTITY = f"what to draw: {', '.join(CURVES)} (default: force_curve)"
 
+_STIFFNESS = 'approach and retreat as a cantilever of a stiffness as "0.2 N/m" records them'
+
 
 @command(
     several("--model", metavar="SPEC", required=True, help=MODEL_SPEC),
@@ -46,7 +48,7 @@ _QUANTITY = f"what to draw: {', '.join(CURVES)} (default: force_curve)"
     option(
         "--stiffness",
         metavar="VALUE",
-        help='approach and retreat as a cantilever of a stiffness as "0.2 N/m" records them',
+        help=_STIFFNESS,
     ),
     option(
         "--max-load",

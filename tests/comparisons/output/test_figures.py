@@ -86,7 +86,7 @@ def test_a_varied_key_is_the_axis_in_the_order_of_its_values_and_another_one_has
     ]
     assert {panel.get_xlabel() for panel in axes} == {"law.z0 (µm)"}
     assert {panel.get_xscale() for panel in axes} == {"log"}
-    np.testing.assert_allclose(axes[0].lines[0].get_xdata(), [0.02, 0.2, 1.0])
+    np.testing.assert_allclose(axes[0].containers[0][0].get_xdata(), [0.02, 0.2, 1.0])
 
 
 def test_a_comparison_has_a_panel_for_each_case_and_a_legend_inside_the_figure():
