@@ -64,13 +64,19 @@ def test_sizes_that_nothing_has_are_named(tmp_path, capsys):
         """
         solid = {kind = "homogeneous", E = 50, nu = 0.4}
         punch = {kind = "sphere", R = 20}
-        law = {kind = "lennard-jones-9-3", work_of_adhesion = 50, z0 = "0.4 nm"}
+        law = {kind = "lennard-jones-9-3", work_of_adhesion = "50 mJ/m^2", z0 = "0.4 nm"}
         """,
         encoding="utf-8",
     )
     assert main(["describe", str(path), "--format", "json"]) in (0, 4)
     named = {row["key"]: row["value"] for row in json.loads(capsys.readouterr().out)["unusual_sizes"]}
-    assert named == {"solid.E": 50.0, "punch.R": 20.0, "law.work_of_adhesion": 50.0}
+    assert named == {"solid.E": 50.0, "punch.R": 20.0}
+
+
+@pytest.mark.parametrize(("work", "keys"), [(50.0, ["law.work_of_adhesion"]), (5.0, []), (1e-3, [])])
+def test_a_work_of_adhesion_above_that_of_metals_is_unusual(work, keys):
+    pad = on_solid("homogeneous", {"E": 2e6, "nu": 0.5}, R=5e-6)
+    assert [row["key"] for row in unusual_sizes(pad.with_value("law.work_of_adhesion", work))] == keys
 
 
 def test_the_problems_of_the_pages_have_usual_sizes():
