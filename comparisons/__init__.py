@@ -29,6 +29,7 @@ _EXPORTS = {
     "create": "comparisons.registry",
     "Problem": "comparisons.problem",
     "evaluate": "comparisons.runs.tasks",
+    "curve": "comparisons.runs.tasks",
     "errors": "comparisons.pipeline.compare",
     "compare": "comparisons.pipeline.compare",
     "sensitivity": "comparisons.description.uncertainty",

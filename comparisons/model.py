@@ -150,7 +150,9 @@ class Result(Effort):
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """A force-displacement curve along the equilibrium path (all arrays of one length, dimensionless).
+    """A force-displacement curve along the equilibrium path (all arrays of one length).
+
+    That of a model is dimensionless; `comparisons.curve` returns it in the units of the problem.
 
     Attributes
     ----------

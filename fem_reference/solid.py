@@ -145,7 +145,10 @@ def check_ratio(nu: Any) -> None:
 
 
 #: What a refused ratio is told.
-REMEDY = "displacement elements cannot keep the volume; take nu = 0.499 or less"
+REMEDY = (
+    "displacement elements cannot keep the volume; take nu = 0.499 or less, and for a homogeneous solid E times "
+    "(1 - nu^2)/0.75, which leaves the forces on a frictionless surface the same"
+)
 
 
 def check_exponent(k: float) -> None:

@@ -49,7 +49,11 @@ _COMMANDS = {
     "compare": ("sweeps", "compare models with a reference in your own cases: one table, one figure"),
     "merge": ("sweeps", "put the shards of a sweep into one folder"),
     "solve": ("solve", "compute one quantity of one problem by one model"),
-    "curve": ("curve", "compute force-displacement curves, or pressure or gap at pull-off, as CSV and as a plot"),
+    "curve": (
+        "curve",
+        "compute force-displacement curves (the whole equilibrium path, or with --stiffness approach and retreat), "
+        "or pressure or gap at pull-off, as CSV and as a plot",
+    ),
     "describe": ("describe", "print pull-off force, Tabor number and recommended models of a problem file"),
     "new-problem": ("problems", "write a commented problem file of the kinds of solid, punch and law that you name"),
     "fit": ("fit", "fit work of adhesion, modulus and other values to measured force-displacement curves"),

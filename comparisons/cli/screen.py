@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import textwrap
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -35,6 +36,18 @@ def print_lines(lines: Iterable[str]) -> None:
     """Print whole lines, so that a command in them can be copied."""
     for line in lines:
         print(printable(line))
+
+
+def print_text(lines: Iterable[str]) -> None:
+    """Print lines of words and numbers, a long one in several of `_WIDTH` characters, indented after the first."""
+    for line in lines:
+        indent = " " * (len(line) - len(line.lstrip()) + 2)
+        pieces = [line]
+        if len(line) > _WIDTH:
+            pieces = textwrap.wrap(
+                line, _WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+            )
+        print_lines(pieces)
 
 
 def print_end(failures: Sequence[Row], folder: Path, files: str = "results are") -> int:

@@ -16,6 +16,7 @@ from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models.fscm_model import SharedAnalysis
 from comparisons.models.jkr_sphere import LARGEST_CONTACT
 from comparisons.problem import Problem, Section
+from comparisons.problem.units import si_text
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
@@ -51,7 +52,8 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
         of vertical gaps against the potential of the ball, ``strain`` of small strains against a neo-Hookean solid,
         ``surface_tension`` of a surface without it, ``friction`` of a frictionless surface, and ``total`` of those of
         them that are known.  ``recommendable`` is false where the contact is larger than the sphere, or wide with
-        errors that are not known; ``refusal`` says so.  ``by_solution`` is the argument.  None where there is no
+        errors that are not known; ``refusal`` says so, and ``remedy`` what to do.  ``by_solution`` is the argument,
+        and ``unsolved`` why no error of finite strain was computed although it is true.  None where there is no
         pull-off force.
     """
     if force.value is None:
@@ -63,34 +65,60 @@ def assumptions(problem: Problem, force: Row, by_solution: bool = False) -> Json
     contact_radius = measures["contact_radius"]
     is_sphere = problem.punch.kind in (PARABOLOID, BALL)
     width = contact_radius / min(problem.punch.values.values()) if is_sphere else 0.0
-    refusal = ""
+    refusal = remedy = unsolved = ""
     if width > LARGEST_CONTACT:
         refusal = "the contact is larger than the sphere"
-        errors = dict.fromkeys(ASSUMPTIONS, error_of(None, reason=refusal))
+        remedy, unsolved = _beyond_sphere(problem, by_solution)
+        own = {"surface_tension": estimates(problem)["surface_tension"]}
+        errors = dict.fromkeys(ASSUMPTIONS, error_of(None, reason=refusal)) | own
     elif "R_solid" in problem.punch.values:
-        errors = dict.fromkeys(ASSUMPTIONS, error_of(None, reason="it is known for one sphere on a plane"))
+        reason = "it is known for one sphere on a plane"
+        unsolved = reason if by_solution else ""
+        errors = dict.fromkeys(ASSUMPTIONS, error_of(None, reason=reason))
     else:
-        errors = estimates(problem, contact_radius) | _solved(problem, force, by_solution)
+        solved, unsolved = _solved(problem, force, by_solution)
+        errors = estimates(problem, contact_radius) | solved
         if width > _WIDE and errors["derjaguin"]["error"] is None and errors["strain"]["error"] is None:
             refusal = (
                 f"the contact has {width:.2g} of the radius of the sphere, and what vertical gaps and small strains "
                 "change there is unknown"
             )
+            remedy = _narrower(problem) if by_solution else "--large-strain may compute both"
     return {
         **measures,
         **errors,
         "total": together(errors),
         "recommendable": not refusal,
         "refusal": refusal,
+        "remedy": remedy,
         "by_solution": by_solution,
+        "unsolved": unsolved,
     }
 
 
-def _solved(problem: Problem, force: Row, by_solution: bool) -> dict[str, Json]:
-    """Errors against solutions: of the exact sphere, and if it is asked for of finite strain."""
-    exact, errors = _exact(problem), {}
+def _beyond_sphere(problem: Problem, by_solution: bool) -> tuple[str, str]:
+    """What to do where small strains have no contact of the sphere; why finite strain has none, if it is tried."""
+    if not by_solution:
+        return f"--large-strain may compute the force of the sphere; {_narrower(problem)}", ""
+    row = evaluate("fem-large-strain", "pull_off_force", exact_sphere(problem))
+    if row.value is None or row.u_num is None:
+        return _narrower(problem), row.reason
+    return f"fem-large-strain has {si_text(row.value, row.u_num, row.unit)} for the sphere with finite strain", ""
+
+
+def _narrower(problem: Problem) -> str:
+    """What may be changed in a file, so that its contact is small beside the sphere."""
+    changes = "a stiffer solid or a smaller work of adhesion"
+    if problem.solid.get("surface_tension") is None:
+        changes = f"the surface tension of the solid (solid.surface_tension), {changes}"
+    return f"the force above is no estimate of that of the true sphere; the contact is narrower with {changes}"
+
+
+def _solved(problem: Problem, force: Row, by_solution: bool) -> tuple[dict[str, Json], str]:
+    """Errors against solutions: of the exact sphere, and if it is asked for of finite strain; why the latter is not."""
+    exact, errors, unsolved = exact_sphere(problem), {}, ""
     if problem.punch.kind != PARABOLOID and not by_solution:
-        return {}
+        return {}, ""
     small = force if exact is problem else fscm_force(exact)
     if exact is not problem:
         errors["geometry"] = error_of(change_of(force, small), reason=small.reason)
@@ -104,7 +132,8 @@ def _solved(problem: Problem, force: Row, by_solution: bool) -> dict[str, Json]:
         if exact.punch.kind == BALL:
             body = evaluate("fem-large-strain", "pull_off_force", exact)
             errors["derjaguin"] = error_of(change_of(vertical, body), reason=body.reason)
-    return {name: error for name, error in errors.items() if error["error"] is not None}
+        unsolved = errors["strain"]["reason"]
+    return {name: error for name, error in errors.items() if error["error"] is not None}, unsolved
 
 
 def _measures(problem: Problem) -> Json:
@@ -120,7 +149,7 @@ def _measures(problem: Problem) -> Json:
     of_surface = np.abs(slope_of_gap - slope_of_punch)[near_edge].max()
     measures = (
         ("punch_slope", slope_of_punch[edge], "slope of the punch at the contact edge"),
-        ("surface_slope", of_surface, "slope of the deformed surface there (strain, in the cohesive edge only)"),
+        ("surface_slope", of_surface, "slope of the deformed surface there (strain, at the edge alone)"),
         ("gap_slope", np.abs(slope_of_gap)[near_edge].max(), "slope of the gap there (Derjaguin)"),
     )
     unit = problem.units["gap"] / problem.units["radius"]
@@ -133,8 +162,8 @@ def _measures(problem: Problem) -> Json:
     }
 
 
-def _exact(problem: Problem) -> Problem:
-    """The problem with the exact sphere in place of a paraboloid."""
+def exact_sphere(problem: Problem) -> Problem:
+    """Return the problem with the exact sphere in place of a paraboloid."""
     if problem.punch.kind != PARABOLOID:
         return problem
     return replace(problem, punch=Section(BALL, {"R": problem.punch["R"]}))
@@ -165,7 +194,7 @@ def total_errors(problem: Problem, errors: Sequence[Json], assumed: Json | None)
 
 def errors_of_exact_sphere(problem: Problem) -> list[Json]:
     """Return the errors of the closed forms of JKR for an exact sphere against the force of that sphere."""
-    exact = _exact(problem)
+    exact = exact_sphere(problem)
     force, rows = fscm_force(exact), []
     for name in ("jkr-sphere", "jkr-sphere-projected"):
         change = change_of(evaluate(name, "pull_off_force", exact), force)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from comparisons.description.shared_errors import NOT_ASSUMED_OF_BALLS, Json, error_of, estimates, together
+from comparisons.description.shared_errors import NOT_ASSUMED_OF_BALLS, Json, direction, error_of, estimates, together
 from comparisons.numerics.number_text import percent_text
 from comparisons.problem import Problem
 from comparisons.registry import MODELS
@@ -68,25 +68,27 @@ def budget_line(assumed: Json | None, relative_bound: float, where: str = "") ->
     Examples
     --------
     >>> total = {"error": -0.02, "u_num": 0.003, "basis": "estimate", "reason": ""}
-    >>> budget_line({"geometry": total, "total": total}, 1e-9)
-    'the assumptions of all models change the pull-off force: error -2.0(3) %, estimate; see fscm-bench describe'
+    >>> budget_line({"geometry": total, "total": total}, 1e-9).partition(": error ")[2]
+    '-2.0(3) % (too small), estimate from a table; fscm-bench describe computes it'
     >>> budget_line({"geometry": total, "total": total}, 0.01) is None
     True
     """
     if assumed is None:
         return None
+    end = "fscm-bench describe computes it"
     total, geometry = assumed["total"], assumed["geometry"]
     if total["error"] is not None:
         if abs(total["error"]) + total["u_num"] <= _BOUNDS * relative_bound:
             return None
-        error = f"error {percent_text(total['error'], total['u_num'])} %"
-        text = ", ".join(filter(None, (error, total["basis"], total["reason"])))
+        error = f"error {percent_text(total['error'], total['u_num'])} %{direction(total)}"
+        text = ", ".join(filter(None, (error, "estimate from a table", total["reason"])))
     elif geometry["error"] is None:
         text = f"error unknown, {geometry['reason']}"
+        end = "see fscm-bench describe"
     else:
         # None of those that are known is an error.
         return None
-    return f"the assumptions of all models change the pull-off force{where}: {text}; see fscm-bench describe"
+    return f"the assumptions of all models change the pull-off force{where}: {text}; {end}"
 
 
 def largest_line(entries: Iterable[tuple[Json | None, float, str]]) -> str | None:

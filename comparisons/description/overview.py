@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from comparisons.description.assumptions import errors_of_exact_sphere, total_errors
+from comparisons.description.assumptions import errors_of_exact_sphere, exact_sphere, total_errors
 from comparisons.description.choice import LIMITS, is_within, simplest_within
 from comparisons.description.equivalent_ball import PARABOLOID
 from comparisons.description.forces import change_of, force_content
@@ -60,6 +60,13 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None, equivale
         What `equivalent_power_law` returns.  By its closed forms a problem is classified, and a model is recommended,
         where none takes the problem itself.
 
+    Returns
+    -------
+    dict
+        ``recommended`` names a model for each limit and ``recommended_forces`` has its force; its ``punch`` is "ball"
+        where the file must state this kind in place of the paraboloid.  ``corrected_force`` is the pull-off force
+        without the error of the assumptions, None where that is unknown or no model can be recommended.
+
     Examples
     --------
     >>> from comparisons.description.forces import reference_force
@@ -70,6 +77,9 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None, equivale
     errors = model_errors(problem, force)
     candidates = errors or _of_power_law(equivalent)
     with_assumptions = total_errors(problem, candidates, assumed)
+    choice = {
+        f"{100 * limit:g} %": _recommended(with_assumptions or candidates, force, assumed, limit) for limit in LIMITS
+    }
     critical = evaluate("atlas", "critical_tabor_number", problem).value if problem.is_of_the_paper() else None
     return {
         "problem": problem.content,
@@ -81,11 +91,37 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None, equivale
         "errors": errors,
         "assumptions": assumed,
         "total_errors": with_assumptions,
-        "recommended": {
-            f"{100 * limit:g} %": _recommended(with_assumptions or candidates, force, assumed, limit)
-            for limit in LIMITS
-        },
+        "corrected_force": _corrected(force, assumed),
+        "recommended": choice,
+        "recommended_forces": {limit: _force_of(problem, name, force) for limit, name in choice.items()},
     }
+
+
+def _corrected(force: Row, assumed: Json | None) -> Json | None:
+    """The force that leads to the given one with the error of the assumptions."""
+    if assumed is None or not assumed["recommendable"] or force.value is None or force.u_num is None:
+        return None
+    total = assumed["total"]
+    if total["error"] is None:
+        return None
+    factor = 1.0 + total["error"]
+    if factor <= total["u_num"]:
+        return None
+    value = force.value / factor
+    ends = [force.value / (factor + side * total["u_num"]) for side in (-1.0, 1.0)]
+    bound = max(abs(end - value) for end in ends) + force.u_num / (factor - total["u_num"])
+    return {"value": value, "u_num": bound, "unit": force.unit}
+
+
+def _force_of(problem: Problem, name: str | None, force: Row) -> Json | None:
+    """The force of a model for the problem, or for the exact sphere in place of its paraboloid."""
+    if name is None:
+        return None
+    for posed in (problem, exact_sphere(problem)):
+        row = force if name == force.model else evaluate(name, "pull_off_force", posed)
+        if row.value is not None:
+            return {"value": row.value, "u_num": row.u_num, "unit": row.unit, "punch": posed.punch.kind}
+    return None
 
 
 def _of_power_law(equivalent: Json | None) -> list[Json]:

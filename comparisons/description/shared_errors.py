@@ -15,6 +15,7 @@ from comparisons.description.equivalent_ball import BALL, PARABOLOID, Equivalent
 from comparisons.description.strain_errors import body_change, shape_change, strain_change
 from comparisons.model import NotApplicable
 from comparisons.problem import Problem, Section
+from comparisons.problem.units import si_text
 from comparisons.runs.tasks import evaluate
 
 Json = dict[str, Any]
@@ -38,6 +39,9 @@ NOT_ASSUMED_OF_BALLS = {"jkr-sphere": ("derjaguin",), "fem-large-strain": ("derj
 #: an incompressible solid (measured on layers, films and gradients against solutions: the paraboloid by up to 0.35, the
 #: vertical gap by up to 0.2, strain by up to 0.15).
 _OF_EQUIVALENT = 0.5
+
+#: Surface tension in N/m that a soft solid may have: that of PDMS is 20 mN/m, that of water 72 mN/m.
+TENSION = 0.02
 
 #: Tabor numbers below and above which the force of a paraboloid is that of its limit.
 _LIMITS = ((0.01, "bradley"), (10.0, "jkr"))
@@ -70,6 +74,19 @@ def together(errors: Mapping[str, Json]) -> Json:
         total, bound = total * factor, bound * abs(factor) + abs(total) * error["u_num"]
         basis = max(basis, error["basis"], key=BASES.index)
     return {"error": total - 1.0, "u_num": bound, "basis": basis, "reason": reason}
+
+
+def direction(error: Json) -> str:
+    """Return in brackets what the sign of a relative error says of a force, where it is certain.
+
+    Examples
+    --------
+    >>> direction({"error": -0.02, "u_num": 0.003}), direction({"error": -0.02, "u_num": 0.03})
+    (' (too small)', '')
+    """
+    if abs(error["error"]) <= error["u_num"]:
+        return ""
+    return " (too large)" if error["error"] > 0.0 else " (too small)"
 
 
 def _listed(names: list[str]) -> str:
@@ -127,7 +144,25 @@ def _surface_tension(problem: Problem) -> Json:
     """None where the problem states the surface tension of each body, so that it has been computed with it."""
     if all(body.get("surface_tension") is not None for body in problem.bodies):
         return error_of((0.0, 0.0))
-    return error_of(None, reason="no value is stated")
+    reason, effect = "solid.surface_tension is not stated", effect_of_tension(problem)
+    if effect is not None:
+        reason += f"; {si_text(TENSION, 0.0, 'N/m')} would change the force by about {100.0 * effect:+.1f} %"
+    return error_of(None, reason=reason)
+
+
+def effect_of_tension(problem: Problem) -> float | None:
+    """Return the relative change of the pull-off force of JKR by the surface tension `TENSION` of the solid.
+
+    None where JKR is not the limit: for a punch that is no sphere, a solid that is not homogeneous, and a stiff one,
+    for which the change is smaller.
+    """
+    (_, _), (highest, soft) = _LIMITS
+    if problem.punch.kind != PARABOLOID or problem.solid.kind != "homogeneous" or problem.posed.mu < highest:
+        return None
+    tense = problem.with_value("solid.surface_tension", TENSION)
+    with_tension = evaluate("jkr-surface-tension", "pull_off_force", tense).value
+    without = evaluate(soft, "pull_off_force", problem).value
+    return with_tension / without - 1.0 if with_tension and without else None
 
 
 def _friction(problem: Problem) -> Json:

@@ -8,12 +8,16 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from comparisons.description.equivalent_ball import PARABOLOID
-from comparisons.numerics.number_text import percent_text
+from comparisons.description.shared_errors import direction
+from comparisons.numerics.number_text import SHORT_PERCENT, percent_text
 from comparisons.problem import Problem
 from comparisons.problem.equivalent_solid import LARGEST_DEVIATION
 from comparisons.problem.units import si_text
 
 Json = dict[str, Any]
+
+#: Last digit of the force of a model, relative to it.
+_LAST = 1e-6
 
 #: Share of a contribution above which a change that it lacks is stated.
 _COMPARABLE = 0.1
@@ -37,6 +41,7 @@ def description_text(
         lstrip_blocks=True,
     )
     environment.filters |= {"ends": _ends, "padded": _padded, "percent": _percent, "rounded": _rounded, "si": _si}
+    environment.filters |= {"short_si": _short_si, "direction": direction}
     return environment.get_template("text.jinja").render(
         problem=problem,
         overview=overview,
@@ -72,11 +77,17 @@ def _padded(text: str, column: Iterable[str]) -> str:
 
 
 def _percent(row: Mapping[str, float]) -> str:
-    return f"{percent_text(row['error'], row['u_num'])} %"
+    if row["error"] == row["u_num"] == 0.0:
+        return "0 %"
+    return f"{percent_text(row['error'], row['u_num'], SHORT_PERCENT)} %"
 
 
 def _si(row: Mapping[str, Any]) -> str:
     return si_text(row["value"], row["u_num"], row["unit"])
+
+
+def _short_si(row: Mapping[str, Any]) -> str:
+    return si_text(row["value"], row["u_num"], row["unit"], _LAST * abs(row["value"]))
 
 
 def _rounded(value: float, unit: str, digits: int = 3) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from comparisons.data.validation import known_name, shown
 from comparisons.problem import Problem
-from comparisons.problem.kinds import KINDS
+from comparisons.problem.kinds import KINDS, known_word, meant
 from comparisons.problem.uncertain import Uncertainty
 
 #: Largest logarithm of a share of the value of the file: seventeen powers of ten.
@@ -88,8 +88,10 @@ def uncertain_keys(problem: Problem, free: Sequence[Key]) -> list[Key]:
 def _key(problem: Problem, name: str) -> Key:
     section, _, key = name.partition(".")
     where = f"--free {shown(name)}"
+    if section not in KINDS and not key and (full := _full_names(problem, name)):
+        raise ValueError(f"{where} names no section: did you mean {' or '.join(full)}?")
     known_name("section", section, KINDS, where)
-    known_name("key", key, problem.section(section).values, where)
+    known_word("key", key, problem.section(section).values, where)
     start = problem[name]
     if not isinstance(start, float | int):
         raise ValueError(f"{where}: it is not a number of the file; only numbers can be fitted")
@@ -99,6 +101,13 @@ def _key(problem: Problem, name: str) -> Key:
         limits = prior.limits(start)
     logarithmic = start > 0.0 and math.isinf(form.high)
     return Key(name, form.unit or "1", float(start), logarithmic, limits, prior)
+
+
+def _full_names(problem: Problem, name: str) -> list[str]:
+    """The numbers of a problem whose key has a name, perhaps that of another program."""
+    keys = {full: full.partition(".")[2] for full in problem.numbers_of_sections}
+    searched = name if name in keys.values() else meant(name, keys.values())
+    return [full for full, key in keys.items() if key == searched]
 
 
 def changed(problem: Problem, keys: Sequence[Key], numbers: Mapping[str, float]) -> Problem:

@@ -159,7 +159,8 @@ class JKRSphere(ContactBranch):
     def skip(self, problem: Problem, quantity: str) -> str | None:
         """Return why not, unless a ball that is larger than its contact is on a homogeneous solid."""
         if problem.punch.kind != "ball":
-            return f"{self.name} is for the punch of the kind ball, not for {problem.punch.kind}"
+            exact = '; write kind = "ball" for the exact sphere' if problem.punch.kind == "sphere" else ""
+            return f"{self.name} is for the punch of the kind ball, not for {problem.punch.kind}{exact}"
         if not problem.is_of_the_paper("solid") or problem.posed.k != 0.0:
             return f"{self.name} is for a homogeneous solid, not for the {problem.solid.kind} solid given"
         if undefined := self._undefined(quantity):

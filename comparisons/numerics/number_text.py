@@ -17,11 +17,11 @@ LEAST_SHOWN = 5e-10
 #: Values below it have a power of ten: newtons and metres of a problem file.
 _SMALL_VALUE = 1e-6
 
-#: A relative error in percent is shown to this digit, or to the digit that its uncertainty leaves it.
-_LEAST_PERCENT = 5e-5
+#: Last digits of a relative error in percent, alone and beside others, where its uncertainty does not reach them.
+_LAST_PERCENT, SHORT_PERCENT = 1e-5, 1e-3
 
-#: The error of a gate is shown to this digit; one below `_SMALL_ERROR` has a power of ten.
-_LEAST_ERROR, _SMALL_ERROR = 5e-6, 1e-3
+#: Last digit of the error of a gate; an error below `_SMALL_ERROR` has a power of ten.
+_LAST_ERROR, _SMALL_ERROR = 1e-6, 1e-3
 #: Powers of ten below it are no normal doubles.
 _LEAST_POWER = -300
 
@@ -72,11 +72,11 @@ def limits_text(lower: float, upper: float) -> str:
     return "" if math.isnan(lower) else f"{exact(lower)} to {exact(upper)}"
 
 
-def short(value: float, uncertainty: float | None) -> str:
+def short(value: float, uncertainty: float | None, last: float = 0.0) -> str:
     """Return e.g. 1.788482(3): the digits in brackets are the uncertainty of the last ones before them.
 
     The uncertainty is rounded up, to one digit, or to two when the first is 1 (so that 0.0014 does not become
-    0.002).
+    0.002).  A value without brackets has an uncertainty of at most half of its last digit.
 
     Parameters
     ----------
@@ -84,9 +84,13 @@ def short(value: float, uncertainty: float | None) -> str:
     uncertainty : float or None
         Not negative.  Zero gives the shortest decimal that is the value; None or NaN six digits and no
         brackets.
+    last : float
+        The last digit that is shown, a power of ten; by default as many as the uncertainty leaves.
 
     Examples
     --------
+    >>> short(-4.51409156, 1.5e-11, 1e-3), short(-4.51409156, 4e-3, 1e-3), short(-1e-5, 0.0, 1e-3)
+    ('-4.514', '-4.514(4)', '0.000')
     >>> short(1.7884817, 2.6e-6), short(-0.4123, 0.0101), short(123456.0, 2300.0), short(1.5, 0.0), short(-1e-4, 5e-3)
     ('1.788482(3)', '-0.412(11)', '123(3)e3', '1.5', '0.000(5)')
     >>> short(1.7884817, 1.4e-6), short(-1.7884817, 9.6e-6), short(0.0, 0.003), short(1e20, 1e-12)
@@ -98,6 +102,8 @@ def short(value: float, uncertainty: float | None) -> str:
         return str(value)
     if uncertainty is None or math.isnan(uncertainty):
         return f"{value:.6g}"
+    if last and uncertainty <= 0.5 * last:
+        return f"{Decimal(repr(float(value))).quantize(_power_of_ten(last), ROUND_HALF_EVEN) + 0:f}"
     if uncertainty == 0.0:
         return exact(value)
     if math.isinf(uncertainty):
@@ -120,6 +126,11 @@ def short(value: float, uncertainty: float | None) -> str:
     return f"{int(rounded.scaleb(-digit))}({int(u.scaleb(-digit))})e{digit}"
 
 
+def _power_of_ten(size: float) -> Decimal:
+    """The power of ten at most as large as a size; rounding leaves digits above it alone."""
+    return Decimal(1).scaleb(Decimal(repr(float(size))).adjusted())
+
+
 def value_text(value: float | None, u: float | None) -> str:
     """Return a value for a table; a missing value is nothing.
 
@@ -133,26 +144,30 @@ def value_text(value: float | None, u: float | None) -> str:
     if value is None or math.isnan(value):
         return ""
     u, size = float(u or 0.0), abs(value)
-    return _text(value, u, LEAST_SHOWN, size if size < _SMALL_VALUE and not u > size else 0.0)
-
-
-def _text(value: float, u: float, least: float, size: float) -> str:
-    """Return a value with an uncertainty of `least` at least, with the power of ten of a size unless that is zero."""
-    power = max(math.floor(math.log10(size)), _LEAST_POWER) if size else 0
+    power = _power(size) if size < _SMALL_VALUE and not u > size else 0
     # NaN, from a table, is a missing uncertainty; max keeps it where it is its first argument.
-    text = short(value / 10.0**power, max(u / 10.0**power, least))
+    return _with_power(short(value / 10.0**power, max(u / 10.0**power, LEAST_SHOWN)), power)
+
+
+def _power(size: float) -> int:
+    return max(math.floor(math.log10(size)), _LEAST_POWER) if size else 0
+
+
+def _with_power(text: str, power: int) -> str:
     return f"{text}e{power}" if power else text
 
 
-def percent_text(fraction: float, u: float, least: float = _LEAST_PERCENT) -> str:
+def percent_text(fraction: float, u: float, last: float = _LAST_PERCENT) -> str:
     """Return a relative error in percent; "inf" where that is above the largest number.
 
     Examples
     --------
-    >>> percent_text(0.066931234, 1e-9), percent_text(-1e307, 1e-9), percent_text(-0.0494, 1e-9, 5e-3)
-    ('6.69312(5)', '-inf', '-4.940(5)')
+    >>> percent_text(0.066931234, 1e-9), percent_text(-1e307, 1e-9), percent_text(-0.0494, 1e-9, SHORT_PERCENT)
+    ('6.69312', '-inf', '-4.940')
+    >>> percent_text(0.066931234, 3e-5)
+    '6.693(3)'
     """
-    return _text(100 * float(fraction), 100 * float(u), least, 0.0)
+    return short(100 * float(fraction), 100 * float(u), last)
 
 
 def error_text(error: float | None, u: float | None) -> str:
@@ -161,12 +176,13 @@ def error_text(error: float | None, u: float | None) -> str:
     Examples
     --------
     >>> error_text(-0.0494, 3e-9), error_text(2.1e-7, 4e-9), error_text(1e-9, 3e-7), error_text(None, None)
-    ('-0.049400(5)', '2.10(4)e-7', '0(3)e-7', '')
+    ('-0.049400', '2.10(4)e-7', '0(3)e-7', '')
     """
     if error is None or u is None or math.isnan(error):
         return ""
     size = max(abs(error), u)
-    return _text(error, u, _LEAST_ERROR, size if size < _SMALL_ERROR else 0.0)
+    power = _power(size) if size < _SMALL_ERROR else 0
+    return _with_power(short(error / 10.0**power, u / 10.0**power, _LAST_ERROR), power)
 
 
 def case_text(case: Mapping[str, Any]) -> str:

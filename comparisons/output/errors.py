@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from itertools import product
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -178,12 +179,13 @@ def comparison_table(results: pd.DataFrame, grids: Iterable[Grid], models: Seque
     Returns
     -------
     DataFrame
-        `COLUMNS` of comparison.  `value` is NaN unless `status` is "ok"; `kappa` is NaN too where the reference has no
-        value, and `reason` states why.
+        `COLUMNS` of comparison, and behind the case the varied keys of problem files.  `value` is NaN unless `status`
+        is "ok"; `kappa` is NaN too where the reference has no value, and `reason` states why.
     """
     evaluated = results[["status", "value", "u_num", "reason"]].to_dict("records")
     stored = dict(zip(keys_in(results), evaluated, strict=True))
-    rows = {}
+    rows: dict[Any, dict[str, Any]] = {}
+    varied: dict[str, None] = {}
     for grid in grids:
         for quantity, case, model in product(grid.quantities, grid.cases, models or grid.models):
             if model == grid.reference:
@@ -191,12 +193,15 @@ def comparison_table(results: pd.DataFrame, grids: Iterable[Grid], models: Seque
             result, reference = (
                 stored[Task(name, quantity, problem_for(name, case)).key] for name in (model, grid.reference)
             )
-            row = {"quantity": quantity, "model": model, **dict(zip(CASE, case.key, strict=True)), **result}
+            keys = {name: value for name, value in case.parameters.items() if name not in PARAMETERS}
+            row = {"quantity": quantity, "model": model, **dict(zip(CASE, case.key, strict=True)), **keys, **result}
+            varied |= dict.fromkeys(keys)
             row |= dict(zip(_KAPPA, (grid.reference, reference["value"], reference["u_num"]), strict=False))
             if result["status"] == "ok" != reference["status"]:
                 row["reason"] = f"the reference {grid.reference}: {reference['status']}: {reference['reason']}"
             rows[quantity, case, model, grid.reference] = row
-    table = pd.DataFrame(rows.values(), columns=list(COLUMNS["comparison"]))
+    of_case, others = COLUMNS["comparison"][: len(_CASE)], COLUMNS["comparison"][len(_CASE) :]
+    table = pd.DataFrame(rows.values(), columns=[*of_case, *varied, *others])
     return without_empty_problem(_with_kappa(table.astype(dict.fromkeys((*PARAMETERS, *_VALUES), float))))
 
 

@@ -17,7 +17,7 @@ from comparisons.problem.problem import split_name
 from comparisons.problem.units import prefixed_unit
 from comparisons.quantities import ALL_QUANTITIES, CURVES, Axis, CurveQuantity, Kind, title_of
 from comparisons.registry import MODELS
-from comparisons.runs.frames import unit_in, varied_of, with_problem
+from comparisons.runs.frames import unit_in, varied_keys, varied_of, with_problem
 from comparisons.runs.rows import CASE
 
 #: Ratio of the largest and the smallest abscissa from which an axis is logarithmic.
@@ -129,17 +129,23 @@ def kappa(table: pd.DataFrame, over: str = "") -> Plot:
         With the columns of `comparisons.output.errors.relative_error`.
     over : str
         "mu", "k" or "n" in place of the one with most values (the first of those with equally many); "case" for the
-        number of the case, which is what a case of a problem file has.
+        number of the case.  Of a problem file it is the varied number with most values, or the case without one.
     """
     rows = with_problem(table[table["kappa"].notna()])
     rows = rows.assign(problem=rows["problem"].fillna(""))
     rows = rows.assign(case=1.0 + rows.groupby([*CASE], sort=False, dropna=False).ngroup())
-    if not over:
-        over = "case" if rows["n"].isna().any() else max(_HEADINGS, key=lambda name: rows[name].nunique())
-    parameters = [heading for name, heading in reversed(_HEADINGS.items()) if over not in (name, "case")]
+    keys = varied_keys(rows)
+    numbers = [name for name in keys if pd.api.types.is_numeric_dtype(rows[name]) and rows[name].nunique() > 1]
+    if not over and rows["n"].isna().any():
+        over = max(numbers, key=lambda name: rows[name].nunique(), default="case")
+    over = over or max(_HEADINGS, key=lambda name: rows[name].nunique())
+    parameters = [heading for name, heading in reversed(_HEADINGS.items()) if over not in (name, "case", *keys)]
     rows = _by_quantity(rows, "n", "k", "mu", "model", over)
+    label, abscissas = _abscissas(rows[over], over)
+    is_logarithmic = _is_wide(rows[over]) if over in keys else over == "mu" and rows["mu"].nunique() > 1
     several = ("reference",) if rows["reference"].nunique() > 1 else ()
-    choices = columns("quantity", *several, *parameters)
+    of_keys = [name for name in keys if name != over] if over in keys else []
+    choices = [*columns("quantity", *several, *parameters), *key_columns(of_keys)]
 
     def hover(row: Record) -> str:
         where = case_text({name: row.get(name) for name in CASE})
@@ -147,16 +153,30 @@ def kappa(table: pd.DataFrame, over: str = "") -> Plot:
 
     return Plot(
         id="plot-kappa",
-        title=f"Relative error against the {_LABELS[over]}",
-        x_label=_LABELS[over],
+        title=f"Relative error against the {label}",
+        x_label=label,
         y_label="relative error κ (%)",
-        x_scale="log" if over == "mu" and rows["mu"].nunique() > 1 else "linear",
+        x_scale="log" if is_logarithmic else "linear",
         choices=choices,
-        points=_points(rows, choices, hover, rows[over], 100 * rows["kappa"], 100 * rows["u_kappa"]),
+        points=_points(rows, choices, hover, abscissas, 100 * rows["kappa"], 100 * rows["u_kappa"]),
         table="kappa",
         caption=LAYOUT["caption"]["kappa"],
         unit=" %",
     )
+
+
+def _abscissas(values: pd.Series, over: str) -> tuple[str, pd.Series]:
+    """Label of an axis and its values; a varied key has the prefix of its size."""
+    if over in _LABELS:
+        return _LABELS[over], values
+    key, unit = unit_in(over)
+    power, prefixed = prefixed_unit(float(values.abs().max()), unit)
+    return (key if prefixed == "1" else f"{key} ({prefixed})"), values * 10.0**-power
+
+
+def _is_wide(values: pd.Series) -> bool:
+    """Whether an axis of these values is logarithmic."""
+    return bool(values.min() > 0.0 and values.max() / values.min() >= _LOG)
 
 
 def predicted(table: pd.DataFrame) -> Plot:
@@ -297,12 +317,12 @@ def _over_key(rows: pd.DataFrame, keys: list[str], file: str, id: str) -> Plot:
     over, (label, unit) = keys[0], unit_in(keys[0])
     rows = _by_quantity(rows, *keys[1:], over)
     choices = [*columns("quantity"), *key_columns(keys[1:])]
-    power, prefixed = prefixed_unit(float(rows[over].abs().max()), unit)
+    x_label, abscissas = _abscissas(rows[over], over)
 
     def hover(row: Record) -> str:
         return f"{label} = {key_text(row[over], unit)}, {title_of(row['quantity'])} = {physical_text(row)}"
 
-    points = _points(rows, choices, hover, rows[over] * 10.0**-power, rows["value"], rows["u_num"])
+    points = _points(rows, choices, hover, abscissas, rows["value"], rows["u_num"])
     labels = {}
     for group, of_group in points.groupby("group"):
         stored = rows.loc[of_group.index]
@@ -312,9 +332,9 @@ def _over_key(rows: pd.DataFrame, keys: list[str], file: str, id: str) -> Plot:
     return Plot(
         id=id,
         title=f"Values against {label} of {file}",
-        x_label=label if prefixed == "1" else f"{label} ({prefixed})",
+        x_label=x_label,
         y_label="value",
-        x_scale="log" if rows[over].min() > 0.0 and rows[over].max() / rows[over].min() >= _LOG else "linear",
+        x_scale="log" if _is_wide(rows[over]) else "linear",
         choices=choices,
         points=points,
         table=f"{id}-numbers",

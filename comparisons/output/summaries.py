@@ -9,11 +9,10 @@ from functools import partial
 import pandas as pd
 from rich.console import RenderableType
 
-from comparisons.numerics.number_text import percent_text, value_text
+from comparisons.numerics.number_text import SHORT_PERCENT, percent_text, short
 from comparisons.output.errors import worst_rows
 from comparisons.output.table import (
     CASE,
-    SHORT_PERCENT,
     Column,
     Record,
     Table,
@@ -24,15 +23,15 @@ from comparisons.output.table import (
 )
 from comparisons.output.terminal import rich_table
 from comparisons.problem.units import si_text
-from comparisons.quantities import QUANTITIES
+from comparisons.quantities import QUANTITIES, title_of
 from comparisons.runs import rows as stored_rows
-from comparisons.runs.frames import varied_of, with_problem
+from comparisons.runs.frames import varied_keys, varied_of, with_problem
 
 #: Columns of the tables where no terminal states its own; rows that a terminal shows; spaces between columns.
 WIDTH, _ROWS, _GAP = 80, 40, 2
 
-#: The reference is shown to this digit, or to the digit that its uncertainty leaves it.
-_LEAST_REFERENCE = 5e-7
+#: The last digit of the reference, relative to it if it is below 1, where its uncertainty does not reach that far.
+_LAST_REFERENCE = 1e-7
 
 #: Failures that are written one by one.
 _FAILURES = 3
@@ -49,10 +48,10 @@ def _error_text(model: str, row: Record) -> str:
 def _reference_text(row: Record) -> str:
     """Return the value of the reference to seven decimals, or digits, at most."""
     value, u = row["reference_value"], row["u_reference"]
-    shown_u = max(u, _LEAST_REFERENCE * min(abs(value), 1.0))
-    if row["problem"] and not pd.isna(value):
-        return si_text(value, shown_u, QUANTITIES[row["quantity"]].si_unit)
-    return value_text(value, shown_u) or "none"
+    if pd.isna(value):
+        return "none"
+    last = _LAST_REFERENCE * min(abs(value), 1.0)
+    return si_text(value, u, QUANTITIES[row["quantity"]].si_unit, last) if row["problem"] else short(value, u, last)
 
 
 def case_tables(table: pd.DataFrame) -> Iterator[Table]:
@@ -68,16 +67,39 @@ def case_tables(table: pd.DataFrame) -> Iterator[Table]:
         of_models = group.pivot(index="case", columns="model", values=["status", "kappa", "u_kappa"]).infer_objects()
         of_models.columns = pd.Index([" ".join(names) for names in of_models.columns])
         cases = group.drop_duplicates("case").set_index("case")
-        cases = cases[["quantity", *stored_rows.CASE, "reference", "reference_value", "u_reference"]]
+        keys = varied_keys(cases)
+        cases = cases[["quantity", *stored_rows.CASE, *keys, "reference", "reference_value", "u_reference"]]
+        of_case = [*columns(*(name for name in CASE if not keys or name != "problem")), *key_columns(keys)]
         models = [
             Column(model, partial(_error_text, model), f"kappa {model}") for model in dict.fromkeys(group["model"])
         ]
         yield Table(
             f"cases-{quantity}-{reference}",
-            f"{quantity}: kappa in percent (uncertainty) against {reference}",
-            [*columns(*CASE), Column(str(reference), _reference_text, "reference_value"), *models],
+            f"{title_of(quantity)}: kappa in percent (bound) against {reference}",
+            [*of_case, Column(str(reference), _reference_text, "reference_value"), *models],
             cases.join(of_models),
         )
+
+
+def refusal_lines(table: pd.DataFrame) -> Iterator[str]:
+    """Yield for each model without a value in some cases their number and the first reason.
+
+    Parameters
+    ----------
+    table : DataFrame
+        As of `comparisons.output.errors.comparison_table`.
+
+    Examples
+    --------
+    >>> row = {"model": "jkr", "quantity": "pull_off_force", "status": "not-applicable", "reason": "no power law"}
+    >>> [*refusal_lines(pd.DataFrame([row, row | {"status": "ok"}]))]
+    ['jkr, pull-off force: n/a in 1 of 2 cases: no power law']
+    """
+    for (model, quantity), rows in table.groupby(["model", "quantity"], sort=False):
+        refused = rows[rows["status"] == "not-applicable"]
+        if len(refused):
+            where = f"n/a in {len(refused)} of {len(rows)} cases"
+            yield f"{model}, {title_of(quantity)}: {where}: {refused['reason'].iloc[0]}"
 
 
 def summary_tables(summary: pd.DataFrame) -> Iterator[Table]:
@@ -90,7 +112,7 @@ def summary_tables(summary: pd.DataFrame) -> Iterator[Table]:
     """
     layout = columns("model", "coverage", "largest |κ| (%)", *CASE, "rms κ (%)")
     for (quantity, reference), group in summary.groupby(["quantity", "reference"], sort=False):
-        caption = f"{quantity}: coverage, largest and root mean square kappa, against {reference}"
+        caption = f"{title_of(quantity)}: coverage, largest and root mean square kappa, against {reference}"
         yield Table(f"summary-{quantity}-{reference}", caption, layout, group)
 
 

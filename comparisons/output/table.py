@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import lazy_loader
 
 from comparisons.judging.summary import coverage_text
-from comparisons.numerics.number_text import error_text, exact, limits_text, percent_text, value_text
+from comparisons.numerics.number_text import SHORT_PERCENT, error_text, exact, limits_text, percent_text, value_text
 from comparisons.problem.units import si_text
 from comparisons.quantities import title_of
 from comparisons.runs.frames import unit_in
@@ -29,9 +29,6 @@ else:
 
 #: A stored row.
 Record = Mapping[str, Any]
-
-#: A relative error beside others is shown to this digit of a percent, or to that which its uncertainty leaves.
-SHORT_PERCENT = 5e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +129,7 @@ def _missing(stored: object) -> bool:
 #: Texts of a number and its bound, by the names of the forms.
 _BOUNDED: Mapping[str, Callable[[float, float], str]] = {
     "percent": percent_text,
-    "short percent": partial(percent_text, least=SHORT_PERCENT),
+    "short percent": partial(percent_text, last=SHORT_PERCENT),
     "value": value_text,
     "error": error_text,
 }
@@ -165,7 +162,7 @@ def column(heading: str, name: str = "", form: str = "", u: str = "", by: str = 
     >>> [rounded.text({"u_num": number}) for number in (1.5e-9, math.inf, math.nan, None)]
     ['1.5e-09', '∞', '', '']
     >>> column("error", "kappa", "percent", "u_kappa").text({"kappa": 0.066931234, "u_kappa": 1e-9})
-    '6.69312(5)'
+    '6.69312'
     """
     name = name or heading
 

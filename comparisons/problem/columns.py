@@ -16,6 +16,9 @@ from comparisons.problem.units import NUMBER, NotAValue, in_si, unit_factor
 _HEADING = re.compile(r"\s*([A-Za-z_]\w*)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*")
 _NUMBER = re.compile(NUMBER, re.ASCII)
 
+#: A usual unit of what has one in SI, for the line that a table lacks.
+_USUAL = {"m": "nm", "Pa": "MPa", "": ""}
+
 
 @dataclass(frozen=True, slots=True)
 class Columns:
@@ -82,8 +85,8 @@ def columns_of(text: str, source: str, names: Iterable[str]) -> Columns:
 def read_columns(path: Path, columns: Mapping[str, Form]) -> dict[str, tuple[float, ...]]:
     """Return the columns of a CSV file in SI.
 
-    The first row has the names, each with its unit in brackets if that is not the one in SI: ``z [nm],E [GPa]``.  Lines
-    that begin with ``#`` are comments.
+    The first row has the names, each with its unit in brackets if it has one: ``z [nm],E [GPa]``.  Lines that begin
+    with ``#`` are comments.
 
     Parameters
     ----------
@@ -99,6 +102,13 @@ def read_columns(path: Path, columns: Mapping[str, Form]) -> dict[str, tuple[flo
     for name, form in columns.items():
         if name not in written.units and not form.is_optional:
             raise ValueError(f"{written.location}: the column {name} is missing; the names are {', '.join(columns)}")
+    if bare := [name for name, unit in written.units.items() if columns[name].unit and not unit]:
+        heading = ",".join(_with_unit(name, unit or _USUAL[columns[name].unit]) for name, unit in written.units.items())
+        in_si_units = " and ".join(_with_unit(name, columns[name].unit) for name in bare)
+        raise ValueError(
+            f"{written.location}: no unit of {' and '.join(bare)}; write the line of the names as {heading}, or in SI "
+            f"as {in_si_units}"
+        )
     values: dict[str, list[float]] = {}
     for name, unit in written.units.items():
         form, column = columns[name], values.setdefault(name, [])
@@ -109,6 +119,10 @@ def read_columns(path: Path, columns: Mapping[str, Form]) -> dict[str, tuple[flo
             except NotAValue as error:
                 raise ValueError(f"{location}: {name} = {shown(cell)} {error}") from None
     return {name: tuple(column) for name, column in values.items()}
+
+
+def _with_unit(name: str, unit: str) -> str:
+    return f"{name} [{unit}]" if unit else name
 
 
 def factor_of(columns: Columns, name: str, unit: str, target: str, remedy: str = "") -> float:
@@ -143,6 +157,8 @@ def _name_and_unit(cell: str, names: Iterable[str], location: str) -> tuple[str,
     match = _HEADING.fullmatch(cell)
     if not match:
         remedy = "; separate columns by commas" if ";" in cell or "\t" in cell else ""
+        if _NUMBER.fullmatch(cell.strip()):
+            remedy = f"; write a line before the numbers, as {','.join(f'{name} [unit]' for name in names)}"
         raise ValueError(
             f"{location}: {shown(cell)} is not a name of a column; the names are {', '.join(names)}{remedy}"
         )

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from comparisons.data.validation import known_name, shown
-from comparisons.problem.kinds import KINDS, PUNCH_SOLID, Form, Kind, absent
+from comparisons.data.validation import shown
+from comparisons.problem.kinds import KINDS, PUNCH_SOLID, Form, Kind, absent, known_word
 from comparisons.problem.uncertain import Uncertainty, uncertain_in_si
 from comparisons.problem.units import NotAValue, in_si, magnitude_in_si
 
@@ -63,12 +63,12 @@ def kind_of(section: str, table: object, source: Source) -> Kind:
     name = str(table["kind"])
     if name not in KINDS[section] and (remedy := absent(name)):
         raise source.refusal(f"{section}.kind = {shown(name)}: {remedy}", section, "kind")
-    known_name(f"{section}.kind", name, KINDS[section], source.place(section, "kind"))
+    known_word(f"{section}.kind", name, KINDS[section], source.place(section, "kind"))
     kind = KINDS[section][name]
     for key in table:
         if key not in ("kind", *kind.keys) and (reason := _of_another(section, name, key) or absent(key)):
             raise source.refusal(f"{section}.{key}: {reason}", section, key)
-        known_name("key", key, ["kind", *kind.keys], f"{source.place(section, key)}: {section}")
+        known_word("key", key, ["kind", *kind.keys], f"{source.place(section, key)}: {section}")
     if missing := [key for key in kind.required if key not in table]:
         has = f"a {section} of the kind {name} has {', '.join(kind.required)}"
         raise source.refusal(f"{section}: {', '.join(missing)} missing; {has}", section)

@@ -15,6 +15,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from comparisons.data.toml_text import shipped
+from comparisons.data.validation import known_name, shown
 from comparisons.problem.punch_shapes import RoundedFlat, SmoothedProfile
 
 if TYPE_CHECKING:
@@ -227,6 +228,39 @@ def absent(name: str) -> str:
         if name in row.get("names", ()) or words & {*row.get("words", ())}:
             return str(row["remedy"])
     return ""
+
+
+def known_word(noun: str, name: str, known: Iterable[str], where: str) -> None:
+    """Refuse a kind or a key that is not known, as `known_name`, which knows no names of textbooks.
+
+    Raises
+    ------
+    ValueError
+        One sentence.
+
+    Examples
+    --------
+    >>> known_word("key", "radius", ["R", "R_solid"], "punch")
+    Traceback (most recent call last):
+    ValueError: punch: unknown key 'radius': did you mean R?
+    """
+    names = list(known)
+    if name not in names and (near := meant(name, names)):
+        raise ValueError(f"{where}: unknown {noun} {shown(name)}: did you mean {near}?")
+    known_name(noun, name, names, where)
+
+
+def meant(name: str, known: Iterable[str]) -> str:
+    """Return the one of some kinds or keys that has another name in other programs; nothing if none has.
+
+    Examples
+    --------
+    >>> meant("modulus", ["E0", "c0"]), meant("modulus", ["R"])
+    ('E0', '')
+    """
+    names = list(known)
+    rows = (row["known"] for row in _TABLES["meant"] if name in row["names"])
+    return next((word for words in rows for word in words if word in names), "")
 
 
 def kind_rows() -> Iterator[dict[str, str]]:

@@ -241,11 +241,14 @@ class Problem:
         return self._sections[name]
 
     @cached_property
-    def _order(self) -> tuple[float | str, ...]:
-        """What problems are sorted by: n, k, mu and nu, those of files after the others."""
+    def _order(self) -> tuple[Any, ...]:
+        """What problems are sorted by: n, k, mu and nu, then those of files by file and the values of varied keys."""
         n, k, mu, nu = (self[name] for name in PARAMETERS)
         numbers = (math.inf if number is None else number for number in (n, k, mu))
-        return *numbers, -1.0 if nu is None else nu, self.name
+        varied = [(name, value) for name, value in self.parameters.items() if name not in PARAMETERS]
+        # Numbers before texts, of one key.
+        values = [(name, isinstance(value, str), value) for name, value in varied]
+        return *numbers, -1.0 if nu is None else nu, split_name(self.name)[0], values, self.name
 
     @property
     def label(self) -> str:

@@ -5,6 +5,7 @@ Both solvers take any shape with `height`, `slope` and `kinks`; the FSCM reads `
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar
@@ -97,7 +98,16 @@ class SmoothedProfile:
             raise ValueError(f"the first radius is {r[0]:g} m and not 0; subtract the position of the apex")
         # In units of the last point, where the equations of the spline are well scaled.
         weights = np.full(len(r), abs(f[-1]) / self.smoothing)
-        curve = scipy.interpolate.UnivariateSpline((r / r[-1]) ** 2, f / abs(f[-1]), w=weights, k=3, s=len(r))
+        try:
+            with warnings.catch_warnings():
+                # A curve that misses the rule.
+                warnings.simplefilter("error", UserWarning)
+                curve = scipy.interpolate.UnivariateSpline((r / r[-1]) ** 2, f / abs(f[-1]), w=weights, k=3, s=len(r))
+        except UserWarning:
+            raise ValueError(
+                f"no smooth curve is as near to heights of {f[-1]:.3g} m as the smoothing {self.smoothing:.3g} m; "
+                "check the units of both, or take a larger smoothing"
+            ) from None
         last = float(curve(1.0) - curve(0.0)) * abs(float(f[-1]))
         if not last > 0.0:
             raise ValueError(f"the smooth profile ends at the height {last:g}, which is not above its apex")

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from comparisons.data.toml_text import shipped
 from comparisons.data.validation import known_name
-from comparisons.problem.kinds import KINDS, PUNCH_SOLID, SECTIONS, Kind
+from comparisons.problem.kinds import KINDS, PUNCH_SOLID, SECTIONS, Kind, known_word
 
 #: Kinds of the sections that are not named.
 _DEFAULTS = {"solid": "homogeneous", "punch": "sphere", "law": "lennard-jones-9-3"}
@@ -64,7 +64,7 @@ def _section_of(name: str) -> tuple[str, str]:
     section, _, kind = name.partition(".")
     if kind:
         known_name("section", section, KINDS, name)
-        known_name("kind", kind, KINDS[section], name)
+        known_word("kind", kind, KINDS[section], name)
         return section, kind
     if name in KINDS:
         kinds = " or ".join(f"{name}.{kind}" for kind in KINDS[name])
@@ -74,7 +74,7 @@ def _section_of(name: str) -> tuple[str, str]:
         raise ValueError(
             f"{name} is a kind of {' and of '.join(having)}: write {' or '.join(f'{s}.{name}' for s in having)}"
         )
-    known_name("kind", name, sorted({kind for section in SECTIONS for kind in KINDS[section]}), "new-problem")
+    known_word("kind", name, sorted({kind for section in SECTIONS for kind in KINDS[section]}), "new-problem")
     return having[0], name
 
 

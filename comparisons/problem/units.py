@@ -169,20 +169,22 @@ def in_si(value: object, target: str, power: float = 1.0) -> float:
     return scaled
 
 
-def si_text(value: float, u_num: float, unit: str) -> str:
-    """Return a value in SI with the prefix of its size.
+def si_text(value: float, u_num: float, unit: str, last: float = 0.0) -> str:
+    """Return a value in SI with the prefix of its size, and its last digit as of `short`.
 
     Examples
     --------
+    >>> si_text(2.71721234e-8, 4e-18, "N", 1e-12), si_text(2.71721234e-8, 4e-11, "N", 1e-12)
+    ('27.172 nN', '27.17(4) nN')
     >>> si_text(2.7172e-8, 4e-11, "N"), si_text(-3.2e-10, 0.0, "m"), si_text(1.5, 1e-3, "1")
     ('27.17(4) nN', '-320 pm', '1.5000(10)')
     """
     if unit == "1":
-        return short(value, u_num)
+        return short(value, u_num, last)
     power, prefix = _prefix(max(abs(value), u_num))
     # A floor for the uncertainty: scaling by the prefix changes the last bit of an exact value.
     scaled = float(f"{value * 10.0**-power:.15g}")
-    return f"{short(scaled, u_num * 10.0**-power)} {prefix}{unit}"
+    return f"{short(scaled, u_num * 10.0**-power, last * 10.0**-power)} {prefix}{unit}"
 
 
 def prefixed_unit(size: float, unit: str) -> tuple[int, str]:

@@ -72,6 +72,21 @@ def varied_of(table: pd.DataFrame) -> list[str]:
     return [name for name in table.columns if name.partition(".")[0] in KINDS]
 
 
+def varied_keys(table: pd.DataFrame) -> list[str]:
+    """Return the columns of the keys that tell the cases of one problem file apart; none if there are other cases.
+
+    Examples
+    --------
+    >>> labels = ["pad.toml; punch.R=1 nm", "pad.toml; punch.R=5 nm"]
+    >>> table = pd.DataFrame({"problem": labels, "punch.R [m]": [1e-9, 5e-9]})
+    >>> varied_keys(table), varied_keys(table.assign(problem=["pad.toml; punch.R=1 nm", "tip.toml"]))
+    (['punch.R [m]'], [])
+    """
+    files = {split_name(label)[0] for label in with_problem(table)["problem"].fillna("")}
+    keys = varied_of(table)
+    return keys if len(files) == 1 and "" not in files and table[keys].notna().all(axis=None) else []
+
+
 def unit_in(column: str) -> tuple[str, str]:
     """Return the key and the unit in SI of the column of a varied key.
 

@@ -12,11 +12,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from itertools import groupby
 from traceback import extract_tb
-from typing import Any
+from typing import Any, cast
+
+import numpy as np
 
 from comparisons.data.validation import known_name
 from comparisons.external.process_model import contradiction
-from comparisons.model import EFFORT, ComputationFailed, Model, NotApplicable, Result
+from comparisons.model import EFFORT, ComputationFailed, Curve, Model, NotApplicable, Result
 from comparisons.problem import Problem
 from comparisons.problem.evaluation import dimensionless_result, evaluated, unit_of
 from comparisons.quantities import ALL_QUANTITIES, Points
@@ -117,11 +119,7 @@ def evaluate(model: str | Model, quantity: str, problem: Problem) -> Row:
     'ok'
     """
     known_name("quantity", quantity, ALL_QUANTITIES, "evaluate")
-    if not isinstance(problem, Problem):
-        raise ValueError(f"problem = {problem!r} is no Problem: write Problem.dimensionless(n, k, mu), or Problem.load")
-    if isinstance(model, str):
-        # Some need Poisson's ratio.
-        model = create(model, problem.nu)
+    model = _model(model, _known(problem))
     started = time.perf_counter()
     try:
         outcome = {"status": "ok"} | _fields(problem, quantity, evaluated(problem, model, quantity))
@@ -136,6 +134,45 @@ def evaluate(model: str | Model, quantity: str, problem: Problem) -> Row:
         function = extract_tb(error.__traceback__)[-1].name
         outcome = {"status": "failed", "reason": f"{type(error).__name__} in {function}: {error}"}
     return _row(model, quantity, problem, started, **outcome)
+
+
+def curve(model: str | Model, problem: Problem) -> Curve:
+    """Return the force-displacement curve of a model, in the units of the problem: SI, or dimensionless.
+
+    That of a solver is its whole equilibrium path: ``columns`` says which states can be held.
+
+    Parameters
+    ----------
+    model : str or Model
+        A name, a SPEC or a model.
+    problem : Problem
+
+    Raises
+    ------
+    ValueError
+        If the model is unknown, or the problem is inadmissible.
+    NotApplicable, ComputationFailed
+        If the model has no curve of this problem.
+
+    Examples
+    --------
+    >>> path = curve("jkr", Problem.dimensionless(2, 0, 1))
+    >>> round(float(-path.load.min()), 3)
+    1.5
+    """
+    points = cast(Points, evaluated(_known(problem), _model(model, problem), "force_curve"))
+    return Curve(np.array(points.x), np.array(points.y), points.columns, points.u_distance)
+
+
+def _known(problem: Problem) -> Problem:
+    if not isinstance(problem, Problem):
+        raise ValueError(f"problem = {problem!r} is no Problem: write Problem.dimensionless(n, k, mu), or Problem.load")
+    return problem
+
+
+def _model(model: str | Model, problem: Problem) -> Model:
+    """The model of a name; some need Poisson's ratio."""
+    return create(model, problem.nu) if isinstance(model, str) else model
 
 
 def _fields(problem: Problem, quantity: str, result: Result | Points) -> dict[str, Any]:

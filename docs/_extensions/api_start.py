@@ -12,7 +12,11 @@ NAMES = {
     "Compute a force, a displacement or an energy with its bound": ["fscm.solve", "fem_reference.solve"],
     "Compute a force curve, and the surface at an event": ["fscm.trace", "fscm.profile"],
     "Interpolate in microseconds": ["fscm.atlas"],
-    "Evaluate a model, compare models": ["comparisons.evaluate", "comparisons.compare"],
+    "Evaluate a model, its curve, compare models": [
+        "comparisons.evaluate",
+        "comparisons.curve",
+        "comparisons.compare",
+    ],
     "Derivatives and uncertainty": ["comparisons.sensitivity"],
     "Fit measured curves": ["comparisons.fit"],
 }

@@ -38,12 +38,18 @@ _FAR = 0.1
 _AT_LOAD = 1.0 - 1e-9
 _QUANTITY = f"what to draw: {', '.join(CURVES)} (default: force_curve)"
 
+_STIFFNESS = 'approach and retreat as a cantilever of a stiffness as "0.2 N/m" records them'
+
 
 @command(
     several("--model", metavar="SPEC", required=True, help=MODEL_SPEC),
     option("--quantity", metavar="NAME", choices=tuple(CURVES), default="force_curve", help=_QUANTITY),
     *CASE_OR_FILE,
-    option("--stiffness", metavar="VALUE", help='the cycle that a cantilever records, of a stiffness as "0.2 N/m"'),
+    option(
+        "--stiffness",
+        metavar="VALUE",
+        help=_STIFFNESS,
+    ),
     option(
         "--max-load",
         metavar="VALUE",
@@ -94,6 +100,7 @@ def curve_command(args: argparse.Namespace) -> int:
     for path in filter(None, (file_of_points, args.plot)):
         note(f"the {'curve' if stiffness is None else 'cycle'} is in {path}")
     if stiffness is None and not problem.is_dimensionless and args.quantity == "force_curve":
+        note("this is the whole equilibrium path; --stiffness '1 N/m' gives approach and retreat, with their jumps")
         _note_assumptions(problem, points_of_models)
     return status
 
@@ -148,7 +155,7 @@ def _cycles(points_of_models: dict[str, Points], stiffness: float) -> tuple[pd.D
             failed = True
             continue
         ends = {"snaps in": machine.far[:, -1], "snaps out": machine.contact[:, 0]}
-        jumps = (f"{word} at {_short(x, 'm')} of the base and {_short(y, 'N')}" for word, (x, y) in ends.items())
+        jumps = (f"{word} where its base is at {_short(x, 'm')}, at {_short(y, 'N')}" for word, (x, y) in ends.items())
         note(f"{name}: {', '.join(jumps) if machine.jumps else 'no jumps'}")
         for branch, (position, load) in cycle.items():
             values = (name, branch, position, position - load / stiffness, load)

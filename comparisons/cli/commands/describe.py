@@ -6,7 +6,7 @@ import argparse
 import json
 
 from comparisons.cli.options import command, file, option, output_format
-from comparisons.cli.screen import print_lines
+from comparisons.cli.screen import print_text
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
 from comparisons.description.assumptions import assumptions
@@ -58,6 +58,6 @@ def describe_command(args: argparse.Namespace) -> int:
         parts = {"equivalent_power_law": equivalent, "profile_sensitivity": changes, "uncertainty": of_values}
         print(json.dumps(described | {name: content for name, content in parts.items() if content}, allow_nan=False))
     else:
-        print_lines(description_text(problem, described, equivalent, changes, of_values).splitlines())
+        print_text(description_text(problem, described, equivalent, changes, of_values).splitlines())
     failed = force.status == "failed" or (of_values is not None and of_values["status"] == "failed")
     return FAILED if failed else OK

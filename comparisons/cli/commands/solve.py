@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, command, option, output_format, problem_of
-from comparisons.cli.screen import print_lines
+from comparisons.cli.screen import print_text
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
 from comparisons.numerics.number_text import case_text, short
@@ -45,7 +45,7 @@ def solve_command(args: argparse.Namespace) -> int:
     with waiting(f"{args.model}, {case_text(case) or problem.label}"):
         row = evaluate(args.model, args.quantity, problem)
     if args.format == "text":
-        print_lines(_lines(problem, row, case))
+        print_text(_lines(problem, row, case))
     else:
         print(_json(problem, row, case) if args.format == "json" else _csv(row), end="")
     return FAILED if row.status == "failed" else OK

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from shlex import quote
 
 from comparisons.cli.options import (
     JOBS,
@@ -16,11 +17,11 @@ from comparisons.cli.options import (
     option,
     several,
 )
-from comparisons.cli.screen import output, print_end, print_lines
+from comparisons.cli.screen import output, print_end, print_text
 from comparisons.console.exit_status import FAILED
-from comparisons.console.progress import log
+from comparisons.console.progress import log, note
 from comparisons.description.budget import line_of_results
-from comparisons.output.summaries import computations_sentence, sweep_tables, terminal_tables
+from comparisons.output.summaries import computations_sentence, refusal_lines, sweep_tables, terminal_tables
 from comparisons.pipeline.compare import ALL, compare
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.inputs import cases_of_problem
@@ -91,8 +92,10 @@ def _show(finished: FinishedRun, quiet: bool) -> int:
             console.print(table)
         problems = (problem for grid in finished.inputs.cases.grids for problem in grid.cases)
         line = line_of_results(problems, finished.tables.results)
-        print_lines([computations_sentence(finished.counts), *filter(None, [line])])
-    return print_end(finished.failures, finished.folder)
+        print_text([computations_sentence(finished.counts), *filter(None, [line])])
+    status = print_end(finished.failures, finished.folder)
+    note(f"next: fscm-bench report {quote(str(finished.folder))}, a page with tables and plots")
+    return status
 
 
 @command(
@@ -138,7 +141,7 @@ def compare_command(args: argparse.Namespace) -> int:
         console = output()
         for table in terminal_tables(finished.table, finished.summary, args.every, console.width):
             console.print(table)
-        print_lines(filter(None, [finished.assumptions]))
+        print_text([*refusal_lines(finished.table), *filter(None, [finished.assumptions])])
     status = print_end(finished.failures, finished.folder, "comparison.csv, comparison.png and the results are")
     if finished.table["kappa"].isna().all():
         log("nothing was evaluated: in no case do both the reference and another model have a value")

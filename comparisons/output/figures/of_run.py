@@ -106,6 +106,17 @@ def _legend_entries(drawn: Sequence[plots.Plot]) -> dict[str, str]:
     return {str(model): f"{model}, u ≤ {bound:.1e}{unit}" if bound else str(model) for model, bound in largest.items()}
 
 
+def _option_text(heading: str, text: str) -> str:
+    r"""The text of a choice, of a number with its name; no line ends within "n = 2" or "1 µm".
+
+    Examples
+    --------
+    >>> _option_text("n", "2"), _option_text("punch.R", "1 nm"), _option_text("quantity", "hysteresis energy")
+    ('n\xa0=\xa02', 'punch.R\xa0=\xa01\xa0nm', 'hysteresis energy')
+    """
+    return f"{heading} = {text}".replace(" ", "\u00a0") if number_parts(text.partition(" ")[0]) else text
+
+
 def _panel(axes: Axes, plot: plots.Plot, rows: pd.DataFrame, styles: Mapping[str, ModelStyle]) -> dict[str, Any]:
     """Draw the points of one choice; return what the legend shows of each model."""
     handles = {}
@@ -119,8 +130,7 @@ def _panel(axes: Axes, plot: plots.Plot, rows: pd.DataFrame, styles: Mapping[str
         handles[str(model)] = axes.errorbar(points["x"], points["y"], **drawn)[0]
     axes.axhline(0, color="0.4", lw=0.8)
     options = zip(plot.choices, rows["options"].iloc[0], strict=True)
-    # No line ends within "n = 2".
-    texts = [f"{column.heading}\u00a0=\u00a0{text}" if number_parts(text) else text for column, text in options]
+    texts = [_option_text(column.heading, text) for column, text in options]
     axes.set_title(textwrap.fill(", ".join(texts), _LINE), fontsize=8)
     axes.set(xscale=plot.x_scale, xlabel=plot.x_label, ylabel=textwrap.fill(plot.y_label, _LINE))
     if plot.x_label == "case":

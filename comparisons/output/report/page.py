@@ -160,7 +160,7 @@ def _nearest_models(judged: pd.DataFrame) -> str:
     >>> errors = ((5.0, -0.02), (2.0, -0.06))
     >>> rows = [case | {"model": "jkr", "mu": mu, "kappa": kappa, "nu": None} for mu, kappa in errors]
     >>> _nearest_models(pd.DataFrame(rows[:1]))
-    'jkr differs from fscm by at most -2.00000(5) % in the pull-off force, at n = 2, k = 0, mu = 5.'
+    'jkr differs from fscm by at most -2.00000 % in the pull-off force, at n = 2, k = 0, mu = 5.'
     >>> _nearest_models(pd.DataFrame([*rows, *({**row, "model": "dmt"} for row in rows[1:])]))
     'jkr is certainly within 5 % of fscm in 1 of 2 cases of the pull-off force, more often than any other model here.'
     """

@@ -481,6 +481,8 @@ ROWS = "".join(f"{i}e-300,{i}\n" for i in range(1, 21))
         ("displacement [nm],load [nN]\n1,2\n", ["--stiffness", "1 m"], "--stiffness 1 m"),
         ("displacement [nm],load [nN]\n1,2\n", ["--free", "solid.G"], "'G'"),
         ("displacement [nm],load [nN]\n1,2\n", ["--free", "solid"], "solid"),
+        ("displacement [nm],load [nN]\n1,2\n", ["--free", "E0"], "did you mean solid.E0?"),
+        ("displacement [nm],load [nN]\n1,2\n", ["--free", "w"], "did you mean law.work_of_adhesion?"),
         ("displacement [nm],load [nN],branch\n1,2,up\n", [], "'up'"),
     ],
 )

@@ -71,6 +71,25 @@ def test_the_same_data_give_the_same_bytes(tmp_path):
         save(figure, tmp_path / "a.gif")
 
 
+def test_a_varied_key_is_the_axis_in_the_order_of_its_values_and_another_one_has_panels():
+    rows = [
+        {"model": "jkr", "quantity": "pull_off_force", "n": np.nan, "k": np.nan, "mu": np.nan, "nu": np.nan}
+        | {"problem": f"pad.toml; law.z0={z0} nm; punch.R={R} nm", "law.z0 [m]": z0 * 1e-9, "punch.R [m]": R * 1e-9}
+        | {"reference": "fscm", "kappa": -1e-3 * z0, "u_kappa": 1e-9}
+        for z0 in (200.0, 20.0, 1000.0)
+        for R in (1.0, 2.0)
+    ]
+    axes = draw_comparison(pd.DataFrame(rows)).axes
+    assert [panel.get_title().partition("punch.R")[2].replace("\u00a0", " ") for panel in axes] == [
+        " = 1 nm",
+        " = 2 nm",
+    ]
+    assert {panel.get_xlabel() for panel in axes} == {"law.z0 (µm)"}
+    assert {panel.get_xscale() for panel in axes} == {"log"}
+    drawn = np.asarray(axes[0].containers[0][0].get_xdata(), float)
+    np.testing.assert_allclose(drawn, [0.02, 0.2, 1.0])
+
+
 def test_a_comparison_has_a_panel_for_each_case_and_a_legend_inside_the_figure():
     models = [name for name in MODELS if name != "fscm"]
     figure = draw_comparison(errors(models))

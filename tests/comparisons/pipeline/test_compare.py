@@ -98,7 +98,7 @@ def test_the_command_fits_80_columns_and_states_reference_and_coverage(tmp_path,
     assert main(["compare", *models, *case, "--reference", "atlas", "--out", str(tmp_path), "--jobs", "1"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert max(map(len, lines)) <= WIDTH
-    assert "pull_off_force: kappa in percent (uncertainty) against atlas" in lines
+    assert "pull-off force: kappa in percent (bound) against atlas" in lines
     heads = [line.split() for line in lines if line.split()[:3] == ["n", "k", "μ"]]
     assert [model for head in heads for model in head[4:]] == models
     # The atlas ends at mu = 10: the models have values there, and no error.
@@ -144,8 +144,9 @@ def test_the_keys_of_a_problem_file_make_cases(tmp_path, capsys):
     vary = ["--problem", str(tmp_path / "pad.toml"), "--vary", "law.work_of_adhesion=1, 2 J/m^2"]
     out = ["--out", str(tmp_path / "out"), "--jobs", "1"]
     assert main(["compare", "dmt", *vary, "--reference", "bradley", *out]) == 0
-    assert re.search(r" 6\.28318\d*\(\d+\) µN", capsys.readouterr().out)
+    assert re.search(r" 6\.28318\d* µN", capsys.readouterr().out)
     table = read_table(tmp_path / "out" / "comparison.csv")
+    assert table["law.work_of_adhesion [J/m^2]"].tolist() == [1.0, 2.0]
     assert table["problem"].str.extract(r"work_of_adhesion=(\d)")[0].tolist() == ["1", "2"]
     # The force is that of the punch alone, in newtons.
     assert table["value"][1] == pytest.approx(2.0 * table["value"][0])
@@ -204,3 +205,15 @@ def test_a_failed_computation_is_the_exit_status(toys, tmp_path, capsys):
     assert printed.out == ""
     assert "100 iterations were not enough" in printed.err
     assert json.loads((tmp_path / "out" / "run.json").read_text())["command_name"] == "sweep"
+
+
+def test_the_rows_of_a_varied_key_are_in_the_order_of_its_values_and_a_refusal_has_its_reason(tmp_path, capsys):
+    (tmp_path / "pad.toml").write_text(PAD)
+    vary = ["--problem", str(tmp_path / "pad.toml"), "--vary", "law.work_of_adhesion=20, 100, 3 J/m^2"]
+    out = ["--reference", "bradley", "--out", str(tmp_path / "out"), "--jobs", "1"]
+    assert main(["compare", "dmt", "jkr-sphere", *vary, *out]) == 0
+    printed = capsys.readouterr().out
+    assert [line.split()[0] for line in printed.splitlines()[3:6]] == ["3", "20", "100"]
+    _, refused, reason = " ".join(printed.split()).partition("n/a in 3 of 3 cases: ")
+    assert refused
+    assert "ball" in reason

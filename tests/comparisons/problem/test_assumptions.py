@@ -93,6 +93,7 @@ def test_finite_strain_is_proposed_until_it_was_tried(bead, by_solution):
 
 
 FORCE = row("fscm", value=2.0, u_num=1e-9)
+REASON = "the contact edge needs smaller elements"
 
 
 @pytest.fixture
@@ -104,7 +105,9 @@ def quickly(monkeypatch):
         forces.setdefault("vertical", forces.get("fem-large-strain"))
         monkeypatch.setattr(fem_model, "LargeStrain", lambda interaction: "vertical")
         monkeypatch.setattr(module, "fscm_force", lambda _: row("fscm", value=forces.get("fscm"), u_num=1e-9))
-        monkeypatch.setattr(module, "evaluate", lambda model, *_: row(model, value=forces.get(model), u_num=1e-9))
+        monkeypatch.setattr(
+            module, "evaluate", lambda model, *_: row(model, value=forces.get(model), u_num=1e-9, reason=REASON)
+        )
         return assumptions(problem, FORCE, by_solution)
 
     return assumed
@@ -186,9 +189,40 @@ def test_what_is_known_counts_beside_what_is_not(quickly):
 
 
 def test_nothing_is_recommended_where_the_contact_is_larger_than_the_sphere(quickly):
-    assumed = quickly(BEAD, contact_radius=6e-6)
-    assert assumed["total"]["error"] is None
-    assert overview(BEAD, FORCE, assumed)["recommended"] == {"1 %": None, "5 %": None}
+    """What to do is said; a stated surface tension is computed whatever the contact is."""
+    tense = replace(BEAD, solid=Section("homogeneous", {"E": 1.5e6, "nu": 0.5, "surface_tension": 0.02}))
+    for problem in (BEAD, tense):
+        assumed = quickly(problem, contact_radius=6e-6)
+        assert assumed["total"]["error"] is None
+        content = overview(problem, FORCE, assumed)
+        assert content["recommended"] == {"1 %": None, "5 %": None}
+        assert content["corrected_force"] is None
+        assert "--large-strain" in assumed["remedy"]
+        assert ("solid.surface_tension" in assumed["remedy"]) is (problem is BEAD)
+        assert (assumed["surface_tension"]["error"] is None) is (problem is BEAD)
+    tried = quickly(BEAD, True, contact_radius=6e-6, **{"fem-large-strain": None})
+    assert "--large-strain" not in tried["remedy"]
+    assert tried["unsolved"] == REASON
+    assert "fem-large-strain has 3.000" in quickly(BEAD, True, 6e-6, **{"fem-large-strain": 3.0})["remedy"]
+
+
+def test_the_corrected_force_has_the_stated_error_and_the_recommended_models_their_forces(bead):
+    """The simplest model for 1 % has no force for a paraboloid, and says for which punch it is."""
+    force, corrected, total = bead["pull_off_force"], bead["corrected_force"], bead["assumptions"]["total"]
+    assert force["value"] / corrected["value"] - 1.0 == pytest.approx(total["error"], rel=1e-9)
+    assert corrected["u_num"] == pytest.approx(corrected["value"] * total["u_num"], rel=0.02)
+    forces = bead["recommended_forces"]
+    assert (forces["1 %"]["punch"], forces["5 %"]["punch"]) == ("ball", "sphere")
+    assert forces["5 %"]["value"] == pytest.approx(1.5 * math.pi * 5e-6 * 0.05, rel=1e-9)
+    # JKR of the exact sphere is wrong by the error of small strains alone.
+    strain = bead["assumptions"]["strain"]["error"]
+    assert forces["1 %"]["value"] / (1.0 + strain) == pytest.approx(corrected["value"], abs=corrected["u_num"])
+    assert 'punch.kind = "ball"' in description_text(BEAD, bead, None, [], None)
+
+
+def test_why_finite_strain_was_not_solved_is_said(bead):
+    changed = bead | {"assumptions": bead["assumptions"] | {"by_solution": True, "unsolved": REASON}}
+    assert REASON in description_text(BEAD, changed, None, [], None)
 
 
 @pytest.mark.parametrize(("share", "is_recommendable"), [(0.45, True), (0.55, False)])
@@ -257,5 +291,6 @@ def test_a_solution_counts_before_the_table_and_where_there_is_none(quickly):
         assert (assumed["strain"]["error"], assumed["strain"]["basis"]) == (pytest.approx(-0.2), "bound")
         assert (assumed["derjaguin"]["error"], assumed["derjaguin"]["basis"]) == (pytest.approx(-0.375), "bound")
     missing = quickly(BEAD, by_solution=True, **{"fscm": 2.0, "fem-large-strain": None})
+    assert missing["unsolved"] == REASON
     for name in ("derjaguin", "strain"):
         assert missing[name] == quickly(BEAD, fscm=2.0)[name]

@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 
+from comparisons.problem.punch_shapes import SmoothedProfile
 from comparisons.problem.reading import load_problem
 
 SOLID = """\
@@ -66,11 +67,15 @@ BAD_VALUES = [
     (6, "z_s", '"10 NM"', "did you mean nm?"),
     (10, "kind", '"flat"', "rounded-flat"),
     (10, "kind", '"sphare"', "did you mean sphere?"),
+    (10, "kind", '"paraboloid"', "did you mean sphere?"),
     (10, "kind", "3", "sphere"),
 ]
 
 #: A text that is replaced, its replacement, and parts of the sentence in their order.
 BAD_TEXT = [
+    ("E0 =", "modulus =", ["line 3", "'modulus'", "did you mean E0?"]),
+    ("R =", "radius =", ["line 11", "'radius'", "did you mean R?"]),
+    ('"lennard-jones-9-3"', '"lj"', ["line 14", "'lj'", "did you mean lennard-jones-9-3?"]),
     ("z_s =", "zs =", ["line 6", "'zs'", "did you mean z_s?"]),
     ('c0 = "1 um"\n', "", ["line 1", "c0", "E0, c0, k, z_s, nu"]),
     (PUNCH, cone('"90 deg"'), ["line 11", "half_angle", "deg"]),
@@ -133,23 +138,26 @@ BAD_TABLES = [
     (MODULUS, None, ["pad.toml, line 3", "'modulus.csv' is not in the folder"]),
     (MODULUS, "\n", ["modulus.csv", "empty"]),
     (MODULUS, "0;1e9\n1e-8;2e9\n", ["line 1", "name of a column", "separate columns by commas"]),
-    (MODULUS, "z,E\n0,1e9\n", ["pad.toml, line 3", "at least two"]),
-    (MODULUS, "z,E\n0,1\n2,1\n2,3\n", ["line 4", "z = '2'", "layers"]),
-    (MODULUS, "z,E\n0,1\n1,nan\n", ["line 3", "E = 'nan'"]),
-    (MODULUS, "z,E\n0,1\n1,1e30\n", ["line 3", "E = '1e30'", "1e+20 Pa"]),
-    (MODULUS, "z,E\n0,1\n1\n", ["line 3", "1 values for 2 columns"]),
+    (MODULUS, "z [m],E [Pa]\n0,1e9\n", ["pad.toml, line 3", "at least two"]),
+    (MODULUS, "z [m],E [Pa]\n0,1\n2,1\n2,3\n", ["line 4", "z = '2'", "layers"]),
+    (MODULUS, "z [m],E [Pa]\n0,1\n1,nan\n", ["line 3", "E = 'nan'"]),
+    (MODULUS, "z [m],E [Pa]\n0,1\n1,1e30\n", ["line 3", "E = '1e30'", "1e+20 Pa"]),
+    (MODULUS, "z [m],E [Pa]\n0,1\n1\n", ["line 3", "1 values for 2 columns"]),
     (MODULUS, "z,Emod\n0,1\n", ["line 1", "'Emod'"]),
     (MODULUS, "z\n0\n", ["line 1", "column E is missing"]),
-    (MODULUS, "z,E,E\n0,1,1\n", ["line 1", "column E stands twice"]),
-    (MODULUS, "z,E\n0,1\n1,soft\n", ["line 3", "E = 'soft'"]),
-    (MODULUS, "z [GPa],E\n0,1\n1,2\n", ["line 1", "column z has the unit GPa"]),
-    (MODULUS, "z,E,nu\n0,1,0.3\n1,2,0.3\n", ["pad.toml, line 3", "nu is needed once"]),
+    (MODULUS, "z [m],E [Pa],E [Pa]\n0,1,1\n", ["line 1", "column E stands twice"]),
+    (MODULUS, "z [m],E [Pa]\n0,1\n1,soft\n", ["line 3", "E = 'soft'"]),
+    (MODULUS, "z [GPa],E [Pa]\n0,1\n1,2\n", ["line 1", "column z has the unit GPa"]),
+    (MODULUS, "z [m],E [Pa],nu\n0,1,0.3\n1,2,0.3\n", ["pad.toml, line 3", "nu is needed once"]),
     (PROFILE, "r [um],height [nm]\n0,0\n1,0.2\n", ["inside the contact", "further out"]),
-    (PROFILE, "r,height\n1e-7,1e-8\n2e-7,4e-8\n", ["pad.toml, line 11", "(0, 0)"]),
-    (PROFILE, "r,height\n0,0\n2e-7,-4e-8\n", ["line 11", "last height"]),
-    (PROFILE, f"r,height\n0,{'1' * 200_000}\n", ["line 2", "no row of CSV"]),
-    (SMOOTHED, "r,height\n0,0\n1e-6,1e-6\n", ["line 11", "at least 8"]),
-    (TRACTION, "gap,traction\n0,1\n1,-1\n", ["pad.toml, line 15", ">= 10"]),
+    (PROFILE, "r [m],height [m]\n1e-7,1e-8\n2e-7,4e-8\n", ["pad.toml, line 11", "(0, 0)"]),
+    (PROFILE, "r [m],height [m]\n0,0\n2e-7,-4e-8\n", ["line 11", "last height"]),
+    (PROFILE, f"r [m],height [m]\n0,{'1' * 200_000}\n", ["line 2", "no row of CSV"]),
+    (PROFILE, "r,height\n0,0\n1,0.2\n", ["line 1", "no unit of r and height", "r [nm],height [nm]"]),
+    (PROFILE, "r [um],height\n0,0\n1,0.2\n", ["line 1", "no unit of height", "r [um],height [nm]"]),
+    (PROFILE, "0,0\n1,0.2\n", ["line 1", "'0'", "r [unit],height [unit]"]),
+    (SMOOTHED, "r [m],height [m]\n0,0\n1e-6,1e-6\n", ["line 11", "at least 8"]),
+    (TRACTION, "gap [m],traction [Pa]\n0,1\n1,-1\n", ["pad.toml, line 15", ">= 10"]),
     (TRACTION, REPULSION, ["line 15", "traction"]),
 ]
 
@@ -220,7 +228,7 @@ def test_a_profile_reaches_as_high_as_the_contact(share, is_refused, tmp_path):
     """To (1 + mu) z0, here of a paraboloid with a radius of 2.5 um."""
     height = share * (1.0 + loaded(tmp_path).posed.mu) * 0.4e-9
     rows = "".join(f"{r!r},{r**2 / 5e-6!r}\n" for r in np.linspace(0.0, math.sqrt(5e-6 * height), 50).tolist())
-    (tmp_path / "profile.csv").write_text(f"r,height\n{rows}")
+    (tmp_path / "profile.csv").write_text(f"r [m],height [m]\n{rows}")
     if is_refused:
         sentence_of(tmp_path, "line 11", "inside the contact", old=PUNCH, new=PUNCH_TABLE)
     else:
@@ -276,3 +284,18 @@ def test_a_word_of_megabytes(tmp_path):
 def test_units(key, old, new, texts, value, tmp_path):
     for text in texts:
         assert math.isclose(loaded(tmp_path, old, new.format(text))[key], value, rel_tol=1e-15)
+
+
+def test_a_smoothing_that_no_curve_has_is_refused_and_no_library_warns():
+    """Heights of metres and a smoothing of nanometres: a unit is wrong.  Whether a spline ends is up to its library."""
+    refused = []
+    for rows in (20, 40, 60, 100):
+        r = np.arange(float(rows))
+        heights = r**2 / 40.0 + np.random.default_rng(1).normal(0.0, 0.05, rows) * (r > 0.0)
+        for smoothing in (5e-11, 1e-9):
+            try:
+                SmoothedProfile(tuple(r), tuple(heights), smoothing)
+            except ValueError as refusal:
+                refused.append(str(refusal))
+    assert refused
+    assert all("smoothing" in sentence and "units" in sentence for sentence in refused)

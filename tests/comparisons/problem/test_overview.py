@@ -52,6 +52,12 @@ def test_a_power_law_has_errors_of_closed_forms(capsys):
     assert "equivalent_power_law" not in content
 
 
+def test_the_lines_of_a_description_have_80_characters(capsys):
+    assert main(["describe", str(PROBLEMS / "graded_pad.toml")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 80
+
+
 def test_sizes_that_nothing_has_are_named(tmp_path):
     """A number without a unit is in SI: a radius of 20 m is that of a ball of 20 um whose unit was forgotten."""
     path = tmp_path / "forgotten.toml"
@@ -67,6 +73,12 @@ def test_sizes_that_nothing_has_are_named(tmp_path):
     described = overview(problem, row("fscm", value=1.0, u_num=0.0), None)
     assert {row["key"]: row["value"] for row in described["unusual_sizes"]} == {"solid.E": 50.0, "punch.R": 20.0}
     assert "unusual size: solid.E = 50 Pa, punch.R = 20 m; " in description_text(problem, described, None, [], None)
+
+
+@pytest.mark.parametrize(("work", "keys"), [(50.0, ["law.work_of_adhesion"]), (5.0, []), (1e-3, [])])
+def test_a_work_of_adhesion_above_that_of_metals_is_unusual(work, keys):
+    pad = on_solid("homogeneous", {"E": 2e6, "nu": 0.5}, R=5e-6)
+    assert [row["key"] for row in unusual_sizes(pad.with_value("law.work_of_adhesion", work))] == keys
 
 
 def test_the_problems_of_the_pages_have_usual_sizes():

@@ -157,3 +157,22 @@ def test_a_row_prints_with_a_prefix_and_a_format():
     assert str(row).endswith(" µN")
     assert f"{1e6 * float(row):.3f}" == "1.178"
     assert f"{row:.3e}" == "1.178e-06"
+
+
+@pytest.mark.parametrize("name", ["fscm", "jkr"])
+def test_a_curve_has_the_units_of_its_problem(name):
+    """Its least load is the pull-off force but for the distance of its points."""
+    force = comparisons.evaluate(name, "pull_off_force", BEAD)
+    path = comparisons.curve(name, BEAD)
+    assert -path.load.min() == pytest.approx(force.value, rel=1e-4)
+    plain = Problem.dimensionless(2, 0, BEAD.posed.mu)
+    own = comparisons.create(name).curve(plain)
+    assert comparisons.curve(name, plain).displacement.tolist() == own.displacement.tolist()
+    np.testing.assert_allclose(path.displacement, own.displacement * 3e-9, rtol=1e-9)
+
+
+def test_a_model_without_a_curve_says_so():
+    with pytest.raises(comparisons.NotApplicable):
+        comparisons.curve("jump-asymptotes", BEAD)
+    with pytest.raises(ValueError, match=r"Problem\.load"):
+        comparisons.curve("jkr", fscm.Problem(n=2, k=0, mu=1.0))

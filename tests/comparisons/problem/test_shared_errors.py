@@ -7,7 +7,7 @@ import pytest
 
 from comparisons.description.equivalent_ball import equivalent_ball
 from comparisons.description.forces import change_of
-from comparisons.description.shared_errors import estimates
+from comparisons.description.shared_errors import TENSION, effect_of_tension, estimates
 from comparisons.model import NotApplicable
 from comparisons.models.fem_model import LargeStrain
 from comparisons.models.fscm_model import FullSelfConsistent
@@ -153,3 +153,26 @@ def test_what_a_problem_states_is_no_assumption(section, key, value, name):
     before, after = estimates(ball)[name], estimates(stated)[name]
     assert before["error"] != 0.0
     assert (after["error"], after["u_num"], after["basis"]) == (0.0, 0.0, "bound")
+
+
+def test_the_effect_of_a_surface_tension_is_that_of_a_soft_homogeneous_solid_under_a_sphere():
+    assert -0.03 < effect_of_tension(RUBBER) < -0.01
+    assert "mN/m" in estimates(RUBBER)["surface_tension"]["reason"]
+    for problem in (STIFF, SOFT_FILM, replace(RUBBER, punch=Section("ball", {"R": 5e-6}))):
+        assert effect_of_tension(problem) is None
+        assert estimates(problem)["surface_tension"]["error"] is None
+    stated = RUBBER.with_value("solid.surface_tension", TENSION)
+    assert estimates(stated)["surface_tension"]["error"] == 0.0
+
+
+@pytest.mark.heavy
+def test_the_effect_of_a_surface_tension_is_that_of_the_full_model():
+    """At a Tabor number of 18 the limit of soft solids is a fifth off; it is less for softer ones."""
+    bead = on(
+        "homogeneous", {"E": 1.5e6, "nu": 0.5}, Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 8e-9})
+    )
+    forces = [
+        evaluate("fscm", "pull_off_force", problem)
+        for problem in (bead, bead.with_value("solid.surface_tension", TENSION))
+    ]
+    assert forces[1].value / forces[0].value - 1.0 == pytest.approx(effect_of_tension(bead), rel=0.25)
