@@ -264,10 +264,8 @@ class EdgeStates:
 def _state_from(nearest: Point, beside: Point | None, contact: Contact, radius: float) -> Point:
     """The state with the contact edge at a radius where a mesh is fine, from one or two on other meshes."""
     branch = contact_branch(contact)
-    starts = [partial(_projected, nearest)]
-    if beside is not None:
-        starts.insert(0, partial(_continued, nearest, beside))
-    for start in starts:
+    first = partial(_shifted, nearest) if beside is None else partial(_continued, nearest, beside)
+    for start in (first, partial(_projected, nearest)):
         with suppress(NotConverged):
             point = branch.solve(radius, start(contact, radius))
             if point.state.iterations <= MOST_STEPS:
@@ -280,6 +278,26 @@ def _state_from(nearest: Point, beside: Point | None, contact: Contact, radius: 
 
 def _projected(point: Point, contact: Contact, radius: float) -> Array:
     return projected(point_at(point, radius), contact, radius)
+
+
+def _shifted(point: Point, contact: Contact, radius: float) -> Array:
+    """Start on a mesh whose edge is at a radius: the gap of another state, moved with its edge.
+
+    The edge keeps its shape where it moves.  The displacement that belongs to the gap is no equilibrium, but the first
+    Newton step finds it: it depends linearly on the traction, which changes little.
+    """
+    trace, target, y, size = (
+        point.branch.contact.compliance.trace,
+        contact.compliance.trace,
+        point.state.y,
+        point.state.size,
+    )
+    move, r = radius - point.edge_radius, radius * target.s
+    s = np.clip((r - move) / size, 0.0, trace.extent)
+    gap = -y[-2] + contact.punch.height(size * s) + trace.evaluate(s) @ y[:-2]
+    approach = point.state.displacement + move * point.displacement_rate
+    w = target.projection(gap + approach - contact.punch.height(r))
+    return np.concatenate([w, [approach, radius]])
 
 
 def _continued(nearest: Point, beside: Point, contact: Contact, radius: float) -> Array:
