@@ -3,6 +3,7 @@
 A panel is resolved when the last Legendre coefficients e of the pressure on it are too small to matter: the
 load moves by 2 c^2 s h e, the work of adhesion (which fixes the edge, as in fracture) by e times the change
 of the distance over the panel, and the central gap, from the innermost panel, by M (1-k) (c h)^{1-k} e.
+A kink of the punch ends a panel only where the pressure that the panel misses at the kink matters as much.
 """
 
 from __future__ import annotations
