@@ -21,8 +21,8 @@ _STRAIGHT = 1e-12
 class MeasuredPunch:
     """A measured profile: straight segments between points, and a power of the radius beyond the last one.
 
-    The slope jumps at the points, and the meshes have breaks there, so that no smoothing is needed.  Hashable,
-    picklable.
+    The slope jumps at the points, and the meshes have breaks there where the pressure needs them, so that no smoothing
+    is needed.  Hashable, picklable.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ _HAND_OVER_ROUNDS = 80
 
 
 def predicted(state: State, rates: Rates, step: float) -> State:
-    """The state after a step along the tangent, on a mesh with its breaks where the kinks are at the new scale."""
+    """The state after a step along the tangent, on a mesh whose ends at kinks are there at the new scale, too."""
     problem, old = state.disc.problem, state.disc.mesh
     moved = state.shifted(rates.unknowns, rates.displacement, rates.log_scale, step)
     if moved.scale == state.scale:

@@ -37,8 +37,9 @@ _PLACES = 65
 #: A change below this is rounding: measured up to 2e-16 relative to 1 + |f| at contact initiation (n = 2, k = 0.98,
 #: mu = 1), where load and displacement stay the same to 1e-14.
 _ROUNDING = 1e-14
-#: Resolution of the pressure on a punch with kinks, to which a mesh has to move with the edge.
-_FINE = 1e-8
+#: Resolution of the pressure on a punch with kinks, with which a mesh has to move: its square, as of an integral by
+#: Gauss's rule, is far below _NEGLIGIBLE.
+_FINE = 1e-5
 #: Newton error relative to the error of the mesh, and the smallest step towards a midpoint, in units of its distance.
 _NEWTON_MARGIN, _SMALLEST = 0.01, 1e-3
 #: Last step of Newton's method where only the least load is sought; the remaining error is about its square.

@@ -3,6 +3,7 @@
 A panel is resolved when the last Legendre coefficients e of the pressure on it are too small to matter: the
 load moves by 2 c^2 s h e, the work of adhesion (which fixes the edge, as in fracture) by e times the change
 of the distance over the panel, and the central gap, from the innermost panel, by M (1-k) (c h)^{1-k} e.
+A kink of the punch ends a panel only where the pressure that the panel misses at the kink matters as much.
 """
 
 from __future__ import annotations
@@ -12,9 +13,10 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from fscm._surface.breaks import are_halves, at_kinks, end_radius, extended, joints_in, off_kinks
+from fscm._surface.breaks import SLIVER, are_halves, at_kinks, end_radius, extended, joints_in
 from fscm._surface.discretisation import Discretisation
 from fscm._surface.mesh import PanelMesh
 from fscm._surface.newton import STEP_TOLERANCE, newton
@@ -54,8 +56,6 @@ _NEWTON_MARGIN = 0.01
 _MAX_ROUNDS = 60
 #: Rounds of splitting for known gaps between two solves; for the gaps of a guess.
 _KNOWN_ROUNDS, _GUESS_ROUNDS = 6, 2
-#: Largest distance of a kink to its break, in units of the root of the tolerance: its effect is of second order.
-_OFF_KINK = 0.1
 #: r^n at the tip of a punch is not smooth: coefficients of the innermost panel fall algebraically, so that the
 #: omitted ones together exceed the last.  Measured on n = 1.5, k = 0.6, mu = 3: by up to 10.
 _ALGEBRAIC = 30.0
@@ -75,6 +75,40 @@ class _Field:
         self.pressure = state.pressure
         if gap is not None:
             self.pressure = self.problem.force.traction(self.scale * self.mesh.nodes, gap)
+
+
+def _missed_at_kinks(field: _Field, starts: Array, lengths: Array, modes: Array) -> tuple[Array, Array]:
+    """Pressure that each polynomial misses, in the mean over its panel, by a kink inside it, and that kink.
+
+    The gap is the height and a smooth deformation.  A polynomial of q nodes misses a kink on about 1/q of its panel, or
+    between the kink and the end if that is closer.
+    """
+    mesh, height = field.mesh, field.problem.punch.height
+    largest, places = np.zeros(len(starts)), starts.copy()
+    kinks = np.array(kinks_of(field.problem.punch)) / field.scale - mesh.origin
+    from_start = kinks - starts[:, None]
+    panel, kink = np.nonzero((from_start > SLIVER) & (from_start < lengths[:, None] - SLIVER))
+    if not kink.size:
+        return largest, places
+    points = np.concatenate([starts, starts + lengths, kinks])
+    radii = field.scale * (mesh.origin + points)
+    deformation = field.gap - height(field.scale * mesh.nodes)
+    gap = height(radii) + mesh.evaluate_at_offsets(deformation, points)
+    # Where the polynomial falls below the singular gap, as in `_unknowns_on`.
+    below = gap <= field.problem.law.singular_gap
+    gap = np.where(below, np.interp(points, mesh.node_offsets, field.gap), gap)
+    at_start, at_end, at_kink = np.split(field.problem.force.traction(radii, gap), [len(starts), 2 * len(starts)])
+    u = from_start[panel, kink] / lengths[panel]
+    polynomial = np.einsum("ij,ij->i", legendre.legvander(2.0 * u - 1.0, mesh.order - 1), modes[panel])
+    # A polynomial that knows one side of the kink alone misses nothing there, but at the end of its panel.
+    start, end = _ends(modes)
+    beyond = np.where(u < 0.5, np.abs(at_start - start)[panel], np.abs(at_end - end)[panel])
+    missed = np.maximum(np.abs(at_kink[kink] - polynomial), beyond)
+    missed *= np.minimum(np.minimum(u, 1.0 - u), 1.0 / mesh.order)
+    np.maximum.at(largest, panel, missed)
+    worst = missed == largest[panel]
+    places[panel[worst]] = kinks[kink[worst]]
+    return largest, places
 
 
 def _weights(field: _Field, starts: Array, lengths: Array) -> Array:
@@ -102,10 +136,11 @@ def _ends(modes: Array) -> tuple[Array, Array]:
 
 def indicator(state: State) -> Array:
     """Estimated effect of the unresolved pressure of each panel, shape (m,), dimensionless."""
-    return _indicator(_Field(state))
+    return _indicator(_Field(state))[0]
 
 
-def _indicator(field: _Field, jumps_count: bool = True) -> Array:
+def _indicator(field: _Field, jumps_count: bool = True) -> tuple[Array, Array]:
+    """The indicator, and the places, relative to the origin, at which the panels are split if they are unresolved."""
     mesh = field.mesh
     modes = mesh.modes(field.pressure)
     jump = np.zeros(len(mesh.lengths))
@@ -113,7 +148,19 @@ def _indicator(field: _Field, jumps_count: bool = True) -> Array:
         at_start, at_end = _ends(modes)
         jumps = np.abs(at_start[1:] - at_end[:-1])
         jump = np.maximum(np.append(0.0, jumps), np.append(jumps, 0.0))
-    return _unseen(modes, jump) * _weights(field, mesh.offsets[:-1], mesh.lengths)
+    return _effect(field, mesh.offsets[:-1], mesh.lengths, modes, jump)
+
+
+def _effect(field: _Field, starts: Array, lengths: Array, modes: Array, jump: Array) -> tuple[Array, Array]:
+    """Effect of what each polynomial of the pressure leaves out, and where its panel is split: at a kink or halved.
+
+    Gauss's rule integrates a smooth pressure with an error of about the square of its last coefficients, so that a kink
+    counts with the root of its effect.
+    """
+    weights = _weights(field, starts, lengths)
+    missed, kinks = _missed_at_kinks(field, starts, lengths, modes)
+    smooth, kinked = _unseen(modes, jump) * weights, np.sqrt(missed * weights)
+    return np.maximum(smooth, kinked), np.where(kinked > smooth, kinks, starts + 0.5 * lengths)
 
 
 def resolving(
@@ -141,10 +188,10 @@ def resolving(
         Of the new mesh, when it differs from that of the state.
     """
     for _ in range(rounds):
-        field = _Field(state, mesh, gap_on(mesh), scale)
-        middles = mesh.middles[_indicator(field, jumps_count=False) > tolerance]
-        ends = np.sort(np.concatenate([mesh.offsets, middles]))
-        if not middles.size or np.any(np.diff(ends) <= 0.0):
+        effect, places = _indicator(_Field(state, mesh, gap_on(mesh), scale), jumps_count=False)
+        places = places[effect > tolerance]
+        ends = np.sort(np.concatenate([mesh.offsets, places]))
+        if not places.size or np.any(np.diff(ends) <= 0.0):
             break
         mesh = replace(mesh, offsets=ends)
     return mesh
@@ -161,13 +208,6 @@ def balanced(mesh: PanelMesh) -> PanelMesh:
         mesh = replace(mesh, offsets=np.sort(np.concatenate([mesh.offsets, middles])))
 
 
-def _unresolved(state: State, tolerance: float) -> Array:
-    """Middles, relative to the origin, of the panels that have to be split."""
-    mesh = state.disc.mesh
-    bad = indicator(state) > tolerance
-    return mesh.middles[bad]
-
-
 def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
     """Indices of breaks whose removal leaves the pressure resolved; no two are neighbours."""
     mesh = state.disc.mesh
@@ -178,7 +218,7 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
     modes = pressure @ rule.to_modes.T
     (at_start, at_end), (new_start, new_end) = _ends(mesh.modes(state.pressure)), _ends(modes)
     jump = np.maximum(np.abs(new_start - at_start[:-1]), np.abs(new_end - at_end[1:]))
-    effect = _unseen(modes, jump) * _weights(_Field(state), starts, lengths)
+    effect, _ = _effect(_Field(state), starts, lengths, modes, jump)
     keeps_edge = mesh.offsets[1:-1] != 1.0 - mesh.origin
     keeps_joint = ~np.isin(mesh.offsets[1:-1], joints_in(state.disc.problem, state.scale) - mesh.origin)
     not_too_long = lengths <= (_LARGEST_RATIO - 1.0) * mesh.starts[:-1]
@@ -276,20 +316,23 @@ def adapted(
     if step_tolerance is None:
         step_tolerance = newton_tolerance(tolerance)
     for attempt in range(_MAX_ROUNDS):
-        mesh, middles = state.disc.mesh, _unresolved(state, tolerance)
+        mesh = state.disc.mesh
+        effect, places = _indicator(_Field(state))
+        places = places[effect > tolerance]
         drop = _superfluous(state, tolerance) if coarsen and attempt == 0 else np.empty(0, np.intp)
         # A new mesh costs a solve: worth it for missing panels, or for many superfluous ones.
-        moved = off_kinks(state) > _OFF_KINK * tolerance**0.5
-        if not (middles.size or moved) and drop.size < _WORTH_MERGING * len(mesh.offsets):
+        if not places.size and drop.size < _WORTH_MERGING * len(mesh.offsets):
             return replace(state, iterations=iterations)
-        ends = np.sort(np.concatenate([np.delete(mesh.offsets, drop), middles]))
+        mesh = replace(mesh, offsets=np.delete(mesh.offsets, drop))
+        mesh = at_kinks(state.disc.problem, mesh, state.scale, state.scale)
+        places = places[~np.isin(places, mesh.offsets)]  # a kink beside its end
+        ends = np.sort(np.concatenate([mesh.offsets, places]))
         if np.any(np.diff(ends) <= 0.0):
             raise NotConverged(
                 "the contact edge is narrower than the rounding of its radius: no panel resolves the pressure there",
                 Failure.MESH,
             )
-        mesh = at_kinks(state.disc.problem, replace(mesh, offsets=ends), state.scale, state.scale)
-        mesh = resolving(state, mesh, tolerance, partial(_gap_on, state))
+        mesh = resolving(state, replace(mesh, offsets=ends), tolerance, partial(_gap_on, state))
         state = newton(on_mesh(state, mesh), control, step_tolerance)
         iterations += state.iterations
     raise NotConverged(

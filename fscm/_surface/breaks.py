@@ -15,6 +15,7 @@ from fscm.problem import Problem
 from fscm.punch import joints_of, kinks_of
 
 __all__ = [
+    "SLIVER",
     "are_halves",
     "at_joints",
     "at_kinks",
@@ -24,15 +25,14 @@ __all__ = [
     "initial_mesh",
     "joints_in",
     "off_joints",
-    "off_kinks",
 ]
 
 #: Ends of the first panels of all meshes, in units of the radius at s = 1; farther out they grow by factors of four.
 _FIRST_ENDS = np.array([0.0, 0.5, 1.0, 2.0])
 #: On a steep punch the gap rises by at most this factor over a panel of the first mesh.
 _RISE = 64.0
-#: A break belongs to a kink that is closer than this share of its panels; a panel is wider than _SLIVER.
-_NEAR_KINK, _SLIVER = 0.3, 1e-7
+#: A break belongs to a kink that is closer than this share of its panels; a panel is wider than SLIVER.
+_NEAR_KINK, SLIVER = 0.3, 1e-7
 #: Largest distance of a joint to the nearest end of its panel, relative to its length: where the third derivative jumps
 #: the error falls with the fourth power of it, and a node of the panel is farther than this from both ends.
 _OFF_JOINT = 5e-3
@@ -71,12 +71,18 @@ def initial_mesh(problem: Problem, order: int, end_height: float) -> PanelMesh:
         if not bad.size:
             break
         breaks = np.sort(np.concatenate([breaks, 0.5 * (breaks[bad] + breaks[bad + 1])]))
-    return at_kinks(problem, PanelMesh(breaks, order), 1.0, 1.0)
+    return PanelMesh(breaks, order)
 
 
 def at_kinks(problem: Problem, mesh: PanelMesh, old_scale: float, new_scale: float) -> PanelMesh:
-    """Mesh with panel ends at the kinks of the punch: moved from their radii at the old scale, or inserted."""
+    """Mesh whose ends near kinks of the punch at the old scale are on them at the new one; no ends are added."""
     kinks = np.array(kinks_of(problem.punch))
+    if not kinks.size:
+        return mesh
+    ends, shorter = mesh.offsets[1:-1], np.minimum(mesh.lengths[:-1], mesh.lengths[1:])
+    distance = np.abs(kinks / old_scale - mesh.origin - ends[:, None])
+    near = (np.min(distance, axis=1) < _NEAR_KINK * shorter) & (ends != 1.0 - mesh.origin)
+    kinks = kinks[np.argmin(distance[near], axis=1)]
     return _with_ends(mesh, kinks / old_scale, kinks / new_scale)
 
 
@@ -121,19 +127,11 @@ def _with_ends(mesh: PanelMesh, old: Array, new: Array) -> PanelMesh:
             ends = np.delete(ends, i)
     new = new - mesh.origin
     fixed = np.array([ends[0], edge, ends[-1]])
-    new = new[(new < ends[-1]) & (np.min(np.abs(new[:, None] - fixed), axis=1) > _SLIVER)]
+    new = new[(new < ends[-1]) & (np.min(np.abs(new[:, None] - fixed), axis=1) > SLIVER)]
     # A remaining break next to a kink would make an unnecessarily narrow panel.
     distance = np.min(np.abs(ends[:, None] - new), axis=1) if new.size else np.full(len(ends), np.inf)
-    keep = (distance > _SLIVER) | np.isin(ends, fixed)
+    keep = (distance > SLIVER) | np.isin(ends, fixed)
     return replace(mesh, offsets=np.union1d(ends[keep], new))
-
-
-def off_kinks(state: State) -> float:
-    """Largest distance from a kink inside the mesh to the closest break."""
-    kinks = np.array(kinks_of(state.disc.problem.punch)) / state.scale
-    breaks = state.disc.mesh.breaks
-    kinks = kinks[kinks < breaks[-1]]
-    return float(np.max(np.min(np.abs(kinks[:, None] - breaks), axis=1))) if kinks.size else 0.0
 
 
 def are_halves(mesh: PanelMesh) -> NDArray[np.bool_]:
@@ -152,4 +150,4 @@ def edge_mesh(problem: Problem, order: int, scale: float, end_height: float) -> 
     Its ends are the same for all problems, so that their response is stored (see `_surface.response_store`).
     """
     ends = extended(np.array([-1.0, -0.5, 0.0, 1.0]), 1.0, max(end_radius(problem, end_height) / scale, 4.0))
-    return at_kinks(problem, PanelMesh(ends, order, 1.0), scale, scale)
+    return PanelMesh(ends, order, 1.0)

@@ -6,6 +6,11 @@ import numpy as np
 import pytest
 
 from fscm._path.continuation import equilibrium_path
+from fscm._surface.adaptivity import resolving
+from fscm._surface.discretisation import Discretisation
+from fscm._surface.mesh import PanelMesh
+from fscm._surface.state import rigid_state
+from fscm.analysis import Analysis
 from fscm.custom_punch import CustomPunch
 from fscm.measured_punch import MeasuredPunch
 from fscm.problem import Problem
@@ -97,3 +102,31 @@ def test_a_step_over_kinks_moves_the_gaps_by_the_exact_height():
     change = punch.height(new.radius) - punch.height(state.radius) - 0.1 * state.radius * punch.slope(state.radius)
     inner = punch.height(new.radius) < 1e6
     np.testing.assert_allclose((new.gap - state.gap)[inner], change[inner], rtol=1e-9, atol=1e-9)
+
+
+def test_a_mesh_ends_panels_only_at_rows_that_the_pressure_needs():
+    """The path has fewer panels than there are rows; the value and its bound are as with an end at nearly each."""
+    r = np.linspace(0.0, 20.0, 50)
+    problem = Problem(2, 0.0, 0.5, MeasuredPunch(r, r**2 / 2))
+    analysis = Analysis(problem)
+    force, finer = analysis.solution("pull_off_force"), solve(problem, "pull_off_force", accuracy=1e-10)
+    assert max(len(point.state.disc.mesh.lengths) for point in analysis.points) < 0.7 * len(r)
+    # A kink that counts with its effect, not with the root of it, makes this bound 30 times as large.
+    assert force.u_num < 1e-9
+    assert abs(force.value - finer.value) <= force.u_num + finer.u_num
+
+
+def test_a_panel_ends_at_kinks_between_its_nodes():
+    """A ridge so narrow that no node of a coarse mesh is on it."""
+    ridge = np.array([1.0, 1.01, 1.02])
+
+    def height(r):
+        return r**2 / 2 + np.interp(r, ridge, [0.0, 0.05, 0.0])
+
+    punch = CustomPunch(height, 2.0, kinks=ridge)
+    problem = Problem(2, 0.0, 0.5, punch)
+    mesh = PanelMesh(np.array([0.0, 0.5, 2.0, 8.0, 2e3]), 8)
+    assert not np.any((mesh.nodes > ridge[0]) & (mesh.nodes < ridge[-1]))
+    state = rigid_state(Discretisation(problem, mesh), 0.5)
+    split = resolving(state, mesh, 1e-5, lambda new: height(new.nodes) + 0.5)
+    assert set(ridge) <= set(split.breaks)
