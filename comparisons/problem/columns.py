@@ -156,13 +156,19 @@ def number_of(cell: str) -> float:
 def _name_and_unit(cell: str, names: Iterable[str], location: str) -> tuple[str, str | None]:
     match = _HEADING.fullmatch(cell)
     if not match:
-        remedy = "; separate columns by commas" if ";" in cell or "\t" in cell else ""
-        if _NUMBER.fullmatch(cell.strip()):
-            remedy = f"; write a line before the numbers, as {','.join(f'{name} [unit]' for name in names)}"
+        line = ",".join(f"{name} [unit]" for name in names)
+        remedy = f"; write the line of the names as {line}"
+        if ";" in cell or "\t" in cell:
+            remedy = "; separate columns by commas"
+        elif _NUMBER.fullmatch(cell.strip()):
+            remedy = f"; write a line before the numbers, as {line}"
         raise ValueError(
             f"{location}: {shown(cell)} is not a name of a column; the names are {', '.join(names)}{remedy}"
         )
-    known_name("column", match[1], names, location)
+    try:
+        known_name("column", match[1], names, location)
+    except ValueError as error:
+        raise ValueError(f"{error}; a unit stands in brackets, as {next(iter(names))} [unit]") from None
     return match[1], match[2]
 
 

@@ -84,6 +84,8 @@ def curve_command(args: argparse.Namespace) -> int:
         points = _table(points_of_models, args.quantity)
         table = points if problem.is_dimensionless else points.rename(columns=quantity.columns_in_si)
         drawn = points.rename(columns={quantity.x.name: "x", quantity.y.name: "y"})
+        if max_load is not None:
+            _note_contact_radii(points, problem)
     else:
         table, failed = _cycles(points_of_models, stiffness)
         status = FAILED if failed else status
@@ -202,6 +204,14 @@ def _evaluated(
 
 def _in_units(load: float, problem: Problem) -> str:
     return f"{load:.4g}" if problem.is_dimensionless else _short(load, "N")
+
+
+def _note_contact_radii(points: pd.DataFrame, problem: Problem) -> None:
+    """Note the contact radius at the end of each curve on stderr."""
+    for name, last in points.groupby("model", sort=False).last(skipna=False).iterrows():
+        if not math.isnan(radius := float(last["contact_radius"])):
+            text = f"{radius:.6g}" if problem.is_dimensionless else si_text(float(f"{radius:.6g}"), 0.0, "m")
+            note(f"{name}: contact radius {text} at a load of {_in_units(last['load'], problem)}")
 
 
 def _note_assumptions(problem: Problem, points_of_models: dict[str, Points]) -> None:

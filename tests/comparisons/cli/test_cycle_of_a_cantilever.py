@@ -124,6 +124,8 @@ def test_a_curve_ends_at_the_load_that_is_asked_for(capsys, largest):
     assert ("bradley: its curve ends below --max-load" in captured.err) == (largest > 1.0)
     state = fscm.equilibria(fscm.Problem(**case), "load", largest)[-1]
     assert last.loc["fscm", "contact_radius"] == pytest.approx(state.edge_radius, rel=1e-5)
+    noted = captured.err.partition("fscm: contact radius ")[2].split()[0]
+    assert float(noted) == pytest.approx(state.edge_radius, rel=1e-5)
     assert last.loc["fscm", "displacement"] == pytest.approx(state.displacement, abs=1e-5)
     of_cohesive_zone = last.loc["md-improved"]
     assert of_cohesive_zone["contact_radius"] < state.edge_radius < of_cohesive_zone["cohesive_radius"]

@@ -154,6 +154,8 @@ BAD_TABLES = [
     (PROFILE, "r [m],height [m]\n0,0\n2e-7,-4e-8\n", ["line 11", "last height"]),
     (PROFILE, f"r [m],height [m]\n0,{'1' * 200_000}\n", ["line 2", "no row of CSV"]),
     (PROFILE, "r,height\n0,0\n1,0.2\n", ["line 1", "no unit of r and height", "r [nm],height [nm]"]),
+    (PROFILE, "r in nm,height in nm\n0,0\n1,0.2\n", ["line 1", "r [unit],height [unit]"]),
+    (PROFILE, "r_nm,height_nm\n0,0\n1,0.2\n", ["line 1", "r_nm", "r [unit]"]),
     (PROFILE, "r [um],height\n0,0\n1,0.2\n", ["line 1", "no unit of height", "r [um],height [nm]"]),
     (PROFILE, "0,0\n1,0.2\n", ["line 1", "'0'", "r [unit],height [unit]"]),
     (SMOOTHED, "r [m],height [m]\n0,0\n1e-6,1e-6\n", ["line 11", "at least 8"]),
