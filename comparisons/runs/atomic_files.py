@@ -63,12 +63,18 @@ def writable_file(path: Path) -> Path:
     Raises
     ------
     ValueError, OSError
-        As `writing`, if it cannot.
+        As `writing`, if it cannot, or if it is a folder, a device or a pipe.
     """
-    if path.is_dir():
-        raise ValueError(f"the file {path} cannot be written (it is a folder); {_ELSEWHERE}")
+    _refuse_other_than_file(path)
     with writing(path, remedy=_ELSEWHERE), tempfile.TemporaryFile(dir=path.parent):
         return path
+
+
+def _refuse_other_than_file(path: Path) -> None:
+    """A new file takes the place of what has the name: the null device of a system, too, where one may write there."""
+    if path.exists() and not path.is_file():
+        what = "a folder" if path.is_dir() else "a device or a pipe"
+        raise ValueError(f"the file {path} cannot be written (it is {what}); {_ELSEWHERE}")
 
 
 @contextmanager
@@ -78,8 +84,10 @@ def atomic(path: Path) -> Iterator[IO[bytes]]:
     Raises
     ------
     ValueError, OSError
-        As `writing`, if the file cannot be written there, or there is no room for its content.
+        As `writing`, if the file cannot be written there, or there is no room for its content; or if there is a
+        folder, a device or a pipe.
     """
+    _refuse_other_than_file(path)
     with writing(path, remedy=_ELSEWHERE):
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     temporary = Path(name)

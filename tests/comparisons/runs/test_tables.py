@@ -132,6 +132,19 @@ def test_paths_that_cannot_be_written_are_refused(tmp_path, monkeypatch):
             check(path)
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="Windows has no pipes in folders")
+def test_a_device_or_a_pipe_is_not_replaced(tmp_path):
+    """As /dev/null would be by root."""
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "link").symlink_to(os.devnull)
+    for path in (tmp_path / "pipe", tmp_path / "link"):
+        for write in (writable_file, lambda path: write_json({}, path)):
+            with pytest.raises(ValueError, match="a device or a pipe"):
+                write(path)
+    assert (tmp_path / "pipe").is_fifo()
+    assert (tmp_path / "link").is_symlink()
+
+
 @pytest.mark.parametrize("text", ["", "n,k\n2,0,1\n", "n,k\n2\n", "n,n\n2,2\n", 'n,k\n2,"0\n'])
 def test_a_table_whose_cells_are_not_those_of_its_columns_is_refused(tmp_path, text):
     (tmp_path / "results.csv").write_text(text)
