@@ -36,9 +36,9 @@ COMPARISON = "comparison"
 COMPARISON_FILES = tuple(f"{COMPARISON}.{suffix}" for suffix in ("csv", "png", "pdf"))
 
 #: Pictures: each is written as PNG, and with --pdf as PDF.
-KAPPA_FIGURE, REFERENCES = "fig16b_kappa", "references"
+KAPPA_FIGURE, REFERENCES, VALUES = "fig16b_kappa", "references", "values"
 #: All pictures of a run.
-FIGURES = (KAPPA_FIGURE, AGREEMENT, REFERENCES)
+FIGURES = (KAPPA_FIGURE, AGREEMENT, REFERENCES, VALUES)
 
 #: The verdicts as JUnit XML, and the page of `fscm-bench report`.
 JUNIT, REPORT = "junit.xml", "report.html"

@@ -15,7 +15,7 @@ from comparisons.judging.decision import Verdict
 from comparisons.pipeline.inputs import Cases, Gates, RunInputs
 from comparisons.pipeline.judgement import Judgement, judge_and_write
 from comparisons.pipeline.report_cards import make_cards
-from comparisons.pipeline.tables import RunTables, make_tables, write_pictures, write_tables
+from comparisons.pipeline.tables import RunTables, make_tables, write_picture_of_values, write_pictures, write_tables
 from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.atomic_files import write_file
 from comparisons.runs.computation import Completed
@@ -78,6 +78,8 @@ def write_run(
     write_tables(tables, folder)
     if cases.tier is not None:
         write_pictures(tables, folder, pdf=pdf)
+    else:
+        write_picture_of_values(tables, folder)
     for path, content in texts.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         write_file(path, content)

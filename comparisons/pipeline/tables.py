@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from comparisons.data.file_names import AGREEMENT, CURVES, FIGURES, KAPPA, LARGEST_KAPPA, RESULTS
+from comparisons.data.file_names import AGREEMENT, CURVES, FIGURES, KAPPA, LARGEST_KAPPA, RESULTS, VALUES
 from comparisons.output.errors import agreement, largest, relative_error
-from comparisons.output.figures.of_run import figures_of
+from comparisons.output.figures.of_run import draw_values, figures_of
 from comparisons.output.style import save
 from comparisons.pipeline.inputs import Cases
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
@@ -100,3 +100,11 @@ def write_pictures(tables: RunTables, folder: Path, *, pdf: bool = False) -> Non
         (folder / f"{name}.pdf").unlink(missing_ok=True)
     for name, figure in figures_of({KAPPA: tables.kappa, AGREEMENT: tables.agreement, CURVES: tables.curves}):
         save(figure, *(folder / f"{name}{suffix}" for suffix in ((".png", ".pdf") if pdf else (".png",))))
+
+
+def write_picture_of_values(tables: RunTables, folder: Path) -> None:
+    """Draw the values over each varied number of a problem file, if there is one, as PNG."""
+    picture = folder / f"{VALUES}.png"
+    picture.unlink(missing_ok=True)
+    if (figure := draw_values(tables.results)) is not None:
+        save(figure, picture)

@@ -73,6 +73,19 @@ def draw_comparison(table: pd.DataFrame) -> Figure:
     return draw_plots([plot])
 
 
+def draw_values(results: pd.DataFrame) -> Figure | None:
+    """Draw the values over each varied number of a problem file; None without one, or with too many panels.
+
+    Parameters
+    ----------
+    results : DataFrame
+        As of `comparisons.runs.frames.frame`.
+    """
+    drawn = [plot for plot, _ in plots.values_over_keys(results)]
+    panels = sum(plot.points["group"].nunique() for plot in drawn)
+    return draw_plots(drawn) if 0 < panels <= _MOST_PANELS else None
+
+
 def draw_plots(drawn: Sequence[plots.Plot]) -> Figure:
     """Draw plots of a page side by side, a panel for each of their choices."""
     panels = [(plot, rows) for plot in drawn for _, rows in plot.points.groupby("group", sort=False)]
@@ -99,7 +112,12 @@ def draw_plots(drawn: Sequence[plots.Plot]) -> Figure:
 
 
 def _legend_entries(drawn: Sequence[plots.Plot]) -> dict[str, str]:
-    """Return the text of each model in the legend: its name and largest bound, whose bar may be too small."""
+    """Return the text of each model in the legend: its name and largest bound, whose bar may be too small.
+
+    Panels with units of their own have no common bound.
+    """
+    if any(plot.y_labels for plot in drawn):
+        return {str(model): str(model) for plot in drawn for model in plot.points["model"]}
     points = pd.concat([plot.points for plot in drawn])
     largest = (points["high"] - points["y"]).groupby(points["model"]).max()
     unit = next((plot.unit for plot in drawn), "")
@@ -132,9 +150,11 @@ def _panel(axes: Axes, plot: plots.Plot, rows: pd.DataFrame, styles: Mapping[str
     options = zip(plot.choices, rows["options"].iloc[0], strict=True)
     texts = [_option_text(column.heading, text) for column, text in options]
     axes.set_title(textwrap.fill(", ".join(texts), _LINE), fontsize=8)
-    axes.set(xscale=plot.x_scale, xlabel=plot.x_label, ylabel=textwrap.fill(plot.y_label, _LINE))
+    group = str(rows["group"].iloc[0])
+    y_label = plot.y_labels.get(group, plot.y_label)
+    axes.set(xscale=plot.x_scale, xlabel=plot.x_label, ylabel=textwrap.fill(y_label, _LINE))
     if plot.x_label == "case":
         axes.locator_params("x", integer=True)
-    if view := plot.views.get(str(rows["group"].iloc[0])):
+    if view := plot.views.get(group):
         axes.set(xlim=view[:2], ylim=view[2:])
     return handles

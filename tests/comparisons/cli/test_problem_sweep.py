@@ -37,8 +37,10 @@ def test_every_combination_by_every_model(tmp_path, capsys):
     assert sorted(set(table["law.work_of_adhesion [J/m^2]"])) == [0.02, 0.04, 0.06]
     lines = capsys.readouterr().out.splitlines()
     assert lines[3].split() == ["1", "µm", "20", "mJ/m^2", "bradley", "125.6637061435920(16)", "nN"]
+    assert (tmp_path / "values.png").stat().st_size > 10_000
     # The file as it is.
     assert sweep(tmp_path / "one", "--model", "bradley", "jkr", vary=()) == 0
+    assert not (tmp_path / "one" / "values.png").exists()
     assert set(read_table(tmp_path / "one" / "results.csv")["problem"]) == {PAD.name}
 
 

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from comparisons.output.figures.of_run import draw_comparison, figures_of
+from comparisons.output.figures.of_run import draw_comparison, draw_values, figures_of
 from comparisons.output.style import FORMATS, new_figure, save
 from comparisons.registry import MODELS
 
@@ -42,6 +42,20 @@ def test_the_agreement_of_two_models_is_their_difference_over_its_bound():
     ((stem, figure),) = figures_of({"agreement": table})
     assert stem == "agreement"
     np.testing.assert_allclose(figure.axes[0].get_lines()[0].get_xydata(), [[1, -0.5], [2, 1.5]])
+
+
+def test_values_are_drawn_over_each_varied_number_in_units_of_their_own():
+    cases = [(R, thickness) for R in (1e-6, 2e-6) for thickness in (1e-8, 5e-8, 1e-7)]
+    table = pd.DataFrame(cases, columns=["punch.R [m]", "solid.thickness [m]"])
+    table["problem"] = [f"pad.toml; punch.R={R}; solid.thickness={thickness}" for R, thickness in cases]
+    same = {"quantity": "pull_off_force", "model": "fscm", "unit": "N", "status": "ok", "u_num": 1e-12}
+    figure = draw_values(table.assign(value=[R * 0.3 for R, _ in cases], **same))
+    drawn = [axes for axes in figure.axes if axes.get_visible()]
+    assert [axes.get_ylabel() for axes in drawn] == ["pull-off force (nN)"] * 5
+    np.testing.assert_allclose(drawn[4].containers[0][0].get_xydata(), [[10, 600], [50, 600], [100, 600]])
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["fscm"]
+    assert draw_values(table.head(1).assign(value=1.0, **same)) is None
 
 
 def test_the_curves_of_the_references_have_a_panel_for_each_case_with_the_tension():
