@@ -20,6 +20,10 @@ _PART = r"""(?:[A-Za-z0-9_-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\."""
 #: A key, also of a table, with more of them.
 _DEEP_KEY = re.compile(rf"(?<![A-Za-z0-9_-])(?:{_PART}[ \t]*+){{{_MOST_PARTS}}}")
 
+#: A number with a unit that is not in quotes, and the line of which the parser speaks.
+_BARE = re.compile(r"\s*+([\w.]{1,40})\s*+=\s*+([-+]?[0-9][0-9.eE+-]{0,20} ?[A-Za-zµ%][\w/^*. -]{0,20})\s*+(?:#.*)?+")
+_LINE = re.compile(r"\(at line ([0-9]{1,6}),")
+
 #: Most bits of an integer, which may be hexadecimal: Python writes none of more than 4300 digits, 14000 bits, into a
 #: sentence.
 _MOST_BITS = 4096
@@ -34,6 +38,13 @@ def shipped(name: str) -> dict[str, Any]:
     {'R': 'length'}
     """
     return tomllib.loads(files("comparisons.data").joinpath(name).read_text(encoding="utf-8"))
+
+
+def _remedy(text: str, error: str) -> str:
+    """What to write where a value with a unit is not in quotes, else nothing."""
+    line = _LINE.search(error)
+    bare = _BARE.fullmatch(text.split("\n")[int(line[1]) - 1].rstrip("\r")) if line else None
+    return f'; a value with a unit is in quotes, as {bare[1]} = "{bare[2].strip()}"' if bare else ""
 
 
 def parse(text: str, source: str) -> dict[str, Any]:
@@ -65,7 +76,7 @@ def parse(text: str, source: str) -> dict[str, Any]:
     except ValueError as error:
         # What Python says of a number of thousands of digits has another remedy.
         reason = "a number has too many digits" if "set_int_max_str_digits" in str(error) else error
-        raise ValueError(f"{source} is not TOML: {reason}") from None
+        raise ValueError(f"{source} is not TOML: {reason}{_remedy(text, str(error))}") from None
     except RecursionError:
         raise ValueError(too_deep) from None
     for value in _values(tables):

@@ -158,7 +158,8 @@ def _cycles(points_of_models: dict[str, Points], stiffness: float) -> tuple[pd.D
             continue
         ends = {"snaps in": machine.far[:, -1], "snaps out": machine.contact[:, 0]}
         jumps = (f"{word} where its base is at {_short(x, 'm')}, at {_short(y, 'N')}" for word, (x, y) in ends.items())
-        note(f"{name}: {', '.join(jumps) if machine.jumps else 'no jumps'}")
+        said = [*(jumps if machine.jumps else ["no jumps"]), f"pull-off force {_short(-min(points.y), 'N')}"]
+        note(f"{name}: {', '.join(said)}")
         for branch, (position, load) in cycle.items():
             values = (name, branch, position, position - load / stiffness, load)
             frames.append(pd.DataFrame(dict(zip(columns, values, strict=True))))

@@ -89,7 +89,7 @@ BAD_TEXT = [
     ("[law]", "[lawn]", ["line 13", "'lawn'", "did you mean law?"]),
     (GOOD, f"law = 3\n{SOLID}{PUNCH}", ["line 1", "law = 3", "[law]"]),
     ("[solid]", "[[solid]]", ["line 1", "[solid] in single brackets"]),
-    ('R = "2.5 um"', "R = 2.5 um", ["is not TOML", "line 11"]),
+    ('R = "2.5 um"', "R = 2.5 um", ["is not TOML", "line 11", 'R = "2.5 um"']),
     ('"2 GPa"', f"1{'0' * 5000}", ["is not TOML", "digits"]),
     (GOOD, "", ["solid, punch, law missing"]),
     # Scales that do not fit together.
