@@ -100,7 +100,9 @@ def _polynomial(taylor: list[mpmath.mpf], limit: float) -> Array:
         for c in coefficients:
             total = (total * y >> _BITS) + c
         values.append(total / (1 << _BITS))
-    return np.asarray(chebyshev.cheb2poly(chebyshev.chebfit(nodes, np.array(values), _NEAR_DEGREE)), float)
+    powers = np.asarray(chebyshev.cheb2poly(chebyshev.chebfit(nodes, np.array(values), _NEAR_DEGREE)), float)
+    # Those at the end that are 0, perhaps by rounding, are left out there.
+    return np.pad(powers, (0, _NEAR_DEGREE + 1 - len(powers)))
 
 
 def _horner(coefficients: Array, u: Array) -> Array:

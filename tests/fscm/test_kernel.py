@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from fscm._surface.kernel import Kernel, Phi, Psi, ring_response
+from fscm._surface.kernel import _NEAR_DEGREE, Kernel, Phi, Psi, _polynomial, ring_response
 
 # The first one above zero is below the rounding of one.
 EXPONENTS = [0.0, 1e-22, 1e-12, 1e-3, 0.05, 0.4, 0.8, 0.95]
@@ -87,3 +87,8 @@ def test_primitives_at_the_ring_itself_near_the_gibson_limit(k):
     exact = float(mpmath.gamma(rest) / mpmath.gamma(rest / 2) / mpmath.gamma(1 + rest / 2))
     assert Phi(k, np.array([1.0]))[0] == pytest.approx(exact, rel=1e-13)
     assert Psi(k, np.array([1.0]))[0] == pytest.approx(exact - 1.0, rel=1e-13)
+
+
+def test_a_polynomial_has_its_coefficients_that_are_zero_too():
+    """Several exponents are evaluated together; which of their last coefficients are 0 differs between processors."""
+    np.testing.assert_array_equal(_polynomial([mpmath.mpf(0)], 0.5), np.zeros(_NEAR_DEGREE + 1))
