@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from fscm._path import completeness
 from fscm._path.continuation import equilibrium_path
-from fscm._surface.adaptivity import resolving
+from fscm._surface.adaptivity import adapted, indicator, resolving
 from fscm._surface.discretisation import Discretisation
 from fscm._surface.mesh import PanelMesh
 from fscm._surface.state import rigid_state
@@ -114,6 +115,22 @@ def test_a_mesh_ends_panels_only_at_rows_that_the_pressure_needs():
     # A kink that counts with its effect, not with the root of it, makes this bound 30 times as large.
     assert force.u_num < 1e-9
     assert abs(force.value - finer.value) <= force.u_num + finer.u_num
+
+
+def test_states_between_which_turning_points_are_looked_for_resolve_kinks(monkeypatch):
+    """A mesh that moves over kinks leaves the square of this: 1e-10 of the load."""
+    resolved_to = []
+
+    def noted(state, control, tolerance):
+        found = adapted(state, control, tolerance)
+        resolved_to.append(float(np.max(indicator(found))))
+        return found
+
+    monkeypatch.setattr(completeness, "adapted", noted)
+    r = np.linspace(0.0, 20.0, 25)
+    Analysis(Problem(2, 0.0, 1.0, MeasuredPunch(r, r**2 / 2))).solution("pull_off_force")
+    assert resolved_to
+    assert max(resolved_to) <= 1e-5
 
 
 def test_a_panel_ends_at_kinks_between_its_nodes():
