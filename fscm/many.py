@@ -63,7 +63,7 @@ def solve_many(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str) -> Many
 
     Pull-off forces in the range of the atlas (1 <= n <= 6, 0 <= k <= 0.8, 0.01 <= mu <= 10) are computed in batches on
     common meshes, twice each: bounds are at most 1e-8 of the value.  A value whose bound would be larger, that is no
-    minimum of the load, or that the atlas contradicts, is computed again by `fscm.solve` (measured: 2 of 10,000
+    minimum of the load, or that the atlas contradicts, is computed again by `fscm.solve` (measured: 1 of 10,000
     random ones).  So are all problems outside this range, and all other quantities, one after the other.  The common
     meshes take up to about ten seconds: for a few problems `fscm.solve` is faster.
 

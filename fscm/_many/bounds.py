@@ -51,10 +51,11 @@ __all__ = ["Loads", "bounded_loads", "corrected_loads", "missed_share"]
 
 #: Factor on the sums over the modes.
 _SAFETY = 2.0
-#: Share at k = 0, and its rate in k: twice the worst of modes 6 to 11 with 12 nodes of the residual (computed: 4.7e-5
-#: at k = 0, 4.6e-4 at k = 0.4 and 4.2e-3 at k = 0.8; less with 14 nodes).  Share of this on the panel beside it, per
-#: ratio of the lengths: twice the worst of ratios 1/4 to 4 (computed).
-_MISSED, _MISSED_RATE, _BESIDE = 1e-4, 5.8, 0.5
+#: Share at k = 0 by the number of nodes of the residual, and its rate in k: twice the worst of the modes from 6 on
+#: (computed, for 12 nodes: 4.7e-5 at k = 0, 4.6e-4 at k = 0.4 and 4.2e-3 at k = 0.8; for 14: 1.35e-3 at k = 0.67 and
+#: 2.88e-3 at k = 0.8).  Share of this on the panel beside it, per ratio of the lengths: twice the worst of ratios 1/4 to
+#: 4 (computed).
+_MISSED, _MISSED_RATE, _BESIDE = {12: 1e-4, 14: 5.6e-5}, 5.8, 0.5
 #: Relative error of the load per square of the error of the pressure (in units of the largest tension, 1.03): measured
 #: worst 12 over 14 problems at k = 0.7 to 0.8 whose edge panels were too long, with errors of the pressure up to 5e-3.
 _SECOND_ORDER = 50.0
@@ -63,12 +64,12 @@ _SECOND_ORDER = 50.0
 _ROUNDOFF, _ENTRY, _WEIGHT = 2.0**-51, 8.0, 4.0
 
 
-def missed_share(k: Array) -> Array:
-    """What the fine nodes miss of the integral of a unit mode's response over a panel of unit length.
+def missed_share(k: Array, fine: int) -> Array:
+    """What so many fine nodes miss of the integral of a unit mode's response over a panel of unit length.
 
     The kernel is |u - v|^-k / k (-log |u - v| for k = 0), the weight a polynomial of degree 3 of the size of 1.
     """
-    return np.asarray(_MISSED * np.exp(_MISSED_RATE * k))
+    return np.asarray(_MISSED[fine] * np.exp(_MISSED_RATE * k))
 
 
 class Loads(NamedTuple):
@@ -143,7 +144,7 @@ def _missed(batch: Batch, at: Fields, errors: Array, y: Array) -> Array:
     beside = np.zeros_like(weighed)
     beside[:, 1:] += weighed[:, :-1]
     beside[:, :-1] += weighed[:, 1:]
-    shares = missed_share(k) * (1.0 - k) * strength * lengths ** (1.0 - k) * errors
+    shares = missed_share(k, batch.mesh.fine.order) * (1.0 - k) * strength * lengths ** (1.0 - k) * errors
     return np.asarray(at.stiffness * (shares * (weighed + _BESIDE * beside)).sum(axis=1))
 
 
