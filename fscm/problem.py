@@ -367,8 +367,8 @@ def checked_problem(problem: object) -> Problem:
     remedy = "write Problem(n=2, k=0.4, mu=1), or a solid, punch and law"
     if hasattr(problem, "build"):
         remedy = (
-            "give it to comparisons.evaluate or comparisons.curve, or give problem.build(fscm) here (problem.posed if n, "
-            "k and mu state it)"
+            "give it to comparisons.evaluate or comparisons.curve, or give problem.build(fscm) here (problem.posed if "
+            "n, k and mu state it)"
         )
     package = type(problem).__module__.partition(".")[0]
     raise ValueError(f"a {package}.{type(problem).__name__} is no Problem of fscm: {remedy}")

@@ -20,8 +20,8 @@ from comparisons.registry import MODELS
 from comparisons.runs.frames import unit_in, varied_keys, varied_of, with_problem
 from comparisons.runs.rows import CASE
 
-#: Ratio of the largest and the smallest abscissa from which an axis is logarithmic.
-_LOG = 30.0
+#: Ratio of the largest and the smallest abscissa above which an axis is logarithmic.
+_LOG = 10.0
 
 #: Where the load is below this share of the pull-off force, a curve approaches the axis and ends the picture.
 _FAINT = 0.02
@@ -176,7 +176,7 @@ def _abscissas(values: pd.Series, over: str) -> tuple[str, pd.Series]:
 
 def _is_wide(values: pd.Series) -> bool:
     """Whether an axis of these values is logarithmic."""
-    return bool(values.min() > 0.0 and values.max() / values.min() >= _LOG)
+    return bool(values.min() > 0.0 and values.max() / values.min() > _LOG)
 
 
 def predicted(table: pd.DataFrame) -> Plot:
