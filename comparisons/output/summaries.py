@@ -73,9 +73,12 @@ def case_tables(table: pd.DataFrame) -> Iterator[Table]:
         models = [
             Column(model, partial(_error_text, model), f"kappa {model}") for model in dict.fromkeys(group["model"])
         ]
+        # The numbers of a problem file have their units beside them.
+        unit = "1" if (cases["problem"] != "").any() else QUANTITIES[quantity].unit
+        in_unit = "" if unit == "1" else f",\n{reference} in {unit}"
         yield Table(
             f"cases-{quantity}-{reference}",
-            f"{title_of(quantity)}: kappa in percent (bound) against {reference}",
+            f"{title_of(quantity)}: kappa in percent (bound) against {reference}{in_unit}",
             [*of_case, Column(str(reference), _reference_text, "reference_value"), *models],
             cases.join(of_models),
         )
@@ -110,9 +113,9 @@ def summary_tables(summary: pd.DataFrame) -> Iterator[Table]:
     summary : DataFrame
         As of `comparisons.output.errors.error_summary`.
     """
-    layout = columns("model", "coverage", "largest |κ| (%)", *CASE, "rms κ (%)")
+    layout = columns("model", "coverage", "worst κ (%)", *CASE, "rms κ (%)")
     for (quantity, reference), group in summary.groupby(["quantity", "reference"], sort=False):
-        caption = f"{title_of(quantity)}: coverage, largest and root mean square kappa, against {reference}"
+        caption = f"{title_of(quantity)}: coverage, worst and root mean square kappa, against {reference}"
         yield Table(f"summary-{quantity}-{reference}", caption, layout, group)
 
 
