@@ -117,6 +117,9 @@ def test_all_models_at_equal_ratios_as_latex(tmp_path, capsys, monkeypatch, type
     case = ["--n", "2", "--k", "0", "--mu", "0.1:10:4", "--reference", "atlas", "--out", str(tmp_path), "--jobs", "1"]
     assert main(["compare", "jkr-sphere", "--model", "all", *case, "--latex"]) == 0
     typeset(text := capsys.readouterr().out)
+    assert text.startswith("% The document needs ")
+    assert text.count("usepackage") == 1
+    assert ("pdflscape" in text) is (r"\begin{landscape}" in text)
     table = read_table(tmp_path / "comparison.csv")
     assert sorted(set(table["mu"])) == [0.1, 0.464159, 2.15443, 10.0]
     compared = set(models) - {"semi-rigid"}
