@@ -84,8 +84,10 @@ def _csv(row: Row) -> str:
 
 def _lines(problem: Problem, row: Row, case: Mapping[str, Any]) -> list[str]:
     quantity = QUANTITIES[row.quantity]
+    # Jumps under a prescribed load begin at another Tabor number.
+    control = ", at prescribed displacement" if row.quantity == "critical_tabor_number" else ""
     label = f"at {case_text(case)}" if problem.is_dimensionless else f"of {problem.label}"
-    lines = [f"{row.model}: {row.quantity} {label}"]
+    lines = [f"{row.model}: {row.quantity} {label}{control}"]
     if row.value is None or row.u_num is None:
         lines.append(f"  {row.status}: {row.reason}")
     elif not problem.is_dimensionless:
