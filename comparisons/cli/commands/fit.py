@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.cli.options import JOBS, command, file, option, output_format, several
-from comparisons.cli.screen import output, print_lines
+from comparisons.cli.screen import output, print_text
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note
 from comparisons.description.budget import budget_line
@@ -78,8 +78,8 @@ def fit_command(args: argparse.Namespace) -> int:
     elif fits:
         shown, left_out = _ends(items)
         output().print(rich_table(_cells(shown, left_out), CAPTION))
-        print_lines(_left_out(left_out, args.out))
-        print_lines(line for item in shown for fitted in item["fits"] for line in _lines(fitted, len(items) > 1))
+        print_text(_left_out(left_out, args.out))
+        print_text(line for item in shown for fitted in item["fits"] for line in _lines(fitted, len(items) > 1))
     failed, left_out = _ends([item for item in items if item["failure"]])
     for item in failed:
         log(f"{item['curve']}: {item['failure']}")
