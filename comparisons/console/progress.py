@@ -52,10 +52,12 @@ def quiet() -> Iterator[None]:
 
 
 @contextmanager
-def waiting(description: str) -> Iterator[None]:
-    """Show that one computation of unknown length is under way."""
+def waiting(description: str, is_long: bool = False) -> Iterator[None]:
+    """Show that one computation of unknown length is under way; where it may be long, also by a note."""
     from rich import progress
 
+    if is_long:
+        note(f"{description}: this may take a minute")
     with _bar(progress.TimeElapsedColumn()) as bar:
         bar.add_task(description, total=None)
         yield

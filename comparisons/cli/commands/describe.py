@@ -47,7 +47,7 @@ def describe_command(args: argparse.Namespace) -> int:
     if (args.file is None) == (args.problem is None):
         raise ValueError("describe takes one problem file: fscm-bench describe FILE")
     problem = Problem.load(args.file or args.problem)
-    with waiting(problem.label):
+    with waiting(f"solving {problem.label} with fscm", is_long=True):
         # First: it may refuse the file or the quantity.
         of_values = uncertainty(problem, args.quantity or "pull_off_force") if args.uncertain else None
         force = reference_force(problem)
