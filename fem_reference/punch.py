@@ -22,8 +22,8 @@ RADII = 3000
 FALL = 1e-9
 
 
-#: Relative distance of the two sides of a kink, and difference of exponents that is rounding.
-BESIDE, SAME_POWER = 1e-9, 1e-6
+#: Difference of exponents that is rounding.
+SAME_POWER = 1e-6
 
 #: Step of the differences for a slope, relative to the radius.
 DIFFERENCE = 1.0 / 64.0
@@ -239,7 +239,7 @@ def check_without_asperities(punch: Punch, lowest: float, highest: float) -> Non
     before, behind = r[falls[0] : falls[0] + 2]
     fall = next((kink for kink in getattr(punch, "kinks", ()) if before < kink <= behind), before)
     unknown = "its path may go on to a deeper tension behind its first compressive load, and is not followed there"
-    sides = fall * np.array([1.0 - BESIDE, 1.0 + BESIDE])
+    sides = np.nextafter(fall, [0.0, math.inf])
     inside, outside = sides * punch.slope(sides) / punch.height(sides)
     growth = getattr(punch, "growth", math.nan)
     if abs(outside - growth) < SAME_POWER < inside - growth:

@@ -51,8 +51,8 @@ _FIRST_RADIUS = 1e-7
 _LARGEST = 1e-2
 #: Relative decrease of r f' that counts as rounding: a slope by differences has an error of 1e-11 of f / r.
 _LEVEL = 1e-6
-#: Relative distance of the two sides of a kink, and difference of exponents that is rounding.
-_BESIDE, _SAME_POWER = 1e-9, 1e-6
+#: Difference of exponents that is rounding.
+_SAME_POWER = 1e-6
 #: Ratio of successive displacements in the search.
 _RATIO = 1.05
 #: Iterations for the deformation by tension: they decrease, so that each is a bound.
@@ -172,7 +172,8 @@ def refusal(problem: Problem, end: float, unknown: str) -> NotConverged:
     unit = "" if isinstance(punch, ScaledPunch) else f" {problem.unit_name('radius')}"
     bends = f"{unknown}: the punch bends down at r = {r:.4g}{unit}"
     if fall in kinks_of(punch):
-        sides = fall * np.array([1.0 - _BESIDE, 1.0 + _BESIDE])
+        # On both sides of the kink, whose radius is rounded.
+        sides = fall * (1.0 + np.array([-8.0, 8.0]) * np.finfo(float).eps)
         inside, beyond = sides * punch.slope(sides) / punch.height(sides)
         if abs(beyond - punch.growth) < _SAME_POWER:
             grown = math.ceil((inside - _SAME_POWER) * 100.0) / 100.0

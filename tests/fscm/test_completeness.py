@@ -84,6 +84,13 @@ def test_with_the_growth_that_is_named_a_profile_bends_down_nowhere() -> None:
         assert power - 0.05 < growth <= power
 
 
+def test_the_growth_that_is_named_is_not_rounded_down() -> None:
+    """The last segment has the exponent 2.30005, and 2.30 would bend the profile down again."""
+    r, heights = (0.0, 1.9, 2.0), (0.0, 1.0 - 0.1 * 2.30005 / 2.0, 1.0)
+    message = str(refusal(Problem(2, 0, 1.0, punch=MeasuredPunch(r, heights)), 2000.0, "unknown"))
+    assert "set growth = 2.31;" in message
+
+
 def test_a_path_whose_end_has_no_bound_is_not_known_to_be_complete() -> None:
     """So soft a solid pulls itself up to the punch farther than is examined."""
     with pytest.raises(NotConverged, match="cannot be told where its last tension is: the punch bends down at r = "):

@@ -9,6 +9,7 @@ import pytest
 import fem_reference
 import fscm
 from comparisons.problem.punch_shapes import SmoothedProfile
+from fem_reference.punch import check_without_asperities
 from tests.refusals import refused
 
 both = pytest.mark.parametrize("package", [fscm, fem_reference], ids=lambda package: package.__name__)
@@ -82,6 +83,12 @@ def test_a_profile_that_bends_down_beyond_its_last_row_is_told_its_growth(packag
         problem = package.Problem(package.Homogeneous(2e6, 0.4), tip, law)
         failure = refused(words, package.solve, problem, "pull_off_force", "quick", error=package.NotConverged)
         assert failure.failure is package.Failure.GROWTH
+
+
+def test_the_growth_that_the_elements_name_is_not_rounded_down():
+    """The last segment has the exponent 2.30005, and 2.30 would bend the profile down again."""
+    tip = fem_reference.MeasuredPunch((0.0, 1.9, 2.0), (0.0, 1.0 - 0.1 * 2.30005 / 2.0, 1.0))
+    refused("set growth = 2.31; ", check_without_asperities, tip, 1e-6, 1e4, error=fem_reference.NotConverged)
 
 
 @both
