@@ -50,6 +50,8 @@ class Failure(Enum):
     REACH = "take a larger ball or a stiffer solid"
     #: The end of the path.
     END = "take a punch without asperities"
+    #: The end of the path, where a profile bends down beyond its last row.
+    GROWTH = "the profile then goes on as its last rows do"
 
 
 class NotConverged(RuntimeError):

@@ -12,7 +12,7 @@ from fem_reference.laws import SurfaceLaw
 from fem_reference.punch import CustomPunch, Punch, radius_at_height
 from fem_reference.solid import Solid
 
-__all__ = ["Problem"]
+__all__ = ["Problem", "checked_problem"]
 
 #: Height, in lengths of the law, at which the growth of the punch is measured.
 FAR = 1e4
@@ -128,3 +128,29 @@ class Problem:
     def solids(self) -> tuple[Solid, ...]:
         """The solid, and that of an elastic punch."""
         return (self.solid,) if self.punch_solid is None else (self.solid, self.punch_solid)
+
+
+def checked_problem(problem: object) -> Problem:
+    """Return the argument, if it is a problem of this package.
+
+    Raises
+    ------
+    ValueError
+        One sentence; for a problem of another package, which has a method `build`, with what to give instead.
+
+    Examples
+    --------
+    >>> checked_problem((2, 0.4, 1))
+    Traceback (most recent call last):
+    ValueError: a builtins.tuple is no Problem of fem_reference: write Problem(solid, punch, law)
+    """
+    if isinstance(problem, Problem):
+        return problem
+    remedy = "write Problem(solid, punch, law)"
+    if hasattr(problem, "build"):
+        remedy = (
+            'give it to comparisons.evaluate with the model "fem"; or give problem.build(fem_reference), if it is in '
+            "physical units"
+        )
+    package = type(problem).__module__.partition(".")[0]
+    raise ValueError(f"a {package}.{type(problem).__name__} is no Problem of fem_reference: {remedy}")

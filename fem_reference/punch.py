@@ -22,6 +22,9 @@ RADII = 3000
 FALL = 1e-9
 
 
+#: Difference of exponents that is rounding.
+SAME_POWER = 1e-6
+
 #: Step of the differences for a slope, relative to the radius.
 DIFFERENCE = 1.0 / 64.0
 
@@ -231,12 +234,22 @@ def check_without_asperities(punch: Punch, lowest: float, highest: float) -> Non
     r = np.geomspace(radius_at_height(punch, lowest), radius_at_height(punch, highest), RADII)
     rise = r * punch.slope(r)
     falls = np.flatnonzero(np.diff(rise) < -FALL * np.abs(rise[:-1]))
-    if falls.size:
+    if not falls.size:
+        return
+    before, behind = r[falls[0] : falls[0] + 2]
+    fall = next((kink for kink in getattr(punch, "kinks", ()) if before < kink <= behind), before)
+    unknown = "its path may go on to a deeper tension behind its first compressive load, and is not followed there"
+    sides = np.nextafter(fall, [0.0, math.inf])
+    inside, outside = sides * punch.slope(sides) / punch.height(sides)
+    growth = getattr(punch, "growth", math.nan)
+    if abs(outside - growth) < SAME_POWER < inside - growth:
+        exponent = math.ceil((inside - SAME_POWER) * 100.0) / 100.0
         raise NotConverged(
-            f"the punch has r f'(r) falling at r = {r[falls[0]]:.3g}, as outside an asperity: its path may go on to a "
-            "deeper tension behind its first compressive load, and is not followed there",
-            Failure.END,
+            f"the punch bends down at r = {fall:.4g}, its last row: up to there it rises like r^{exponent:g}, and "
+            f"beyond like r^{growth:g}, its growth (2 by default); {unknown}; set growth = {exponent:g}",
+            Failure.GROWTH,
         )
+    raise NotConverged(f"the punch bends down at r = {fall:.4g}, as outside an asperity: {unknown}", Failure.END)
 
 
 def radius_at_height(punch: Punch, height: float) -> float:

@@ -23,7 +23,7 @@ from fem_reference._threads import one_thread
 from fem_reference.accuracy import coarser_accuracy, relative_error
 from fem_reference.errors import AccuracyWarning, NoSuchEvent, NotConverged
 from fem_reference.interaction import InteractionName
-from fem_reference.problem import Problem
+from fem_reference.problem import Problem, checked_problem
 from fem_reference.punch import check_contact
 from fem_reference.quantities import (
     CRITICAL_MODULUS,
@@ -141,9 +141,7 @@ def solve_together(
     """
     if isinstance(quantities, str):
         raise ValueError(f"quantities = {quantities!r} is one name: give several as a list, or call solve for one")
-    if not isinstance(problem, Problem):
-        raise ValueError(f"problem = {problem!r} is no Problem: write Problem(solid, punch, law)")
-    problem = with_friction(problem.under(interaction), friction)
+    problem = with_friction(checked_problem(problem).under(interaction), friction)
     rows = {name: quantity_named(name) for name in quantities}
     if not rows:
         raise ValueError(f"no quantity is named; choose at least one of {', '.join(TABLE)}")

@@ -39,7 +39,9 @@ class Failure(Enum):
     #: The search for turning points between the points of a path.
     FOLDS = "the folds of a Tabor number that is a little different may be told apart"
     #: The end of the path.
-    END = "take a power-law solid, a punch without asperities or a law that decays faster"
+    END = "take a punch without asperities, a law without barriers, or a stiffer solid of one power law"
+    #: The end of the path, where the profile of a punch bends down beyond its last row.
+    GROWTH = "the profile then goes on as its last rows do"
     #: The root of an event.
     EVENT = "take a Tabor number that is farther from the critical one"
     #: The stable branches between which a cycle jumps.

@@ -76,12 +76,6 @@ class MeasuredPunch:
         """n and Q of the power beyond the last point."""
         return self.growth, self.radii[-1] ** self.growth / (self.growth * self.heights[-1])
 
-    def scaled(self, radius: float, height: float) -> MeasuredPunch:
-        """The shape in a unit of radii and one of heights."""
-        return MeasuredPunch(
-            tuple(r / radius for r in self.radii), tuple(f / height for f in self.heights), self.growth
-        )
-
     def height(self, r: Array) -> Array:
         """f(r)."""
         r = np.asarray(r, float)

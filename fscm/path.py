@@ -26,7 +26,7 @@ from fscm._units import DIMENSIONLESS
 from fscm._validation import real_number
 from fscm.accuracy import Accuracy, Meshes
 from fscm.folds import Fold, edge_radius, fold_at, folds_between
-from fscm.problem import Problem
+from fscm.problem import Problem, checked_problem
 from fscm.punch import check_reach
 from fscm.stability import stable_sections
 
@@ -154,7 +154,7 @@ def trace(
     >>> bool(abs(path.load.min() + 1.788) < 1e-2)
     True
     """
-    meshes, problem = Meshes.of(accuracy), problem.under(interaction)
+    meshes, problem = Meshes.of(accuracy), checked_problem(problem).under(interaction)
     units, problem = problem.units, problem.dimensionless
     max_load = None if max_load is None else max_load / units["load"]
     start_gap = None if start_gap is None else start_gap / units["gap"]

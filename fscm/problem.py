@@ -21,7 +21,7 @@ from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law, unit_of_energ
 from fscm.punch import PowerPunch, PunchShape, ScaledPunch, scaled_punch, unit_of_radii
 from fscm.solids import GradedHalfSpace, PowerLaw, Solid
 
-__all__ = ["Problem"]
+__all__ = ["Problem", "checked_problem"]
 
 
 #: Arguments of the two kinds of problems, in the order of their positions.
@@ -346,3 +346,29 @@ class Problem:
         if self._dimensionless is not None:
             raise ValueError(f"{self!r} is in physical units; the equations take problem.dimensionless")
         return 2.0 * self.mu ** ((2.0 * self.n + self.k - 1.0) / self.n)
+
+
+def checked_problem(problem: object) -> Problem:
+    """The argument, if it is a problem of this package.
+
+    Raises
+    ------
+    ValueError
+        One sentence; for a problem of another package, which has a method `build`, with what to give instead.
+
+    Examples
+    --------
+    >>> checked_problem((2, 0.4, 1))
+    Traceback (most recent call last):
+    ValueError: a builtins.tuple is no Problem of fscm: write Problem(n=2, k=0.4, mu=1), or a solid, punch and law
+    """
+    if isinstance(problem, Problem):
+        return problem
+    remedy = "write Problem(n=2, k=0.4, mu=1), or a solid, punch and law"
+    if hasattr(problem, "build"):
+        remedy = (
+            "give it to comparisons.evaluate or comparisons.curve, or give problem.build(fscm) here (problem.posed if "
+            "n, k and mu state it)"
+        )
+    package = type(problem).__module__.partition(".")[0]
+    raise ValueError(f"a {package}.{type(problem).__name__} is no Problem of fscm: {remedy}")

@@ -9,7 +9,7 @@ from fscm.accuracy import Accuracy, Meshes
 from fscm.analysis import Analysis
 from fscm.errors import NoSuchEvent
 from fscm.gibson import GibsonSolid
-from fscm.problem import Problem
+from fscm.problem import Problem, checked_problem
 from fscm.quantities import QUANTITIES, quantity_named
 from fscm.solution import Solution
 
@@ -67,19 +67,10 @@ def solve(
     >>> round(solve(Problem(pad, PowerPunch(n=2, Q=100e-9), law), "pull_off_force").value * 1e9, 6)
     27.066203
     """
-    problem = _posed(problem).under(interaction)
+    problem = checked_problem(problem).under(interaction)
     kind = quantity_named(quantity).kind
     solution = _model(problem.dimensionless, accuracy).solution(quantity)
     return solution.times(problem.units[kind], problem.unit_name(kind))
-
-
-def _posed(problem: object) -> Problem:
-    """The argument, if it is a problem."""
-    if not isinstance(problem, Problem):
-        raise ValueError(
-            f"problem = {problem!r} is no Problem: write Problem(n=2, k=0.4, mu=1), or a solid, punch and law"
-        )
-    return problem
 
 
 @one_thread()
@@ -118,7 +109,7 @@ def solve_together(
     """
     if isinstance(quantities, str):
         raise ValueError(f"quantities = {quantities!r} is one name: give several as a list, or call solve for one")
-    problem = _posed(problem).under(interaction)
+    problem = checked_problem(problem).under(interaction)
     kinds = {name: quantity_named(name).kind for name in quantities}
     model = _model(problem.dimensionless, accuracy)
     solutions: dict[str, Solution | NoSuchEvent] = {}

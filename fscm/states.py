@@ -21,7 +21,7 @@ from fscm._units import DIMENSIONLESS
 from fscm.accuracy import Accuracy, Meshes
 from fscm.analysis import Analysis
 from fscm.folds import edge_radius
-from fscm.problem import Problem
+from fscm.problem import Problem, checked_problem
 from fscm.punch import check_reach
 from fscm.solution import Parts
 from fscm.stability import Stability, stability_of
@@ -175,6 +175,7 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
     >>> [round(state.load, 6) for state in equilibria(Problem(n=2, k=0.4, mu=1.0), "displacement", 0.0)]
     [-1.729635]
     """
+    problem = checked_problem(problem)
     if control not in _FUNCTIONALS:
         raise ValueError(f"control {control!r} is unknown; it is one of {', '.join(_FUNCTIONALS)}")
     if not math.isfinite(value):
@@ -286,4 +287,5 @@ def profile(problem: Problem, event: str = "pull_off", accuracy: Accuracy = "def
     >>> bool(abs(at_pull_off.pressure.min() + 1.0264) < 1e-3)      # the theoretical strength, at the edge
     True
     """
+    problem = checked_problem(problem)
     return radial_field(Analysis(problem.dimensionless, accuracy).event(event).value).in_units(problem.units)

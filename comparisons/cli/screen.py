@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import sys
-import textwrap
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from comparisons.console.exit_status import FAILED, OK, writing_stdout
-from comparisons.console.printable import printable
+from comparisons.console.printable import WIDTH, printable, wrapped
 from comparisons.console.progress import log, note
 from comparisons.console.safe_console import SafeConsole
 
 if TYPE_CHECKING:
     from comparisons.runs.rows import Row
-
-#: Columns of a table when stdout is not a terminal: the same text in every log and file.
-_WIDTH = 80
 
 
 class _Output(SafeConsole):
@@ -29,25 +25,14 @@ class _Output(SafeConsole):
 
 def output() -> SafeConsole:
     """Return the console for results: stdout with the columns of the terminal, or 80 where it is none."""
-    return _Output(width=None if sys.stdout.isatty() else _WIDTH, highlight=False, markup=False)
-
-
-def print_lines(lines: Iterable[str]) -> None:
-    """Print whole lines, so that a command in them can be copied."""
-    for line in lines:
-        print(printable(line))
+    return _Output(width=None if sys.stdout.isatty() else WIDTH, highlight=False, markup=False)
 
 
 def print_text(lines: Iterable[str]) -> None:
-    """Print lines of words and numbers, a long one in several of `_WIDTH` characters, indented after the first."""
+    """Print lines of words, numbers and commands, as `wrapped` has them."""
     for line in lines:
-        indent = " " * (len(line) - len(line.lstrip()) + 2)
-        pieces = [line]
-        if len(line) > _WIDTH:
-            pieces = textwrap.wrap(
-                line, _WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
-            )
-        print_lines(pieces)
+        for piece in wrapped(line):
+            print(printable(piece))
 
 
 def print_end(failures: Sequence[Row], folder: Path, files: str = "results are") -> int:

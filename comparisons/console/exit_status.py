@@ -14,9 +14,10 @@ import threading
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from itertools import chain
 from typing import TextIO
 
-from comparisons.console.printable import printable
+from comparisons.console.printable import printable, wrapped
 from comparisons.console.readable import take_every_text
 
 #: Exit statuses: 0 done, and all gates pass; 1 a gate fails; 2 wrong input; 3 a gate is inconclusive; 4 a computation
@@ -166,9 +167,11 @@ def _terminate(number: int, frame: object) -> None:
 
 
 def _say(program: str, sentence: str) -> None:
-    """Write on stderr, without control characters; if that fails too, only the exit status is left."""
+    """Write on stderr as `log` does, without rich; if that fails too, only the exit status is left."""
     with suppress(OSError):
-        print(f"{program}: {printable(sentence)}", file=sys.stderr, flush=True)
+        lines = f"{program}: {printable(sentence)}".split("\n")
+        for line in chain.from_iterable(map(wrapped, lines)) if sys.stderr.isatty() else lines:
+            print(line, file=sys.stderr, flush=True)
 
 
 def _flush_or_discard(stream: TextIO) -> None:

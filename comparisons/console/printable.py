@@ -1,8 +1,12 @@
-"""Texts of files and folders as they may reach a terminal or a page: without control characters."""
+"""Texts as they may reach a terminal or a page: without control characters, and in lines of 80 characters."""
 
 from __future__ import annotations
 
+import textwrap
 import unicodedata
+
+#: Characters of a line, also where it is no terminal: the same text in every log and file.
+WIDTH = 80
 
 #: Most combining marks in sequence.  Languages use two; a pile of dozens covers the lines above and below.
 _MOST_MARKS = 3
@@ -23,6 +27,23 @@ def printable(text: str) -> str:
     return "".join(
         character if character.isprintable() or character == "\n" else ascii(character)[1:-1] for character in text
     )
+
+
+def wrapped(line: str) -> list[str]:
+    """Return a line of words and numbers in pieces of `WIDTH` characters, indented after the first; a command is whole.
+
+    Examples
+    --------
+    >>> wrapped("  " + 25 * "word ")[1]
+    '    word word word word word word word word word word'
+    >>> len(wrapped("  fscm-bench solve" + 25 * " word"))
+    1
+    """
+    text = line.lstrip()
+    if len(line) <= WIDTH or text.startswith("fscm-bench "):
+        return [line]
+    indent = " " * (len(line) - len(text) + 2)
+    return textwrap.wrap(line, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
 
 
 def is_line(text: str) -> bool:

@@ -7,6 +7,8 @@ from contextlib import contextmanager, nullcontext, suppress
 from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
+from comparisons.console.printable import wrapped
+
 if TYPE_CHECKING:
     from rich import progress
 
@@ -14,7 +16,7 @@ _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 
 
 def log(text: str) -> None:
-    """Write a sentence on stderr, as one line.
+    """Write a sentence on stderr: one line, which a terminal shows in several as `wrapped` has them.
 
     A message that cannot be written is lost and stops no computation.
     """
@@ -22,7 +24,9 @@ def log(text: str) -> None:
     from comparisons.console.safe_console import SafeConsole
 
     with suppress(OSError):
-        SafeConsole(stderr=True, highlight=False, markup=False).print(text, soft_wrap=True)
+        console = SafeConsole(stderr=True, highlight=False, markup=False)
+        for line in wrapped(text) if console.is_terminal else [text]:
+            console.print(line, soft_wrap=True)
 
 
 def note(text: str) -> None:
@@ -48,10 +52,12 @@ def quiet() -> Iterator[None]:
 
 
 @contextmanager
-def waiting(description: str) -> Iterator[None]:
-    """Show that one computation of unknown length is under way."""
+def waiting(description: str, is_long: bool = False) -> Iterator[None]:
+    """Show that one computation of unknown length is under way; where it may be long, also by a note."""
     from rich import progress
 
+    if is_long:
+        note(f"{description}: this may take a minute")
     with _bar(progress.TimeElapsedColumn()) as bar:
         bar.add_task(description, total=None)
         yield

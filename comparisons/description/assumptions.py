@@ -146,11 +146,15 @@ def _measures(problem: Problem) -> Json:
     near_edge = tension > _EDGE * tension[edge]
     slope_of_gap = np.gradient(gap, radius)
     slope_of_punch = problem.posed.punch.slope(radius)
-    of_surface = np.abs(slope_of_gap - slope_of_punch)[near_edge].max()
+    of_gap, of_surface = (np.abs(slope)[near_edge].max() for slope in (slope_of_gap, slope_of_gap - slope_of_punch))
     measures = (
         ("punch_slope", slope_of_punch[edge], "slope of the punch at the contact edge"),
-        ("surface_slope", of_surface, "slope of the deformed surface there (strain, at the edge alone)"),
-        ("gap_slope", np.abs(slope_of_gap)[near_edge].max(), "slope of the gap there (Derjaguin)"),
+        ("surface_slope", of_surface, "largest slope of the surface, in the very edge as at a crack tip"),
+        (
+            "gap_slope",
+            of_gap,
+            "largest slope of the gap, in the very edge as at a crack tip",
+        ),
     )
     unit = problem.units["gap"] / problem.units["radius"]
     return {

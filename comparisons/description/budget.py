@@ -76,14 +76,16 @@ def budget_line(assumed: Json | None, relative_bound: float, where: str = "") ->
     if assumed is None:
         return None
     end = "fscm-bench describe computes it"
-    total, geometry = assumed["total"], assumed["geometry"]
+    total = assumed["total"]
+    rows = [assumed[name] for name in ("geometry", "derjaguin", "strain") if name in assumed]
+    unknown = [row["reason"] for row in rows if row["error"] is None]
     if total["error"] is not None:
         if abs(total["error"]) + total["u_num"] <= _BOUNDS * relative_bound:
             return None
         error = f"error {percent_text(total['error'], total['u_num'])} %{direction(total)}"
         text = ", ".join(filter(None, (error, "estimate from a table", total["reason"])))
-    elif geometry["error"] is None:
-        text = f"error unknown, {geometry['reason']}"
+    elif unknown:
+        text = f"error unknown, {unknown[0]}"
         end = "see fscm-bench describe"
     else:
         # None of those that are known is an error.

@@ -35,13 +35,21 @@ def model_errors(problem: Problem, force: Row) -> list[Json]:
     force : Row
         Of this problem, or of another one that this one stands for.
     """
-    is_of_the_paper = problem.without(*problem.surface).is_of_the_paper()
-    names = [name for name in MODELS if name not in REFERENCES] if is_of_the_paper else []
-    if problem.punch.kind == "ball":
-        names = ["jkr-sphere", "jkr-sphere-projected", "md-profile"]
-    changes = {name: change_of(evaluate(name, "pull_off_force", problem), force) for name in names}
+    changes = {row.model: change_of(row, force) for row in _closed_forms(problem)}
     errors = [{"model": name, "error": change[0], "u_num": change[1]} for name, change in changes.items() if change]
     return sorted(errors, key=lambda row: abs(row["error"]))
+
+
+def _closed_forms(problem: Problem) -> list[Row]:
+    """Return the pull-off forces of the closed forms that take a problem."""
+    elastic = problem.without(*problem.surface)
+    names = ["jkr-profile", "md-profile"] if elastic.is_of_the_paper("solid") else []
+    if elastic.is_of_the_paper():
+        names = [name for name in MODELS if name not in REFERENCES]
+    if problem.punch.kind == "ball":
+        names = ["jkr-sphere", "jkr-sphere-projected", "md-profile"]
+    rows = [evaluate(name, "pull_off_force", problem) for name in names]
+    return [row for row in rows if row.status == "ok"]
 
 
 def overview(problem: Problem, force: Row, assumed: Json | None = None, equivalent: Json | None = None) -> Json:
@@ -63,9 +71,10 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None, equivale
     Returns
     -------
     dict
-        ``recommended`` names a model for each limit and ``recommended_forces`` has its force; its ``punch`` is "ball"
-        where the file must state this kind in place of the paraboloid.  ``corrected_force`` is the pull-off force
-        without the error of the assumptions, None where that is unknown or no model can be recommended.
+        ``closed_forms`` has the forces of closed forms where there is no pull-off force to compare them with, and is
+        else empty.  ``recommended`` names a model for each limit and ``recommended_forces`` has its force; its
+        ``punch`` is "ball" where the file must state this kind in place of the paraboloid.  ``corrected_force`` is the
+        pull-off force without the error of the assumptions, None where that is unknown or no model can be recommended.
 
     Examples
     --------
@@ -89,6 +98,7 @@ def overview(problem: Problem, force: Row, assumed: Json | None = None, equivale
         "unusual_sizes": unusual_sizes(problem),
         "pull_off_force": force_content(force),
         "errors": errors,
+        "closed_forms": [] if force.status == "ok" else [force_content(row) for row in _closed_forms(problem)],
         "assumptions": assumed,
         "total_errors": with_assumptions,
         "corrected_force": _corrected(force, assumed),

@@ -7,6 +7,7 @@ or "unknown") and ``reason``.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -153,9 +154,12 @@ def _surface_tension(problem: Problem) -> Json:
 def effect_of_tension(problem: Problem) -> float | None:
     """Return the relative change of the pull-off force of JKR by the surface tension `TENSION` of the solid.
 
-    None where JKR is not the limit: for a punch that is no sphere, a solid that is not homogeneous, and a stiff one,
-    for which the change is smaller.
+    That of the paraboloid for a ball.  None where JKR is not the limit: for a punch that is no sphere, a solid that is
+    not homogeneous, and a stiff one, for which the change is smaller.
     """
+    if problem.punch.kind == BALL:
+        paraboloid = replace(problem, punch=Section(PARABOLOID, {"R": problem.punch["R"]}))
+        return effect_of_tension(paraboloid.without("law.interaction"))
     (_, _), (highest, soft) = _LIMITS
     if problem.punch.kind != PARABOLOID or problem.solid.kind != "homogeneous" or problem.posed.mu < highest:
         return None

@@ -49,9 +49,22 @@ def description_text(
         changes=changes,
         stated=stated,
         largest_deviation=LARGEST_DEVIATION,
+        measures=_measures(overview["assumptions"]),
         shape_counts=_shape_counts(problem, overview["assumptions"], stated),
         written=[spread.written.strip() for spread in problem.uncertain.values()],
     )
+
+
+#: Slopes that are large at every edge of a soft contact: the error of the assumption that each stands for.
+_STANDS_FOR = {"surface_slope": "strain", "gap_slope": "derjaguin"}
+
+
+def _measures(assumed: Json | None) -> list[Json]:
+    """The measures of a contact, without those whose effect on the force is known."""
+    if assumed is None:
+        return []
+    unknown = [key for key, name in _STANDS_FOR.items() if assumed[name]["error"] is None]
+    return [row for row in assumed["measures"] if row["key"] not in _STANDS_FOR or row["key"] in unknown]
 
 
 def _shape_counts(problem: Problem, assumed: Json | None, stated: Json | None) -> bool:

@@ -32,19 +32,39 @@ def check_quantity(quantity: str) -> None:
         )
 
 
+def check_uncertain(problem: Problem) -> None:
+    """Refuse a problem without an uncertain value, or without derivatives.
+
+    Raises
+    ------
+    ValueError
+        One sentence.
+    """
+    _check_friction(problem)
+    if not problem.uncertain:
+        raise ValueError(
+            f'{problem.path or problem.label}: no value has an uncertainty; write one as "2 +- 0.1 GPa", '
+            '"2 GPa +- 5 %" or "[1.8, 2.2] GPa"'
+        )
+
+
+def _check_friction(problem: Problem) -> None:
+    if "solid.friction" in problem.surface:
+        raise ValueError(
+            f'{problem.path or problem.label}: friction = "bonded" has no exact derivatives, which are those of the '
+            "integral equation; leave it out, or solve the file at two values"
+        )
+
+
 def uncertainty(problem: Problem, quantity: str = "pull_off_force") -> Json:
     """Return `sensitivity` of a problem to its uncertain values.
 
     Raises
     ------
     ValueError
-        As `sensitivity`, and if there is no uncertain value.
+        As `sensitivity` and `check_uncertain`.
     """
-    if not problem.uncertain:
-        raise ValueError(
-            f'{problem.path or problem.label}: no value has an uncertainty; write one as "2 +- 0.1 GPa", '
-            '"2 GPa +- 5 %" or "[1.8, 2.2] GPa"'
-        )
+    check_uncertain(problem)
     return sensitivity(problem, quantity)
 
 
@@ -94,11 +114,7 @@ def sensitivity(problem: Problem, quantity: str = "pull_off_force", keys: Iterab
     >>> round(found["standard_deviation"] / found["value"], 6)
     0.05
     """
-    if "solid.friction" in problem.surface:
-        raise ValueError(
-            f'{problem.path or problem.label}: friction = "bonded" has no exact derivatives, which are those of the '
-            "integral equation; leave it out, or solve the file at two values"
-        )
+    _check_friction(problem)
     names, uncertain = _names(problem, keys), problem.uncertain
     uncertain = {name: spread for name, spread in uncertain.items() if name in names}
     try:

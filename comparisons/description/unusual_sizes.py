@@ -7,8 +7,9 @@ from typing import Any
 from comparisons.problem import Problem
 
 #: Smallest and largest usual value of what has a unit, in SI: from moduli of the softest gels to ten times that of
-#: diamond, lengths from atoms to metres, works of adhesion up to twice those of metals, which are below 5 J/m^2.
-_USUAL = {"Pa": (100.0, 1e13), "m": (1e-11, 1.0), "J/m^2": (1e-7, 10.0)}
+#: diamond, lengths from the smoothing of a profile (1 pm) to metres, works of adhesion up to twice those of metals,
+#: which are below 5 J/m^2.
+_USUAL = {"Pa": (100.0, 1e13), "m": (5e-13, 1.0), "J/m^2": (1e-7, 10.0)}
 
 
 def unusual_sizes(problem: Problem) -> list[dict[str, Any]]:

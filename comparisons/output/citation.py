@@ -90,7 +90,9 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
         if name not in listed["models"]:
             title = f"Model {name}, version {model['version']}"
             key = "model-" + re.sub("[^A-Za-z0-9-]", "-", name)
-            cited.append(Work(key, {"title": title, "note": model["citation"]}))
+            # The contract has the citation as one text; BibTeX sorts by the author.
+            author = f"{{[author of {name}, to be filled in]}}"
+            cited.append(Work(key, {"author": author, "title": title, "note": model["citation"]}))
     for library in _libraries(record) if record else ():
         facts = {"author": " and ".join(library["authors"]), "note": f"version {library['version']}"}
         cited.append(Work(library["package"], library | facts))

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 import lazy_loader
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     import pandas as pd
 else:
     pd = lazy_loader.load("pandas")
-
-_PACKAGES = r"% The document needs \usepackage{array,booktabs,longtable,pdflscape,siunitx}"
 
 #: Shorter texts do not wrap; the space between two columns, in characters.
 _SHORT, _GAP = 16, 1.2
@@ -49,15 +47,16 @@ _MINUS = re.compile(r"(?<![A-Za-z0-9_.)}-])-(?=[0-9])")
 
 
 class _Page(NamedTuple):
-    """Font of a table, characters of a line, and the environment around the table."""
+    """Font of a table, characters of a line, the environment around the table, and the packages that it needs."""
 
     font: str
     characters: int
     around: str
+    packages: str
 
 
-_UPRIGHT = _Page("footnotesize", 74, "center")
-_TURNED = _Page("scriptsize", 138, "landscape")
+_UPRIGHT = _Page("footnotesize", 74, "center", "array,booktabs,longtable,siunitx")
+_TURNED = _Page("scriptsize", 138, "landscape", "array,booktabs,longtable,pdflscape,siunitx")
 
 #: Characters of a line of a table that is not turned.
 UPRIGHT_WIDTH = _UPRIGHT.characters
@@ -78,7 +77,7 @@ def latex(texts: pd.DataFrame, caption: str, label: str) -> str:
     Examples
     --------
     >>> print(latex(pd.DataFrame({"gate": ["A_1"], "E": ["1.788482(3)"]}), "Verdicts", "verdicts").split("endhead")[0])
-    % The document needs \usepackage{array,booktabs,longtable,pdflscape,siunitx}
+    % The document needs \usepackage{array,booktabs,longtable,siunitx}
     \begin{center}\footnotesize\setlength{\tabcolsep}{2.5pt}\setlength{\LTcapwidth}{\linewidth}
     \begin{longtable}{@{}lS[table-format=1.6(1)]@{}}
     \caption{Verdicts} \label{tab:verdicts} \\
@@ -94,6 +93,13 @@ def latex(texts: pd.DataFrame, caption: str, label: str) -> str:
     """
     before, rows, after = latex_parts(texts, caption, label)
     return "\n".join([before, *rows, after, ""])
+
+
+def put_together(tables: Iterable[str]) -> str:
+    """Return tables of `latex` one after the other, below one line with the packages that they need."""
+    needed, bodies = zip(*(table.split("\n", 1) for table in tables), strict=True)
+    # A table on its side needs one package more.
+    return "\n".join([max(needed, key=len), *bodies])
 
 
 def latex_parts(texts: pd.DataFrame, caption: str, label: str) -> tuple[str, list[str], str]:
@@ -112,7 +118,8 @@ def latex_parts(texts: pd.DataFrame, caption: str, label: str) -> tuple[str, lis
     margins = r"\setlength{\tabcolsep}{2.5pt}\setlength{\LTcapwidth}{\linewidth}"
     head, end_of_head, body = table.partition("\\endlastfoot\n")
     rows, end, _ = body.partition(r"\end{longtable}")
-    before = f"{_PACKAGES}\n\\begin{{{page.around}}}\\{page.font}{margins}\n{head}{end_of_head}"
+    needed = rf"% The document needs \usepackage{{{page.packages}}}"
+    before = f"{needed}\n\\begin{{{page.around}}}\\{page.font}{margins}\n{head}{end_of_head}"
     return before.rstrip("\n"), rows.splitlines(), f"{end}\n\\end{{{page.around}}}"
 
 

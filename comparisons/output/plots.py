@@ -20,8 +20,8 @@ from comparisons.registry import MODELS
 from comparisons.runs.frames import unit_in, varied_keys, varied_of, with_problem
 from comparisons.runs.rows import CASE
 
-#: Ratio of the largest and the smallest abscissa from which an axis is logarithmic.
-_LOG = 30.0
+#: Ratio of the largest and the smallest abscissa above which an axis is logarithmic.
+_LOG = 10.0
 
 #: Where the load is below this share of the pull-off force, a curve approaches the axis and ends the picture.
 _FAINT = 0.02
@@ -44,7 +44,8 @@ class Plot:
     choices : sequence of Column
         Columns by whose texts the points are grouped.
     points : DataFrame
-        One row for each point: group, options (the texts), model, label, x, y, ends of the band, and the text at it.
+        One row for each point: group, options (the texts), model, branch (of a cycle, else empty), label, x, y, ends of
+        the band, and the text at it.
     title, table, caption : str
         Its title, the id of the table with the numbers, and its caption; empty where no page shows it.
     x_scale : str
@@ -111,6 +112,7 @@ def _points(
     """Return the points of stored rows."""
     records = rows.to_dict("records")
     table = pd.DataFrame({"model": rows["model"], "x": x, "y": y, "low": y - u, "high": y + u}, index=rows.index)
+    table["branch"] = rows.get("branch", "")
     table["label"] = [
         row["model"] if math.isnan(row.get("nu", math.nan)) else f"{row['model']}, ν = {row['nu']:g}" for row in records
     ]
@@ -176,7 +178,7 @@ def _abscissas(values: pd.Series, over: str) -> tuple[str, pd.Series]:
 
 def _is_wide(values: pd.Series) -> bool:
     """Whether an axis of these values is logarithmic."""
-    return bool(values.min() > 0.0 and values.max() / values.min() >= _LOG)
+    return bool(values.min() > 0.0 and values.max() / values.min() > _LOG)
 
 
 def predicted(table: pd.DataFrame) -> Plot:
@@ -250,7 +252,7 @@ def curve(quantity: CurveQuantity, rows: pd.DataFrame) -> Plot:
     ----------
     quantity : CurveQuantity
     rows : DataFrame
-        The points: model, the text of the case, x and y, and perhaps nu.
+        The points: model, the text of the case, x and y, and perhaps nu; of a cycle its branch.
     """
     x, y = quantity.x.symbol, quantity.y.symbol
     choices = [column("case")]

@@ -38,6 +38,9 @@ LINES += ((0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (4, 1, 4, 1, 1, 1)), (0, (2,
 _DASHES: dict[Any, tuple[int, ...]] = {"-": (), "--": (6, 4), "-.": (7, 3, 2, 3), ":": (2, 3)}
 _DASHES |= {line: tuple(2 * length for length in line[1]) for line in LINES[len(_DASHES) :]}
 
+#: Dashes of the two branches of a cycle, in place of those of the model.
+BRANCHES = {"approach": "--", "retreat": "-"}
+
 #: The model whose curve is broad and pale, below the others: where they are right they cover it.
 BROAD = "fscm"
 

@@ -33,6 +33,10 @@ WIDTH, _ROWS, _GAP = 80, 40, 2
 #: The last digit of the reference, relative to it if it is below 1, where its uncertainty does not reach that far.
 _LAST_REFERENCE = 1e-7
 
+#: Statuses in words, and the counts that are of no status.
+_ENDS = {"ok": "with a value", "not-applicable": "not-applicable (a case or a quantity that the model does not have)"}
+_NO_ENDS = ("all", "resumed")
+
 #: Failures that are written one by one.
 _FAILURES = 3
 
@@ -73,9 +77,12 @@ def case_tables(table: pd.DataFrame) -> Iterator[Table]:
         models = [
             Column(model, partial(_error_text, model), f"kappa {model}") for model in dict.fromkeys(group["model"])
         ]
+        # The numbers of a problem file have their units beside them.
+        unit = "1" if (cases["problem"] != "").any() else QUANTITIES[quantity].unit
+        in_unit = "" if unit == "1" else f",\n{reference} in {unit}"
         yield Table(
             f"cases-{quantity}-{reference}",
-            f"{title_of(quantity)}: kappa in percent (bound) against {reference}",
+            f"{title_of(quantity)}: kappa in percent (bound) against {reference}{in_unit}",
             [*of_case, Column(str(reference), _reference_text, "reference_value"), *models],
             cases.join(of_models),
         )
@@ -110,9 +117,9 @@ def summary_tables(summary: pd.DataFrame) -> Iterator[Table]:
     summary : DataFrame
         As of `comparisons.output.errors.error_summary`.
     """
-    layout = columns("model", "coverage", "largest |κ| (%)", *CASE, "rms κ (%)")
+    layout = columns("model", "coverage", "worst κ (%)", *CASE, "rms κ (%)")
     for (quantity, reference), group in summary.groupby(["quantity", "reference"], sort=False):
-        caption = f"{title_of(quantity)}: coverage, largest and root mean square kappa, against {reference}"
+        caption = f"{title_of(quantity)}: coverage, worst and root mean square kappa, against {reference}"
         yield Table(f"summary-{quantity}-{reference}", caption, layout, group)
 
 
@@ -210,8 +217,8 @@ def computations_sentence(counts: Mapping[str, int]) -> str:
 
     Examples
     --------
-    >>> computations_sentence({"all": 12, "resumed": 0, "ok": 8, "not-applicable": 4})
-    '12 results: 8 ok, 4 not-applicable'
+    >>> computations_sentence({"all": 12, "resumed": 0, "ok": 7, "failed": 1, "not-applicable": 4})
+    '12 results: 7 with a value, 1 failed, 4 not-applicable (a case or a quantity that the model does not have)'
     """
-    ended = ", ".join(f"{count} {name}" for name, count in counts.items() if name not in ("all", "resumed"))
+    ended = ", ".join(f"{count} {_ENDS.get(name, name)}" for name, count in counts.items() if name not in _NO_ENDS)
     return f"{counts['all']} results: {ended}" if ended else "no results"

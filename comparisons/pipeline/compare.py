@@ -16,7 +16,7 @@ from comparisons.description.budget import line_of_results
 from comparisons.model import Model
 from comparisons.output.errors import comparison_table, error_summary, relative_error
 from comparisons.output.figures.of_run import draw_comparison
-from comparisons.output.latex import UPRIGHT_WIDTH, latex
+from comparisons.output.latex import UPRIGHT_WIDTH, latex, put_together
 from comparisons.output.markup import html_table
 from comparisons.output.style import save
 from comparisons.output.summaries import WIDTH, case_tables, side_by_side, summary_tables, terminal_tables
@@ -77,7 +77,7 @@ class Comparison:
             for number, texts in enumerate(side_by_side(cases, UPRIGHT_WIDTH), start=1)
         ]
         summaries = (latex(table.texts, table.caption, table.id) for table in summary_tables(self.summary))
-        return "\n".join([*tables, *summaries])
+        return put_together([*tables, *summaries])
 
     def __repr__(self) -> str:
         return plain_text(terminal_tables(self.table, self.summary), WIDTH)

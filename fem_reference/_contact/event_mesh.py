@@ -18,7 +18,7 @@ from fem_reference._contact.states import edge_is_resolved
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import SEARCH_DEGREE, finer_levels
 from fem_reference.errors import NotConverged
-from fem_reference.problem import Problem
+from fem_reference.problem import Problem, checked_problem
 from fem_reference.punch import check_without_asperities
 
 __all__ = ["EventMesh", "chosen", "event_mesh", "whole_path"]
@@ -186,9 +186,7 @@ def _whole_path(meshes: Meshes) -> PathEvents:
 
 def _on_first(problem: Problem, accuracy: float | str, computed: Callable[[Meshes], Computed]) -> Computed:
     """What is computed on the first meshes, from those of an accuracy on, on which it converges."""
-    if not isinstance(problem, Problem):
-        raise ValueError(f"problem = {problem!r} is not a Problem; make one of a solid, a punch and a surface law")
-    length = problem.law.z0
+    length = checked_problem(problem).law.z0
     check_without_asperities(problem.punch, LOWEST * length, HIGHEST * length)
     *coarser, finest = [Meshes(problem, level) for level in finer_levels(accuracy)]
     for meshes in coarser:

@@ -38,9 +38,10 @@ from fscm._whole_punch import WholePunch
 from fscm.errors import Failure, NotConverged
 from fscm.interaction import Derjaguin
 from fscm.problem import Problem
+from fscm.punch import PunchShape, ScaledPunch, kinks_of
 from fscm.wells import has_one_well, tension_beyond
 
-__all__ = ["LeastLoad", "PathEnd", "depth", "displacement_of_compression"]
+__all__ = ["LeastLoad", "PathEnd", "depth", "displacement_of_compression", "refusal"]
 
 #: Number of radii at which the shape is evaluated; every _EVERY-th is the radius of a flat punch.
 _RADII, _EVERY = 3000, 24
@@ -50,6 +51,8 @@ _FIRST_RADIUS = 1e-7
 _LARGEST = 1e-2
 #: Relative decrease of r f' that counts as rounding: a slope by differences has an error of 1e-11 of f / r.
 _LEVEL = 1e-6
+#: Difference of exponents that is rounding.
+_SAME_POWER = 1e-6
 #: Ratio of successive displacements in the search.
 _RATIO = 1.05
 #: Iterations for the deformation by tension: they decrease, so that each is a bound.
@@ -138,10 +141,48 @@ def depth(problem: Problem, end: float) -> float:
     return -min(0.0, float(np.min(problem.punch.height(_radii(end)))))
 
 
-def _has_asperities(problem: Problem, end: float) -> bool:
-    r = _radii(end)[1:]
-    rising = r * problem.punch.slope(r)
-    return bool(np.any(np.diff(rising) < -_LEVEL * np.abs(rising[1:])) or rising[0] < 0.0)
+def _first_fall(punch: PunchShape, end: float) -> float | None:
+    """Radius from which on r f' decreases, 0 for a concave tip; None without asperities."""
+    r = _radii(end)
+    rising = r[1:] * punch.slope(r[1:])
+    falls = np.flatnonzero(np.diff(rising, prepend=0.0) < -_LEVEL * np.abs(rising))
+    if not falls.size:
+        return None
+    before, behind = r[falls[0]], r[falls[0] + 1]
+    return float(next((kink for kink in kinks_of(punch) if before < kink <= behind), before))
+
+
+def refusal(problem: Problem, end: float, unknown: str) -> NotConverged:
+    """The error on a path whose end is not known, with the radius at which the punch bends down, if it does.
+
+    Parameters
+    ----------
+    problem : Problem
+    end : float
+        Largest radius that is examined.
+    unknown : str
+        What is not known, in words.
+    """
+    punch = problem.punch
+    fall = _first_fall(punch, end)
+    if fall is None:
+        return NotConverged(unknown, Failure.END)
+    # A scaled punch is that of a physical problem.
+    r = fall * punch.radius if isinstance(punch, ScaledPunch) else fall
+    unit = "" if isinstance(punch, ScaledPunch) else f" {problem.unit_name('radius')}"
+    bends = f"{unknown}: the punch bends down at r = {r:.4g}{unit}"
+    if fall in kinks_of(punch):
+        # On both sides of the kink, whose radius is rounded.
+        sides = fall * (1.0 + np.array([-8.0, 8.0]) * np.finfo(float).eps)
+        inside, beyond = sides * punch.slope(sides) / punch.height(sides)
+        if abs(beyond - punch.growth) < _SAME_POWER:
+            grown = math.ceil((inside - _SAME_POWER) * 100.0) / 100.0
+            return NotConverged(
+                f"{bends}, its last row: up to there it grows like r^{grown:g}, and beyond like r^{punch.growth:g}, "
+                f"its growth (2 by default); set growth = {grown:g}",
+                Failure.GROWTH,
+            )
+    return NotConverged(f"{bends}, as outside an asperity", Failure.END)
 
 
 def displacement_of_compression(problem: Problem, end: float) -> float:
@@ -158,19 +199,14 @@ def displacement_of_compression(problem: Problem, end: float) -> float:
     float
         Infinite if the bound is not positive at the largest displacement examined.
     """
-    if not _has_asperities(problem, end) and has_one_well(problem.law):
+    has_barrier = not has_one_well(problem.law)
+    if _first_fall(problem.punch, end) is None and not has_barrier:
         return -math.inf
+    law = ", whose law has a barrier," if has_barrier else ""
     if problem.graded is not None:
-        raise NotConverged(
-            f"the punch of {problem} has asperities, or its law a barrier: the end of its path is known for a "
-            "power-law modulus only",
-            Failure.END,
-        )
-    if not (has_one_well(problem.law) or isinstance(problem.force, Derjaguin)):
-        raise NotConverged(
-            f"the law of {problem} has a barrier: the end of its path is known for the interaction 'derjaguin' only",
-            Failure.END,
-        )
+        raise refusal(problem, end, f"the end of the path of {problem}{law} is known for a power-law modulus only")
+    if has_barrier and not isinstance(problem.force, Derjaguin):
+        raise refusal(problem, end, f"the end of the path of {problem}{law} is known for vertical gaps only")
     bound = LeastLoad(problem, end)
     largest = _LARGEST * float(problem.punch.height(np.array([end]))[0])
     smallest, displacement = math.inf, largest

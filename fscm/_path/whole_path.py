@@ -9,7 +9,7 @@ from functools import partial
 from fscm._path.arc_length import Point
 from fscm._path.completeness import completed
 from fscm._path.continuation import equilibrium_path
-from fscm._path.ends import PathEnd, displacement_of_compression
+from fscm._path.ends import PathEnd, displacement_of_compression, refusal
 from fscm._path.punch_rules import Tracking, rules_of
 from fscm._path.surface_rings import ring_limit
 from fscm._surface.breaks import end_radius
@@ -142,11 +142,8 @@ def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
 def path_end(problem: Problem, end_height: float) -> PathEnd:
     """Condition that ends one path, beyond which no state carries tension; it stores the largest delta."""
     examined = end_height if has_one_well(problem.law) else _OVER_BARRIERS * end_height
-    displacement = displacement_of_compression(problem, end_radius(problem, examined))
+    radius = end_radius(problem, examined)
+    displacement = displacement_of_compression(problem, radius)
     if displacement == math.inf:
-        raise NotConverged(
-            f"of the path of {problem} it cannot be told where its last tension is: "
-            "up to the largest displacement that is examined, the attraction can still exceed the compression",
-            Failure.END,
-        )
+        raise refusal(problem, radius, f"of the path of {problem} it cannot be told where its last tension is")
     return PathEnd(displacement)

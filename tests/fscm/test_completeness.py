@@ -9,9 +9,10 @@ import pytest
 from fscm import Analysis, NotConverged, Problem, displacement_cycle, equilibria, trace
 from fscm._path import events
 from fscm._path.completeness import completed, may_hide
-from fscm._path.ends import LeastLoad, beyond_layers, displacement_of_compression
+from fscm._path.ends import LeastLoad, beyond_layers, displacement_of_compression, refusal
 from fscm.custom_punch import CustomPunch
 from fscm.experiment import load_controlled_retreat
+from fscm.measured_punch import MeasuredPunch
 from fscm.path import EquilibriumPath
 from fscm.punch import PowerSum, RoundedCone
 from tests.fscm.solved_once import ASPERITY, SUBSTRATE, WORK, R, analysis_of, path_of, stiff_on_soft
@@ -71,9 +72,28 @@ def test_the_least_load_tends_to_that_without_adhesion() -> None:
     assert displacement_of_compression(Problem(2, 0, 1.0), 1000.0) == -math.inf
 
 
+def test_with_the_growth_that_is_named_a_profile_bends_down_nowhere() -> None:
+    """The exponent of the last segment, rounded up: a chord is a little less steep than the power."""
+    r = np.linspace(0.0, 10.0, 41)
+    for power in (2.3, 2.345):
+        bent = Problem(2, 0, 1.0, punch=MeasuredPunch(r.tolist(), (r**power).tolist()))
+        assert displacement_of_compression(bent, 2000.0) > -math.inf
+        growth = float(str(refusal(bent, 2000.0, "unknown")).partition("set growth = ")[2].partition(";")[0])
+        straight = Problem(2, 0, 1.0, punch=MeasuredPunch(r.tolist(), (r**power).tolist(), growth))
+        assert displacement_of_compression(straight, 2000.0) == -math.inf
+        assert power - 0.05 < growth <= power
+
+
+def test_the_growth_that_is_named_is_not_rounded_down() -> None:
+    """The last segment has the exponent 2.30005, and 2.30 would bend the profile down again."""
+    r, heights = (0.0, 1.9, 2.0), (0.0, 1.0 - 0.1 * 2.30005 / 2.0, 1.0)
+    message = str(refusal(Problem(2, 0, 1.0, punch=MeasuredPunch(r, heights)), 2000.0, "unknown"))
+    assert "set growth = 2.31;" in message
+
+
 def test_a_path_whose_end_has_no_bound_is_not_known_to_be_complete() -> None:
     """So soft a solid pulls itself up to the punch farther than is examined."""
-    with pytest.raises(NotConverged, match="cannot be told where its last tension is"):
+    with pytest.raises(NotConverged, match="cannot be told where its last tension is: the punch bends down at r = "):
         Analysis(Problem(2, 0, 20.0, punch=ASPERITY)).solution("pull_off_force")
 
 

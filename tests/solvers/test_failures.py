@@ -72,6 +72,11 @@ def test_a_failure_passes_between_processes(kind):
 
 
 FSCM = fscm.Problem(n=2, k=0.4, mu=1)
+BEAD = comparisons.Problem.of(
+    solid={"kind": "homogeneous", "E": "1.5 MPa", "nu": 0.49},
+    punch={"kind": "sphere", "R": "5 um"},
+    law={"kind": "lennard-jones-9-3", "work_of_adhesion": "50 mJ/m^2", "z0": "3 nm"},
+)
 FEM = fem_reference.Problem(
     fem_reference.Homogeneous(50.0, 0.3), fem_reference.PowerPunch(2.0, 1.0), fem_reference.LennardJones(1.0, 1.0)
 )
@@ -167,7 +172,23 @@ def test_a_value_with_a_unit_is_led_to_where_it_is_taken(solver, value):
 @pytest.mark.parametrize(("solver", "problem"), [(fscm, FSCM), (fem_reference, FEM)], ids=["fscm", "fem"])
 def test_a_wrong_argument_is_one_sentence(solver, problem):
     refused("is one name", solver.solve_together, problem, "pull_off_force")
-    refused("is no Problem", solver.solve, (2, 0.4, 1), "pull_off_force")
+    refused("a builtins.tuple is no Problem", solver.solve, (2, 0.4, 1), "pull_off_force")
+
+
+@pytest.mark.parametrize("solver", [fscm, fem_reference], ids=["fscm", "fem"])
+@pytest.mark.parametrize(
+    ("name", "quantity"), [("solve", ["pull_off_force"]), ("solve_together", [["pull_off_force"]]), ("trace", [])]
+)
+def test_the_problem_of_another_package_is_led_to_where_it_is_taken(solver, name, quantity):
+    """Without the whole of it, which may have the rows of a table."""
+    words = f"^a comparisons.Problem is no Problem of {solver.__name__}: give it to comparisons.evaluate"
+    for problem in (BEAD, comparisons.Problem.dimensionless(2, 0.4, 1)):
+        refused(words, getattr(solver, name), problem, *quantity)
+    assert isinstance(BEAD.build(solver), solver.Problem)
+
+
+def test_the_problem_of_three_numbers_is_posed_for_the_fscm():
+    assert comparisons.Problem.dimensionless(2, 0.4, 1).posed == FSCM
 
 
 @pytest.mark.parametrize(("solver", "problem"), [(fscm, FSCM), (fem_reference, FEM)], ids=["fscm", "fem"])

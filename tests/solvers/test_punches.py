@@ -8,6 +8,8 @@ import pytest
 
 import fem_reference
 import fscm
+from comparisons.problem.punch_shapes import SmoothedProfile
+from fem_reference.punch import check_without_asperities
 from tests.refusals import refused
 
 both = pytest.mark.parametrize("package", [fscm, fem_reference], ids=lambda package: package.__name__)
@@ -63,6 +65,41 @@ def test_a_measured_profile_is_its_segments_and_a_power(package):
     # The slope does not jump at 1.
     assert punch.kinks == (2.0, 3.0)
     assert package.MeasuredPunch([0.0, 1.0, 2.5], [0.0, 1.0, 2.5], growth=1).kinks == ()
+
+
+def bent(growth, power=2.3):
+    """A tip that grows like a power of r up to its last row at 400 nm."""
+    r = np.linspace(0.0, 400e-9, 81)
+    return SmoothedProfile(tuple(r), tuple(1e-6 * (r / 400e-9) ** power), 1e-13, growth)
+
+
+@both
+def test_a_profile_that_bends_down_beyond_its_last_row_is_told_its_growth(package):
+    """On a soft solid, whose path may go on there; both name the radius and the growth that helps."""
+    law = package.LennardJones(0.05, 0.3e-9)
+    tips = {"2.3": bent(2.0), "2.29": package.MeasuredPunch(bent(2.0).radii, bent(2.0).heights)}
+    for growth, tip in tips.items():
+        words = rf"bends down at r = 4e-07, its last row.*r\^{growth},.*r\^2,.*set growth = {growth}; "
+        problem = package.Problem(package.Homogeneous(2e6, 0.4), tip, law)
+        failure = refused(words, package.solve, problem, "pull_off_force", "quick", error=package.NotConverged)
+        assert failure.failure is package.Failure.GROWTH
+
+
+def test_the_growth_that_the_elements_name_is_not_rounded_down():
+    """The last segment has the exponent 2.30005, and 2.30 would bend the profile down again."""
+    tip = fem_reference.MeasuredPunch((0.0, 1.9, 2.0), (0.0, 1.0 - 0.1 * 2.30005 / 2.0, 1.0))
+    refused("set growth = 2.31; ", check_without_asperities, tip, 1e-6, 1e4, error=fem_reference.NotConverged)
+
+
+@both
+def test_the_radius_at_which_a_punch_bends_down_is_named(package):
+    """A plain of 1 um around an asperity."""
+    heights = 1e-6 * np.array([0.0, 1.0, 1.01, 9.0])
+    tip = package.MeasuredPunch(1e-6 * np.array([0.0, 1.0, 2.0, 3.0]), heights)
+    problem = package.Problem(package.Homogeneous(1e6, 0.4), tip, package.LennardJones(0.05, 0.3e-9))
+    words = "bends down at r = 1e-06, as outside an asperity"
+    failure = refused(words, package.solve, problem, "pull_off_force", "quick", error=package.NotConverged)
+    assert failure.failure is package.Failure.END
 
 
 @both

@@ -20,7 +20,7 @@ from comparisons.output import plots
 from comparisons.output.figures.of_run import draw_plots
 from comparisons.output.style import picture_path, save
 from comparisons.problem import Problem
-from comparisons.problem.evaluation import evaluated, force_curve_to
+from comparisons.problem.evaluation import SOLVERS, evaluated, force_curve_to
 from comparisons.problem.units import NotAValue, in_si, si_text
 from comparisons.quantities import CURVES, Points
 from comparisons.registry import create, identify
@@ -187,7 +187,7 @@ def _evaluated(
     status = OK
     for name, model in models.items():
         try:
-            with waiting(f"{name}, {problem.label}"):
+            with waiting(f"solving {problem.label} with {name}", is_long=name in SOLVERS):
                 if max_load is None:
                     points = cast(Points, evaluated(problem, model, quantity))
                 else:

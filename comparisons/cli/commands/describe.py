@@ -14,7 +14,7 @@ from comparisons.description.equivalent_power_law import equivalent_power_law
 from comparisons.description.forces import profile_sensitivity, reference_force
 from comparisons.description.overview import overview
 from comparisons.description.text import description_text
-from comparisons.description.uncertainty import check_quantity, uncertainty
+from comparisons.description.uncertainty import check_quantity, check_uncertain, uncertainty
 from comparisons.problem import Problem
 
 _UNCERTAIN = "also print the uncertainty of the pull-off force from the uncertain values of the file"
@@ -47,8 +47,9 @@ def describe_command(args: argparse.Namespace) -> int:
     if (args.file is None) == (args.problem is None):
         raise ValueError("describe takes one problem file: fscm-bench describe FILE")
     problem = Problem.load(args.file or args.problem)
-    with waiting(problem.label):
-        # First: it may refuse the file or the quantity.
+    if args.uncertain:
+        check_uncertain(problem)
+    with waiting(f"solving {problem.label} with fscm", is_long=True):
         of_values = uncertainty(problem, args.quantity or "pull_off_force") if args.uncertain else None
         force = reference_force(problem)
         equivalent = equivalent_power_law(problem, force)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from comparisons.bench.run import PARTS, run_bench
 from comparisons.cli.options import JOBS, QUIET, command, file, option, several
-from comparisons.cli.screen import output, print_lines
+from comparisons.cli.screen import output, print_text
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note
 from comparisons.paper.registry import NAMES
@@ -68,7 +68,7 @@ def bench_command(args: argparse.Namespace) -> int:
     """
     finished = run_bench(args.out, args.only, full=args.full, against=args.against)
     if not args.quiet:
-        print_lines(finished.summary)
+        print_text(finished.summary)
     for failure in finished.failures:
         log(failure)
     note(f"tables, figures and record are in {args.out}")

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.cli.options import JOBS, command, file, option, output_format, several
-from comparisons.cli.screen import output, print_lines
+from comparisons.cli.screen import output, print_text
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, note
 from comparisons.description.budget import budget_line
@@ -30,7 +30,7 @@ _MOST_SHOWN, _AT_AN_END = 50, 5
 
 
 @command(
-    file("curves", metavar="CURVE", nargs="+", help="CSV with displacement [nm] and load [nN], or an AFM file"),
+    file("curves", metavar="CURVE", nargs="*", help="CSV with displacement [nm] and load [nN], or an AFM file"),
     file("--problem", required=True, help="a problem file; the fit starts from its values"),
     several("--free", metavar="KEY", required=True, help="keys of the problem file to fit, as solid.E"),
     option("--model", choices=("fscm", "jkr"), help="(default: fscm, and jkr where the two agree)"),
@@ -52,16 +52,15 @@ def fit_command(args: argparse.Namespace) -> int:
         fscm-bench fit *.jpk-force --problem probe.toml --free solid.E --stiffness '0.2 N/m' --out fits
     """
     problem = Problem.load(args.problem)
-    if missing := [path for path in args.curves if not path.exists()]:
-        raise ValueError(f"there is no file {missing[0]}; check the name")
+    curves, keys = _curves_and_keys(args.curves, args.free)
     instrument = {
         "stiffness": None if args.stiffness is None else _si("stiffness", args.stiffness, "N/m"),
         "sensitivity": _sensitivity(args.sensitivity),
     }
     items = fit_files(
-        args.curves,
+        curves,
         problem,
-        args.free,
+        keys,
         args.out,
         args.jobs,
         pictures=args.pictures,
@@ -79,8 +78,8 @@ def fit_command(args: argparse.Namespace) -> int:
     elif fits:
         shown, left_out = _ends(items)
         output().print(rich_table(_cells(shown, left_out), CAPTION))
-        print_lines(_left_out(left_out, args.out))
-        print_lines(line for item in shown for fitted in item["fits"] for line in _lines(fitted, len(items) > 1))
+        print_text(_left_out(left_out, args.out))
+        print_text(line for item in shown for fitted in item["fits"] for line in _lines(fitted, len(items) > 1))
     failed, left_out = _ends([item for item in items if item["failure"]])
     for item in failed:
         log(f"{item['curve']}: {item['failure']}")
@@ -89,6 +88,18 @@ def fit_command(args: argparse.Namespace) -> int:
     if args.out is not None:
         note(f"fits.csv, fits.json, fits.tex and {_pictures(len(items), args.pictures)} are in {args.out}")
     return FAILED if any(item["failure"] for item in items) else OK
+
+
+def _curves_and_keys(curves: Sequence[Path], words: Sequence[str]) -> tuple[list[Path], list[str]]:
+    """Return the curves and the keys to fit: --free takes the words behind it, the curves among them, too."""
+    behind = [Path(word) for word in words if Path(word).is_file()]
+    keys = [word for word in words if Path(word) not in behind]
+    if missing := [path for path in curves if not path.exists()]:
+        raise ValueError(f"there is no file {missing[0]}; check the name")
+    if not (curves or behind) or not keys:
+        lacks = "keys to fit" if curves or behind else "a measured curve, or its file does not exist"
+        raise ValueError(f"the command lacks {lacks}: write fscm-bench fit CURVE ... --problem FILE --free KEY ...")
+    return [*curves, *behind], keys
 
 
 def _ends(items: Sequence[_Item]) -> tuple[list[_Item], int]:

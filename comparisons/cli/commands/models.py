@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import lazy_loader
 
 from comparisons.cli.options import MODEL_SPEC, command, file, option
-from comparisons.cli.screen import print_lines
+from comparisons.cli.screen import print_text
 from comparisons.console.exit_status import FAILED, FAILS, OK
 from comparisons.console.progress import log, waiting
 from comparisons.external.contract_checks import SKIPPED, examine
@@ -55,6 +55,6 @@ def check_model_command(args: argparse.Namespace) -> int:
     model = external_model(args.spec)
     with waiting(f"checking {model.name}"):
         findings = examine(model)
-    print_lines(f"{finding.status:{_STATUS}}  {finding.check}: {finding.text}" for finding in findings)
+    print_text(f"{finding.status:{_STATUS}}  {finding.check}: {finding.text}" for finding in findings)
     statuses = {finding.status for finding in findings}
     return FAILED if "failed" in statuses else FAILS if "wrong" in statuses else OK

@@ -6,7 +6,7 @@ import argparse
 from shlex import quote
 
 from comparisons.cli.options import INTEGER, JOBS, OUT, QUIET, VERBOSE, command, file, option, several
-from comparisons.cli.screen import output, print_end, print_lines
+from comparisons.cli.screen import output, print_end, print_text
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK
 from comparisons.console.progress import log, note
 from comparisons.judging.decision import Verdict
@@ -66,7 +66,7 @@ def run_command(args: argparse.Namespace) -> int:
     if not args.quiet:
         for table in largest_errors(finished.tables.kappa):
             output().print(table)
-        print_lines([computations_sentence(finished.counts)])
+        print_text([computations_sentence(finished.counts)])
     assert finished.judgement is not None  # There are gates: the standing ones, or those of the user.
     _print_verdicts(finished.judgement, args)
     status = print_end(finished.failures, finished.folder)
@@ -114,10 +114,10 @@ def _print_verdicts(judgement: Judgement, args: argparse.Namespace) -> None:
         for line in gate_lines(unexpected(gates), judgement.inputs.specs, _GATES):
             log(line)
     else:
-        print_lines(_cards(judgement))
+        print_text(_cards(judgement))
         rows, most = (gates, None) if args.verbose else (unexpected(gates), _GATES)
-        print_lines(gate_lines(rows, judgement.inputs.specs, most))
-        print_lines(filter(None, [declared_sentence(gates), gates_sentence(gates, judgement.verdicts, checks)]))
+        print_text(gate_lines(rows, judgement.inputs.specs, most))
+        print_text(filter(None, [declared_sentence(gates), gates_sentence(gates, judgement.verdicts, checks)]))
     wrong = gates[gates["verdict"] == Verdict.ERROR]
     for row in wrong.head(_ERRORS).itertuples():
         log(f"a gate is in error: {row.gate} of {row.candidate}: {row.reason}")

@@ -13,6 +13,7 @@ from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
 from comparisons.numerics.number_text import case_text, short
 from comparisons.problem import Problem
+from comparisons.problem.evaluation import SOLVERS
 from comparisons.problem.units import si_text
 from comparisons.quantities import QUANTITIES, known_scalar
 from comparisons.runs.rows import Row
@@ -42,7 +43,8 @@ def solve_command(args: argparse.Namespace) -> int:
         args.mu = 1.0
     problem = problem_of(args)
     case = {name: number for name, number in problem.parameters.items() if not (without_mu and name == "mu")}
-    with waiting(f"{args.model}, {case_text(case) or problem.label}"):
+    is_long = args.model in SOLVERS and not problem.is_dimensionless
+    with waiting(f"solving {case_text(case) or problem.label} with {args.model}", is_long):
         row = evaluate(args.model, args.quantity, problem)
     if args.format == "text":
         print_text(_lines(problem, row, case))
@@ -84,8 +86,10 @@ def _csv(row: Row) -> str:
 
 def _lines(problem: Problem, row: Row, case: Mapping[str, Any]) -> list[str]:
     quantity = QUANTITIES[row.quantity]
+    # Jumps under a prescribed load begin at another Tabor number.
+    control = ", at prescribed displacement" if row.quantity == "critical_tabor_number" else ""
     label = f"at {case_text(case)}" if problem.is_dimensionless else f"of {problem.label}"
-    lines = [f"{row.model}: {row.quantity} {label}"]
+    lines = [f"{row.model}: {row.quantity} {label}{control}"]
     if row.value is None or row.u_num is None:
         lines.append(f"  {row.status}: {row.reason}")
     elif not problem.is_dimensionless:

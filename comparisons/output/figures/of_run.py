@@ -12,7 +12,7 @@ import pandas as pd
 from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA, KAPPA_FIGURE, REFERENCES
 from comparisons.numerics.number_text import number_parts
 from comparisons.output import plots
-from comparisons.output.style import ModelStyle, model_styles, new_figure, styled
+from comparisons.output.style import BRANCHES, ModelStyle, model_styles, new_figure, styled
 from comparisons.registry import MODELS
 
 if TYPE_CHECKING:
@@ -30,6 +30,9 @@ _MOST_PANELS, _LEGEND_CHARACTER, _LEGEND_LINE = 24, 0.063, 0.8
 _LEGEND_HEIGHT = 0.17
 #: Length of a line in the legend, in characters' heights: two periods of dash and dot.
 _LEGEND_SAMPLE = 4.0
+
+#: A model and the branch of its cycle, empty of other curves.
+_Line = tuple[str, str]
 
 #: Characters of a line beside or above a panel.
 _LINE = 28
@@ -97,31 +100,33 @@ def draw_plots(drawn: Sequence[plots.Plot]) -> Figure:
     longest = max(map(len, entries.values()), default=0)
     in_legend = max(1, int(width // (_LEGEND_LINE + _LEGEND_CHARACTER * longest)))
     with styled():
-        figure = new_figure(width, 0.7 + 2.4 * height + _LEGEND_HEIGHT * (len(styles) // in_legend))
-        handles: dict[str, Any] = {}
+        figure = new_figure(width, 0.7 + 2.4 * height + _LEGEND_HEIGHT * (len(entries) // in_legend))
+        handles: dict[_Line, Any] = {}
         for axes, panel in zip_longest(figure.subplots(height, columns, squeeze=False).flat, panels):
             axes.set_visible(panel is not None)
             if panel is not None:
                 plot, rows = panel
                 handles |= _panel(axes, plot, rows, styles)
-        labels = [entries[model] for model in handles]
+        labels = [entries[line] for line in handles]
         figure.legend(
             handles.values(), labels, loc="outside lower center", ncols=in_legend, handlelength=_LEGEND_SAMPLE
         )
     return figure
 
 
-def _legend_entries(drawn: Sequence[plots.Plot]) -> dict[str, str]:
-    """Return the text of each model in the legend: its name and largest bound, whose bar may be too small.
+def _legend_entries(drawn: Sequence[plots.Plot]) -> dict[_Line, str]:
+    """Return the text of each line in the legend: model, branch and largest bound, whose bar may be too small.
 
     Panels with units of their own have no common bound.
     """
-    if any(plot.y_labels for plot in drawn):
-        return {str(model): str(model) for plot in drawn for model in plot.points["model"]}
     points = pd.concat([plot.points for plot in drawn])
-    largest = (points["high"] - points["y"]).groupby(points["model"]).max()
+    largest = (points["high"] - points["y"]).groupby([points["model"], points["branch"]]).max()
+    have_bounds = not any(plot.y_labels for plot in drawn)
     unit = next((plot.unit for plot in drawn), "")
-    return {str(model): f"{model}, u ≤ {bound:.1e}{unit}" if bound else str(model) for model, bound in largest.items()}
+    return {
+        line: ", ".join([*filter(None, line), *([f"u ≤ {bound:.1e}{unit}"] if bound and have_bounds else [])])
+        for line, bound in largest.items()
+    }
 
 
 def _option_text(heading: str, text: str) -> str:
@@ -135,17 +140,18 @@ def _option_text(heading: str, text: str) -> str:
     return f"{heading} = {text}".replace(" ", "\u00a0") if number_parts(text.partition(" ")[0]) else text
 
 
-def _panel(axes: Axes, plot: plots.Plot, rows: pd.DataFrame, styles: Mapping[str, ModelStyle]) -> dict[str, Any]:
-    """Draw the points of one choice; return what the legend shows of each model."""
+def _panel(axes: Axes, plot: plots.Plot, rows: pd.DataFrame, styles: Mapping[str, ModelStyle]) -> dict[_Line, Any]:
+    """Draw the points of one choice; return what the legend shows of each line."""
     handles = {}
     # External models stand first in the legend, and above the others.
-    for model, points in sorted(rows.groupby("model"), key=lambda pair: pair[0] in MODELS):
+    for (model, branch), points in sorted(rows.groupby(["model", "branch"]), key=lambda pair: pair[0][0] in MODELS):
         style = styles[str(model)]
         drawn = style.arguments | ({} if model in MODELS else {"zorder": 4})
+        drawn |= {"ls": BRANCHES[branch]} if branch else {}
         if plot.mark == "both":
             bars = points["high"] - points["y"]
             drawn |= {"yerr": bars, "elinewidth": 0.8, "capsize": 2, "marker": style.symbol, "ms": 3.5}
-        handles[str(model)] = axes.errorbar(points["x"], points["y"], **drawn)[0]
+        handles[model, branch] = axes.errorbar(points["x"], points["y"], **drawn)[0]
     axes.axhline(0, color="0.4", lw=0.8)
     options = zip(plot.choices, rows["options"].iloc[0], strict=True)
     texts = [_option_text(column.heading, text) for column, text in options]

@@ -53,6 +53,22 @@ def test_a_stiff_cantilever_jumps_where_the_displacement_folds(capsys, probe):
         assert (after < before < 0.0) if branch == "approach" else (before < after < 0.0)
 
 
+def test_the_picture_tells_approach_from_retreat(probe, tmp_path, monkeypatch):
+    """By the dashes and in the legend; models by their colour."""
+    drawn = []
+    monkeypatch.setattr("comparisons.cli.commands.curve.save", lambda figure, path: drawn.append(figure))
+    options = ["--problem", str(probe), "--stiffness", "1 N/m", "--plot", str(tmp_path / "a.png")]
+    assert main(["curve", "--model", "jkr", "dmt", *options]) == 0
+    (legend,) = drawn[0].legends
+    assert [text.get_text() for text in legend.get_texts()] == [
+        f"{model}, {branch}" for model in ("dmt", "jkr") for branch in ("approach", "retreat")
+    ]
+    lines = [container[0] for container in drawn[0].axes[0].containers]
+    assert [line.get_linestyle() for line in lines] == ["--", "-"] * 2
+    assert len({line.get_color() for line in lines[:2]}) == len({line.get_color() for line in lines[2:]}) == 1
+    assert lines[0].get_color() != lines[2].get_color()
+
+
 def test_a_soft_cantilever_holds_on_to_pull_off_and_misses_the_rest(capsys, probe):
     _, stiff, _ = cycle(capsys, probe, "1e6 N/m", "fscm")
     _, soft, said = cycle(capsys, probe, "0.5 N/m", "fscm")
@@ -61,12 +77,14 @@ def test_a_soft_cantilever_holds_on_to_pull_off_and_misses_the_rest(capsys, prob
     assert ends(soft, "approach")[1] > ends(stiff, "approach")[1]
     assert np.allclose(soft["position [m]"] - soft["displacement [m]"], soft["load [N]"] / 0.5)
     assert "fscm: snaps in" in said
+    assert said.count("solving probe.toml with fscm: this may take a minute") == 1
     # The largest tension; a stiffer cantilever lets go later, at less.
     assert "pull-off force 59.8" in said
 
 
 def test_a_model_of_the_contact_alone_snaps_in_where_the_surfaces_touch(capsys, probe):
-    status, table, _ = cycle(capsys, probe, "1 N/m", "jkr", "dmt")
+    status, table, said = cycle(capsys, probe, "1 N/m", "jkr", "dmt")
+    assert "a minute" not in said
     assert status == 0
     for _, rows in table.groupby("model"):
         position, before, after = ends(rows, "approach")

@@ -1,5 +1,6 @@
 """Start of the program and its messages: another package of its name, extras that are missing, bars on a terminal."""
 
+import io
 import os
 import re
 import subprocess
@@ -8,8 +9,8 @@ import sys
 import pandas as pd
 import pytest
 
-from comparisons.cli.screen import output, print_lines
-from comparisons.console.exit_status import EXTRAS, FAILED, WRONG_INPUT
+from comparisons.cli.screen import output, print_text
+from comparisons.console.exit_status import EXTRAS, FAILED, WRONG_INPUT, guarded
 from comparisons.console.progress import log, note
 from comparisons.output.terminal import rich_table
 from tests.comparisons.grid_text import grid_text
@@ -75,6 +76,33 @@ def test_without_pyamg_the_finite_elements_say_so_in_one_sentence():
         assert "internal error" not in done.stderr
 
 
+class Screen(io.StringIO):
+    """A terminal."""
+
+    def isatty(self):
+        return True
+
+
+@pytest.mark.parametrize("stream", [Screen, io.StringIO])
+def test_a_terminal_shows_a_long_message_in_lines_of_80_characters_and_a_command_whole(stream, monkeypatch):
+    """Anything else gets one line for each message, which a search finds."""
+    sentence, order = " ".join(["word"] * 40), "fscm-bench solve --model jkr --quantity pull_off_force " + "--n 2 " * 9
+
+    def refuse():
+        raise ValueError(sentence)
+
+    for write in (lambda: log(sentence), lambda: guarded(refuse)):
+        monkeypatch.setattr(sys, "stderr", stream())
+        write()
+        lines = sys.stderr.getvalue().splitlines()
+        assert len(lines) == (3 if stream is Screen else 1)
+        assert (max(map(len, lines)) <= 80) is (stream is Screen)
+        assert " ".join(map(str.strip, lines)).endswith(sentence)
+    monkeypatch.setattr(sys, "stderr", stream())
+    log(order)
+    assert sys.stderr.getvalue().count("\n") == 1
+
+
 @pytest.mark.parametrize("extra", EXTRAS)
 def test_no_module_imports_an_extra(extra):
     """Only a report with plots needs its files; every other command works without."""
@@ -87,7 +115,7 @@ def print_table(text):
 
 
 @pytest.mark.parametrize(
-    "write", [log, note, print_table, lambda text: output().print(text), lambda text: print_lines([text])]
+    "write", [log, note, print_table, lambda text: output().print(text), lambda text: print_text([text])]
 )
 def test_control_characters_do_not_reach_the_terminal(write, capsys):
     write("fails: \x1b[2J\x1b]0;title\x07 \x9b2K \u202e [red]plain[/] \r gone")

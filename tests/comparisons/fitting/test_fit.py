@@ -497,6 +497,28 @@ def test_bad_input_is_one_sentence(tmp_path, capsys, text, options, sentence):
     assert "Traceback" not in error
 
 
+def test_curves_behind_the_keys_are_curves(tmp_path, refused, monkeypatch):
+    (tmp_path / "probe.toml").write_text(PROBE)
+    files = [tmp_path / f"{name}.csv" for name in "abc"]
+    for path in files:
+        path.touch()
+    given = []
+    monkeypatch.setattr("comparisons.cli.commands.fit.fit_files", lambda *arguments, **_: given.append(arguments) or [])
+    words = [*map(str, files)]
+    problem = ["--problem", str(tmp_path / "probe.toml")]
+    for command in (
+        [*problem, "--free", *FREE, *words],
+        [words[0], "--free", *FREE, words[1], *problem, "--free", words[2]],
+        [*words, *problem, "--free", *FREE],
+    ):
+        assert main(["fit", *command]) == 0
+    assert [(curves, keys) for curves, _, keys, *_ in given] == [(files, FREE)] * 3
+    refused(
+        ["fit", *problem, "--free", "solid.E0", str(tmp_path / "d.csv")], "lacks a measured curve", "fit CURVE ... "
+    )
+    refused(["fit", *problem, "--free", words[0]], "lacks keys to fit")
+
+
 def test_a_file_of_no_known_format_is_wrong_input(tmp_path, refused):
     """What afmformats raises for it is no `Exception`."""
     pytest.importorskip("afmformats")

@@ -63,6 +63,7 @@ def test_a_run_names_its_versions_and_models():
     cited = entries(as_bibtex(works("not this one", RECORD)))
     assert cited["fscm-bench"]["note"] == "version 0.1.0 (commit 0123456789ab)"
     assert cited["model-my-model"]["title"] == r"{Model my\_model, version 2 (ab)}"
+    assert cited["model-my-model"]["author"] == r"{{[}author of my\_model, to be filled in]}"
     assert cited["model-my-model"]["note"] == r"Someone, 50 \% wrong"
     assert cited["numpy"]["note"] == "version 2.4.6"
     assert "scikit-fem" not in cited

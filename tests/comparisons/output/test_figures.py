@@ -49,13 +49,18 @@ def test_values_are_drawn_over_each_varied_number_in_units_of_their_own():
     table = pd.DataFrame(cases, columns=["punch.R [m]", "solid.thickness [m]"])
     table["problem"] = [f"pad.toml; punch.R={R}; solid.thickness={thickness}" for R, thickness in cases]
     same = {"quantity": "pull_off_force", "model": "fscm", "unit": "N", "status": "ok", "u_num": 1e-12}
-    figure = draw_values(table.assign(value=[R * 0.3 for R, _ in cases], **same))
+    solved = table.assign(value=[R * 0.3 for R, _ in cases], **same)
+    figure = draw_values(solved)
     drawn = [axes for axes in figure.axes if axes.get_visible()]
     assert [axes.get_ylabel() for axes in drawn] == ["pull-off force (nN)"] * 5
     np.testing.assert_allclose(drawn[4].containers[0][0].get_xydata(), [[10, 600], [50, 600], [100, 600]])
     (legend,) = figure.legends
     assert [text.get_text() for text in legend.get_texts()] == ["fscm"]
-    assert draw_values(table.head(1).assign(value=1.0, **same)) is None
+    assert draw_values(solved.head(1)) is None
+    # Over more than a decade, 50 nm to 1 um, the axis is logarithmic.
+    assert {axes.get_xscale() for axes in drawn} == {"linear"}
+    wide = draw_values(solved.assign(**{"solid.thickness [m]": [5e-8, 1e-7, 1e-6] * 2}).head(3))
+    assert [axes.get_xscale() for axes in wide.axes] == ["log"]
 
 
 def test_the_curves_of_the_references_have_a_panel_for_each_case_with_the_tension():
@@ -100,6 +105,8 @@ def test_a_varied_key_is_the_axis_in_the_order_of_its_values_and_another_one_has
     ]
     assert {panel.get_xlabel() for panel in axes} == {"law.z0 (µm)"}
     assert {panel.get_xscale() for panel in axes} == {"log"}
+    decade = pd.DataFrame([row for row in rows if row["law.z0 [m]"] < 0.9e-6])
+    assert {panel.get_xscale() for panel in draw_comparison(decade).axes} == {"linear"}
     drawn = np.asarray(axes[0].containers[0][0].get_xdata(), float)
     np.testing.assert_allclose(drawn, [0.02, 0.2, 1.0])
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from comparisons.output.latex import escaped, latex
+from comparisons.output.latex import escaped, latex, put_together
 
 PAPER = Path(__file__).parents[3] / "results" / "baseline" / "paper"
 #: What our texts hold, what LaTeX takes as commands, and what others may write.
@@ -77,6 +77,10 @@ def test_tables_fit_a_page_and_a_wide_one_is_on_its_side(typeset):
     for count, form in ((1, "center"), (9, "landscape")):
         text = latex(pd.DataFrame({f"column {i}": [words] * 40 for i in range(count)}), words, f"form-{count}")
         assert rf"\begin{{{form}}}" in text
+        assert ("pdflscape" in text) is (form == "landscape")
         assert text.count(rf"\label{{tab:form-{count}}}") == 1
         tables.append(text)
     typeset(*tables)
+    together = put_together(tables[-2:])
+    assert together.count("usepackage") == together.count("pdflscape") == 1
+    assert together.count(r"\end{longtable}") == 2

@@ -98,7 +98,8 @@ def test_the_command_fits_80_columns_and_states_reference_and_coverage(tmp_path,
     assert main(["compare", *models, *case, "--reference", "atlas", "--out", str(tmp_path), "--jobs", "1"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert max(map(len, lines)) <= WIDTH
-    assert "pull-off force: kappa in percent (bound) against atlas" in lines
+    at = lines.index("pull-off force: kappa in percent (bound) against atlas,")
+    assert lines[at + 1] == "atlas in pi Q^(2/n) dgamma z0^(2/n-1)"
     heads = [line.split() for line in lines if line.split()[:3] == ["n", "k", "μ"]]
     assert [model for head in heads for model in head[4:]] == models
     # The atlas ends at mu = 10: the models have values there, and no error.
@@ -116,6 +117,9 @@ def test_all_models_at_equal_ratios_as_latex(tmp_path, capsys, monkeypatch, type
     case = ["--n", "2", "--k", "0", "--mu", "0.1:10:4", "--reference", "atlas", "--out", str(tmp_path), "--jobs", "1"]
     assert main(["compare", "jkr-sphere", "--model", "all", *case, "--latex"]) == 0
     typeset(text := capsys.readouterr().out)
+    assert text.startswith("% The document needs ")
+    assert text.count("usepackage") == 1
+    assert ("pdflscape" in text) is (r"\begin{landscape}" in text)
     table = read_table(tmp_path / "comparison.csv")
     assert sorted(set(table["mu"])) == [0.1, 0.464159, 2.15443, 10.0]
     compared = set(models) - {"semi-rigid"}
@@ -144,7 +148,9 @@ def test_the_keys_of_a_problem_file_make_cases(tmp_path, capsys):
     vary = ["--problem", str(tmp_path / "pad.toml"), "--vary", "law.work_of_adhesion=1, 2 J/m^2"]
     out = ["--out", str(tmp_path / "out"), "--jobs", "1"]
     assert main(["compare", "dmt", *vary, "--reference", "bradley", *out]) == 0
-    assert re.search(r" 6\.28318\d* µN", capsys.readouterr().out)
+    printed = capsys.readouterr().out
+    assert re.search(r" 6\.28318\d* µN", printed)
+    assert "dgamma" not in printed
     table = read_table(tmp_path / "out" / "comparison.csv")
     assert table["law.work_of_adhesion [J/m^2]"].tolist() == [1.0, 2.0]
     assert table["problem"].str.extract(r"work_of_adhesion=(\d)")[0].tolist() == ["1", "2"]

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -83,6 +84,15 @@ def test_a_description_traces_each_problem_once(monkeypatch):
     assert content["assumptions"]["geometry"]["basis"] == "bound"
     assert content["total_errors"]
     assert len(traced) == 2
+
+
+def test_slopes_that_any_soft_edge_has_are_printed_where_their_effect_is_unknown(bead):
+    unknown = {"error": None, "u_num": None, "basis": "unknown", "reason": "unknown"}
+    for name, slopes in ((None, []), ("strain", ["surface"]), ("derjaguin", ["gap"])):
+        assumed = bead["assumptions"] | ({name: unknown} if name else {})
+        text = description_text(BEAD, bead | {"assumptions": assumed}, None, [], None)
+        assert re.findall("largest slope of the (surface|gap), in the very edge", text) == slopes
+        assert "slope of the punch at the contact edge" in text
 
 
 @pytest.mark.parametrize("by_solution", [False, True])

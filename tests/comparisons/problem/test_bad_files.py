@@ -82,6 +82,8 @@ BAD_TEXT = [
     ('kind = "sphere"\n', "", ["line 9", "kind missing", "sphere"]),
     ("[punch]", "[tip]", ["line 9", "'tip'", "[punch]"]),
     ("R =", "D =", ["line 11", "punch.D", "half the diameter"]),
+    ('R = "2.5 um"', 'R = "2.5 um"\nRq = "1 nm"', ["line 12", "punch.Rq", "surfaces are smooth here"]),
+    ("z_s =", "Sa =", ["line 6", "solid.Sa", "surfaces are smooth here"]),
     ("work_of_adhesion =", "gamma =", ["line 15", "law.gamma", "2 gamma"]),
     ("work_of_adhesion =", "hamaker_constant =", ["line 15", "law.hamaker_constant", "sqrt(A/(16 pi w))"]),
     ("mJ/m^2", "mJ/m2", ["line 15", "did you mean mJ/m^2?"]),

@@ -105,11 +105,15 @@ def test_it_is_stated_from_ten_bounds_on(share, is_stated):
     assert (line is not None) is is_stated
 
 
-def test_a_contact_beyond_the_table_is_stated_and_one_of_another_shape_is_not():
+def test_a_contact_beyond_the_table_is_stated_and_so_is_one_of_another_shape():
     soft = replace(RUBBER, solid=Section("homogeneous", {"E": 5e4, "nu": 0.5}))
     assert "unknown" in budget_line(budget(soft), 1e-9)
     cone = replace(RUBBER, punch=Section("cone", {"half_angle": 1.2}))
-    assert budget_line(budget(cone), 1e-9) is None
+    assert "error unknown, it is known for spheres, not for the punch of the kind cone" in budget_line(
+        budget(cone), 1e-9
+    )
+    dimensionless = budget(Problem.dimensionless(1, 0, 1))
+    assert budget_line(dimensionless, 1e-9) is None
 
 
 def test_an_unknown_error_counts_as_the_largest(monkeypatch):

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -54,8 +55,11 @@ def test_a_power_law_has_errors_of_closed_forms(capsys):
 
 def test_the_lines_of_a_description_have_80_characters(capsys):
     assert main(["describe", str(PROBLEMS / "graded_pad.toml")]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    assert max(map(len, lines)) <= 80
+    printed, said = capsys.readouterr()
+    # Where it is no terminal, it says once that it works.
+    assert said == "solving graded_pad.toml with fscm: this may take a minute\n"
+    assert max(map(len, printed.splitlines())) <= 80
+    assert "0.782473 at prescribed displacement: jumps" in printed
 
 
 def test_sizes_that_nothing_has_are_named(tmp_path):
@@ -73,6 +77,25 @@ def test_sizes_that_nothing_has_are_named(tmp_path):
     described = overview(problem, row("fscm", value=1.0, u_num=0.0), None)
     assert {row["key"]: row["value"] for row in described["unusual_sizes"]} == {"solid.E": 50.0, "punch.R": 20.0}
     assert "unusual size: solid.E = 50 Pa, punch.R = 20 m; " in description_text(problem, described, None, [], None)
+
+
+def test_closed_forms_are_printed_without_a_reference_too(written):
+    """Of a measured tip on a soft solid: JKR of its profile; of a coating there is none."""
+    tip = written('smoothing = "0.05 nm"')
+    without = overview(tip, row("fscm", value=None, u_num=None, status="failed", reason="the edge is too narrow"))
+    assert [entry["model"] for entry in without["closed_forms"]] == ["jkr-profile", "md-profile"]
+    text = description_text(tip, without, None, [], None)
+    assert "pull-off force failed: the edge is too narrow" in text
+    for entry in without["closed_forms"]:
+        assert evaluate(entry["model"], "pull_off_force", tip).value == entry["value"]
+        (printed,) = re.findall(rf"    {entry['model']} +([\d.]+) nN", text)
+        assert float(printed) == pytest.approx(1e9 * entry["value"], rel=1e-6)
+    beside = overview(tip, row("fscm", value=1.0, u_num=0.0, unit="N"))
+    assert beside["closed_forms"] == []
+    assert {entry["model"] for entry in beside["errors"]} == {"jkr-profile", "md-profile"}
+    film = on_solid("coating", {"E_coating": 1e9, "E_substrate": 3e9, "thickness": 1e-6, "transition": 0.0, "nu": 0.3})
+    failed = row("fscm", value=None, u_num=None, status="failed", reason="why")
+    assert overview(film, failed)["closed_forms"] == []
 
 
 @pytest.mark.parametrize(("work", "keys"), [(50.0, ["law.work_of_adhesion"]), (5.0, []), (1e-3, [])])

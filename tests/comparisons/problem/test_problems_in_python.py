@@ -144,6 +144,7 @@ def test_the_critical_tabor_number_needs_no_other_one(capsys, refused):
     out = capsys.readouterr().out
     assert "mu_crit = 0.69721" in out
     assert "mu = 1" not in out
+    assert "at prescribed displacement" in out
     refused(["solve", "--model", "atlas", "--quantity", "pull_off_force", "--n", "2", "--k", "0"], "--mu")
 
 

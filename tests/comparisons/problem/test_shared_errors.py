@@ -158,7 +158,10 @@ def test_what_a_problem_states_is_no_assumption(section, key, value, name):
 def test_the_effect_of_a_surface_tension_is_that_of_a_soft_homogeneous_solid_under_a_sphere():
     assert -0.03 < effect_of_tension(RUBBER) < -0.01
     assert "mN/m" in estimates(RUBBER)["surface_tension"]["reason"]
-    for problem in (STIFF, SOFT_FILM, replace(RUBBER, punch=Section("ball", {"R": 5e-6}))):
+    for law in (RUBBER.law, replace(RUBBER.law, values={**RUBBER.law.values, "interaction": "body"})):
+        ball = replace(RUBBER, punch=Section("ball", {"R": 5e-6}), law=law)
+        assert effect_of_tension(ball) == effect_of_tension(RUBBER)
+    for problem in (STIFF, SOFT_FILM, replace(RUBBER, punch=Section("cone", {"half_angle": 1.2}))):
         assert effect_of_tension(problem) is None
         assert estimates(problem)["surface_tension"]["error"] is None
     stated = RUBBER.with_value("solid.surface_tension", TENSION)
@@ -166,11 +169,13 @@ def test_the_effect_of_a_surface_tension_is_that_of_a_soft_homogeneous_solid_und
 
 
 @pytest.mark.heavy
-def test_the_effect_of_a_surface_tension_is_that_of_the_full_model():
+@pytest.mark.parametrize("kind", ["sphere", "ball"])
+def test_the_effect_of_a_surface_tension_is_that_of_the_full_model(kind):
     """At a Tabor number of 18 the limit of soft solids is a fifth off; it is less for softer ones."""
     bead = on(
         "homogeneous", {"E": 1.5e6, "nu": 0.5}, Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 8e-9})
     )
+    bead = replace(bead, punch=Section(kind, {"R": 5e-6}))
     forces = [
         evaluate("fscm", "pull_off_force", problem)
         for problem in (bead, bead.with_value("solid.surface_tension", TENSION))

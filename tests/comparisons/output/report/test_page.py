@@ -46,9 +46,9 @@ def test_the_first_lines_are_the_nearest_model_and_the_verdict_in_words(laid_out
     assert texts(summary, "rank") == ["1", "2", ""]
     assert texts(summary, "model") == [*largest.index, "jkr"]
     assert texts(summary, "coverage") == ["88 of 88", "88 of 88", "0 of 4 (4 failed, 84 outside)"]
-    assert texts(summary, "largest |κ| (%)")[1] == "50.0(4)"
+    assert texts(summary, "worst κ (%)")[1] == "50.0(4)"
     # A page sorts by the size of an error, whatever its sign.
-    (by,) = (column.number for column in summary.columns if column.heading == "largest |κ| (%)")
+    (by,) = (column.number for column in summary.columns if column.heading == "worst κ (%)")
     assert summary.stored[by].tolist()[:2] == largest.tolist()
     near = (stored.kappa["kappa"].abs() + stored.kappa["u_kappa"] <= 0.05).groupby(stored.kappa["model"]).sum()
     assert laid_out.headline.startswith(near.idxmax())

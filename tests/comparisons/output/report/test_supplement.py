@@ -41,7 +41,7 @@ def test_it_has_ranking_regimes_regions_methods_and_references(supplement):
 def test_the_ranking_has_a_rank_and_an_error(run_folder):
     ranking = next(table for table in supplement_tables(read_folder(run_folder)) if table.id == "ranking").texts
     assert sorted(set(ranking["rank"]) - {""}) == ["1", "2"]
-    errors = [text for text in ranking["largest |κ| (%)"] if text]
+    errors = [text for text in ranking["worst κ (%)"] if text]
     assert errors
     assert all(re.fullmatch(r"-?[\d.]+(\(\d+\))?", text) for text in errors)
 
