@@ -11,6 +11,7 @@ from functools import cached_property, partial, singledispatchmethod
 
 from fscm._bound.defect import Errors
 from fscm._bound.parts import EventErrors, bounds, energy_of_jump
+from fscm._known_minimum import known_minimum
 from fscm._path import events
 from fscm._path.arc_length import Point
 from fscm._path.completeness import completed
@@ -146,7 +147,12 @@ class Analysis:
         return with_accurate_ends(branches, lambda fold: self._pair(fold, events.displacement_fold).value.displacement)
 
     def _least_load(self) -> Bracket:
-        points = None if "_traced" in self.__dict__ else pull_off_path(self.problem, self.meshes)
+        points = None
+        if "_traced" not in self.__dict__:
+            known = known_minimum(self.problem, self.meshes)
+            if known is not None:
+                return known
+            points = pull_off_path(self.problem, self.meshes)
         if points is None:
             points = events.with_minima(self._traced)
         return deepest_minimum(points, self.meshes)

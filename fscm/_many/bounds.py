@@ -53,8 +53,8 @@ __all__ = ["Loads", "bounded_loads", "corrected_loads", "missed_share"]
 _SAFETY = 2.0
 #: Share at k = 0 by the number of nodes of the residual, and its rate in k: twice the worst of the modes from 6 on
 #: (computed, for 12 nodes: 4.7e-5 at k = 0, 4.6e-4 at k = 0.4 and 4.2e-3 at k = 0.8; for 14: 1.35e-3 at k = 0.67 and
-#: 2.88e-3 at k = 0.8).  Share of this on the panel beside it, per ratio of the lengths: twice the worst of ratios 1/4 to
-#: 4 (computed).
+#: 2.88e-3 at k = 0.8).  Share of this on the panel beside it, per ratio of the lengths: twice the worst of ratios 1/4
+#: to 4 (computed).
 _MISSED, _MISSED_RATE, _BESIDE = {12: 1e-4, 14: 5.6e-5}, 5.8, 0.5
 #: Relative error of the load per square of the error of the pressure (in units of the largest tension, 1.03): measured
 #: worst 12 over 14 problems at k = 0.7 to 0.8 whose edge panels were too long, with errors of the pressure up to 5e-3.

@@ -6,8 +6,7 @@ import csv
 import hashlib
 import json
 import math
-from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -38,7 +37,7 @@ class Stored:
     ----------
     coordinates : dict of str to Coordinates
         Of every component.
-    series : dict of str to Series
+    series : mapping of str to Series
     bounds : dict of (str, str) to ndarray, shape (CELLS, CELLS, CELLS)
         Of a quantity in a patch ("lower" or "upper"); in the plane (n, k) for the critical Tabor number.
     record : dict
@@ -46,9 +45,35 @@ class Stored:
     """
 
     coordinates: dict[str, Coordinates]
-    series: dict[str, Series]
+    series: Mapping[str, Series]
     bounds: dict[tuple[str, str], Array]
     record: dict[str, Any]
+
+
+class _SeriesInFile(Mapping[str, Series]):
+    """Series of the components, each read when it is used first; the rows of a component follow each other."""
+
+    def __init__(self, text: str) -> None:
+        self._rows: dict[str, str] = {}
+        self._known: dict[str, Series] = {}
+        start = text.index("\n")
+        while start + 1 < len(text):
+            name = text[start + 1 : text.index(",", start)]
+            end = text.index("\n", text.rindex(f"\n{name},") + 1)
+            self._rows[name], start = text[start + 1 : end], end
+
+    def __getitem__(self, name: str) -> Series:
+        if name not in self._known:
+            rows = [row.split(",") for row in self._rows[name].split("\n")]
+            degrees = [[int(degree) for degree in numbers if degree] for _, *numbers, _ in rows]
+            self._known[name] = Series.of(np.array(degrees), np.array([float(row[-1]) for row in rows]))
+        return self._known[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._rows)
+
+    def __len__(self) -> int:
+        return len(self._rows)
 
 
 @cache
@@ -62,12 +87,7 @@ def stored() -> Stored:
     """
     layouts = json.loads(LAYOUTS.read_text(encoding="utf-8"))
     coordinates = {name: coordinates_of(row) for name, row in layouts.items()}
-    degrees: dict[str, list[list[int]]] = defaultdict(list)
-    coefficients: dict[str, list[float]] = defaultdict(list)
-    for name, *numbers, value in _rows(COEFFICIENTS):
-        degrees[name].append([int(degree) for degree in numbers if degree])
-        coefficients[name].append(float(value))
-    series = {name: Series.of(np.array(degrees[name]), np.array(coefficients[name])) for name in degrees}
+    series = _SeriesInFile(COEFFICIENTS.read_text(encoding="utf-8"))
     bounds: dict[tuple[str, str], Array] = {}
     for quantity, patch, *cell, value in _rows(BOUNDS):
         index = tuple(int(number) for number in cell if number)

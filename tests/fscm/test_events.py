@@ -1,4 +1,4 @@
-"""Events and quantities: reference values, limits, the short path to a pull-off, several at once, refusals."""
+"""Events and quantities: reference values, limits, the pull-off without the whole path, several at once, refusals."""
 
 import math
 from types import SimpleNamespace
@@ -6,7 +6,24 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fscm import Analysis, NoSuchEvent, Problem, Solution, profile, solve, solve_together, trace
+from fscm import (
+    Analysis,
+    Coating,
+    LennardJones,
+    Mie,
+    NoSuchEvent,
+    PowerPunch,
+    Problem,
+    RoundedCone,
+    Solution,
+    profile,
+    solve,
+    solve_together,
+    trace,
+)
+from fscm import _known_minimum as known_module
+from fscm import analysis as module
+from fscm._known_minimum import known_minimum
 from fscm._path import pull_off_path as short
 from fscm._threads import one_thread
 from fscm.accuracy import Meshes
@@ -62,13 +79,83 @@ CASES = [(1, 0.2, 1), (2, 0.4, 0.5), (2, 0, 0.01), (0.9, 0.1, 2), (2, 0.6, 3), (
 
 
 @pytest.mark.parametrize("case", [*CASES[:2], *(pytest.param(case, marks=pytest.mark.heavy) for case in CASES[2:])])
-def test_the_pull_off_is_that_of_the_whole_path(case: tuple[float, float, float]) -> None:
+def test_the_pull_off_of_the_short_path_is_that_of_the_whole_path(
+    case: tuple[float, float, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
     problem = Problem(*case)
     with one_thread():
         path = short.pull_off_path(problem, Meshes())
     assert path is not None
-    analysis, solutions = analysis_of(problem), solve_together(problem, ("pull_off_force", "pull_off_displacement"))
-    assert len(analysis.points) >= len(path)
+    assert len(analysis_of(problem).points) >= len(path)
+    monkeypatch.setattr(module, "known_minimum", lambda problem, meshes: None)
+    assert_pull_off_is_that_of_the_whole_path(problem)
+
+
+# Corners of the range of the atlas; flat and sharp, rigid and soft.
+KNOWN = [
+    (2, 0.4, 0.5),
+    (1, 0, 0.3),
+    *heavy(((1, 0.6, 5),), ((6, 0.8, 0.01),), ((6, 0, 10),), ((1, 0.8, 10),), ((1, 0, 0.01),)),
+]
+
+
+@pytest.mark.parametrize("case", KNOWN)
+def test_the_pull_off_from_the_stored_states_is_that_of_the_whole_path(
+    case: tuple[float, float, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(problem: Problem, meshes: Meshes) -> None:
+        raise AssertionError("no path is needed")
+
+    monkeypatch.setattr(module, "pull_off_path", refuse)
+    assert_pull_off_is_that_of_the_whole_path(Problem(*case))
+
+
+@pytest.mark.heavy
+def test_a_path_is_rarely_needed_in_the_range_of_the_atlas() -> None:
+    random = np.random.default_rng(20261129)
+    parameters = 1.0 / random.uniform(1 / 6, 1, 100), random.uniform(0, 0.8, 100), 10.0 ** random.uniform(-2, 1, 100)
+    with one_thread():
+        brackets = [known_minimum(Problem(*map(float, case)), Meshes()) for case in zip(*parameters, strict=True)]
+    assert sum(bracket is None for bracket in brackets) <= 1
+
+
+def test_a_minimum_that_the_atlas_does_not_have_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another minimum of the load is at most 0.27 times as deep as the deepest one."""
+    problem, value = Problem(2, 0.4, 0.5), known_module.atlas
+    for share in (0.27, 1.0 / 0.27):
+        monkeypatch.setattr(known_module, "atlas", lambda *at: value(*at)._replace(value=share * value(*at).value))  # noqa: B023
+        with one_thread():
+            assert known_minimum(problem, Meshes()) is None
+    force = Analysis(problem).solution("pull_off_force")
+    monkeypatch.undo()
+    expected = solve(problem, "pull_off_force")
+    assert abs(force.value - expected.value) <= force.u_num + expected.u_num
+
+
+OTHERS = [
+    Problem(6.1, 0.4, 0.5),
+    Problem(2, 0.81, 0.5),
+    Problem(2, 0, 10.1),
+    Problem(2, 0, 1.0, law=Mie(m=12, n=6)),
+    Problem(2, 0, 1.0, punch=RoundedCone(2.0)),
+    Problem(Coating(3.0, 1.0, 1.0, 0.5, 0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)),
+]
+
+
+@pytest.mark.parametrize("problem", OTHERS, ids=str)
+def test_states_are_known_only_of_power_laws_in_the_range_of_the_atlas(
+    monkeypatch: pytest.MonkeyPatch, problem: Problem
+) -> None:
+    def refuse(problem: Problem, meshes: Meshes) -> None:
+        raise AssertionError("no state of this problem is stored")
+
+    monkeypatch.setattr(known_module, "_first", refuse)
+    assert known_minimum(problem.dimensionless, Meshes()) is None
+
+
+def assert_pull_off_is_that_of_the_whole_path(problem: Problem) -> None:
+    analysis, solutions = Analysis(problem), solve_together(problem, ("pull_off_force", "pull_off_displacement"))
+    assert analysis.points
     for quantity, solution in solutions.items():
         expected = analysis.solution(quantity)
         assert abs(solution.value - expected.value) <= solution.u_num + expected.u_num
@@ -87,6 +174,7 @@ def test_no_state_apart_carries_more_tension_than_the_rigid_solid(case: tuple[fl
 def test_the_whole_path_is_followed_where_the_rigid_solid_might_carry_more(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = Problem(2, 0.4, 0.5)
     expected = solve(problem, "pull_off_force")
+    monkeypatch.setattr(module, "known_minimum", lambda problem, meshes: None)
     monkeypatch.setattr(short, "_start", lambda problem: 0.5)
     monkeypatch.setattr(short, "rigid_tension", lambda problem, gap: 2.0)
     with one_thread():
