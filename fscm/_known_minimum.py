@@ -61,7 +61,7 @@ def known_minimum(problem: Problem, meshes: Meshes) -> Bracket | None:
         return None
     if bracket is None:
         return None
-    known = atlas(problem.n, problem.k, problem.mu, "pull_off_force").value
+    known = float(atlas(problem.n, problem.k, problem.mu, "pull_off_force").value)
     least = min(point.state.load for point in bracket)
     return bracket if abs(least + known) <= _SAME * known else None
 
