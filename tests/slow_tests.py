@@ -23,7 +23,7 @@ PATH = Path(__file__).with_suffix(".txt")
 #: CPU seconds from which a test is slow: the others take less than two minutes on two cores.
 SLOW = 0.5
 
-#: Tests that are never slow: they show that an installation computes right.
+#: Tests that are never slow: they show that an installation computes right, or prepare what many quick tests need.
 ALWAYS = (
     # Both references within their bounds: a homogeneous solid and power laws, a measured punch, a coating.
     "tests/solvers/test_many_problems.py::test_forces_of_a_batch_are_those_of_the_finite_elements[problems0]",
@@ -36,6 +36,8 @@ ALWAYS = (
     "tests/fem_reference/test_edge_path.py::test_the_load_in_the_limit_of_a_short_range_is_that_of_jkr",
     "tests/fem_reference/test_large_strain.py::test_a_sphere_pulls_off_as_the_first_trial_did",
     "tests/comparisons/external/test_board.py::test_every_submission_has_a_verdict_or_the_reason_why_not",
+    # The imports of all modules.
+    "tests/test_independence.py::test_packages_import_only_what_they_may",
 )
 
 #: Names of the list, and of those that are never slow, that no light test has.

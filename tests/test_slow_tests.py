@@ -64,8 +64,8 @@ def test_a_fixture_counts_for_each_test_that_shares_it(tmp_path, monkeypatch):
     monkeypatch.setattr(slow_tests, "PATH", path)
     monkeypatch.setattr(slow_tests, "SLOW", 0.06)
     monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
-    options = ["-q", "-p", "no:cacheprovider", "-c", str(tmp_path / "pytest.ini"), "--rootdir", str(tmp_path)]
-    (tmp_path / "pytest.ini").write_text("[pytest]\n")
+    (tmp_path / "pytest.ini").write_text("[pytest]\naddopts = -q -p no:cacheprovider --import-mode=importlib\n")
+    options = ["-c", str(tmp_path / "pytest.ini"), "--rootdir", str(tmp_path)]
     assert pytest.main([*options, str(tmp_path)], plugins=[Measurement()]) == 0
     assert listed() == {"test_shared.py::test_the_first", "test_shared.py::test_the_second"}
 
