@@ -8,6 +8,8 @@ import scipy.linalg  # noqa: F401  # what is not loaded cannot be limited
 from hypothesis import settings
 from threadpoolctl import threadpool_limits
 
+from tests import slow_tests
+
 # An example that takes longer than hypothesis allows by default is no error on a busy machine.
 settings.register_profile("no deadline", deadline=None)
 settings.load_profile("no deadline")
@@ -27,6 +29,12 @@ def pytest_collection():
     finally:
         gc.freeze()
         gc.enable()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config, items):
+    """Mark the slow tests, before others are deselected."""
+    config.stash[slow_tests.ABSENT] = slow_tests.mark(items)
 
 
 @pytest.fixture(scope="session", autouse=True)

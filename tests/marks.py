@@ -1,6 +1,9 @@
-"""Marks of the cases of a parametrised test."""
+"""Marks of the cases of a parametrised test, and selections of tests by their marks."""
 
 import pytest
+
+#: Every test but those marked heavy and lint, for the option -m of pytest: the fast ones and the slow ones.
+LIGHT = "not heavy and not lint"
 
 
 def heavy(*cases):

@@ -1,4 +1,4 @@
-"""The tests of the solvers under other kernels of OpenBLAS, whose rounding is not that of this machine's own.
+"""Fast and slow tests of the solvers under other kernels of OpenBLAS, which round in another way than this machine's.
 
 ``python -m tests.blas.kernels`` runs them under the first kernel of the table that is not the machine's own; ``--all``
 under every kernel, with one thread and with two.  The machine's own kernel with one thread is that of the tests
@@ -16,6 +16,8 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+
+from tests.marks import LIGHT
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -89,7 +91,8 @@ class Run:
     def passes(self, arguments: Sequence[str]) -> bool:
         """Run the tests with further arguments of pytest, and print the outcome."""
         print(f"\n== kernel {self.kernel}, threads: {self.threads}", flush=True)
-        command = [sys.executable, "-m", "pytest", f"--blas-threads={self.threads}", *TESTS, *arguments]
+        options = ["-m", LIGHT, f"--blas-threads={self.threads}"]
+        command = [sys.executable, "-m", "pytest", *options, *TESTS, *arguments]
         status = subprocess.run(command, cwd=ROOT, env=environment(self.kernel), check=False).returncode
         print(f"kernel {self.kernel}, threads: {self.threads}: pytest {ending(status)}", flush=True)
         return status == 0

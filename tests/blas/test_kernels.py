@@ -1,12 +1,15 @@
 """The kernel and the threads that the tests are given, and the choice of others."""
 
 import os
+import subprocess
+from types import SimpleNamespace
 
 import pytest
 from threadpoolctl import threadpool_info
 
 from tests.blas import kernels
 from tests.blas.kernels import KERNELS, Run, ending, in_force, main, planned, refusal
+from tests.marks import LIGHT
 
 
 def test_the_tests_have_the_kernel_and_the_threads_that_they_are_given(request):
@@ -47,6 +50,16 @@ def test_all_kernels_run_with_one_and_two_threads_and_one_other_without_all(own)
     (single,) = planned(own, KERNELS, every=False)
     assert single.threads == 1
     assert {single.kernel} != own
+
+
+def test_slow_tests_run_under_a_kernel_too(monkeypatch):
+    commands = []
+    monkeypatch.setattr(
+        subprocess, "run", lambda command, **options: commands.append(command) or SimpleNamespace(returncode=0)
+    )
+    assert Run("Haswell", 1).passes(["-n", "2"])
+    ((*_, selection),) = [command[: command.index(LIGHT) + 1] for command in commands]
+    assert "slow" not in selection
 
 
 @pytest.mark.parametrize(("passes", "status"), [(True, 0), (False, 1)])

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from functools import lru_cache
 
 import pytest
 
@@ -16,65 +15,62 @@ from tests.fem_reference.solved_together import PROBLEM, solved
 SPEC = MeshSpec(0.0625, 0.01, 64.0, 1.4, 4, 0.05)
 
 
-@lru_cache(maxsize=1)
-def _chosen():
+@pytest.fixture(scope="module")
+def solutions():
+    return solved()
+
+
+@pytest.fixture(scope="module")
+def mesh():
     return chosen(PROBLEM, ("zero_load", "landing"), "quick")
 
 
-@lru_cache(maxsize=1)
-def _meshes():
-    return events_on_meshes(_chosen())
+@pytest.fixture(scope="module")
+def meshes(mesh):
+    return events_on_meshes(mesh)
 
 
-def _contact(spec):
-    mesh = _chosen()
-    return mesh.meshes.contact(spec, mesh.size)
-
-
-@lru_cache(maxsize=1)
-def _finer_events():
+@pytest.fixture(scope="module")
+def finer_events(mesh, meshes):
     """The same events on a mesh of another degree, on which every feature is finer too."""
-    mesh = _chosen()
     spec = mesh.spec
     depth, density = spec.surface_depth / 4, 0.85 * mesh.meshes.level.density
     finer = replace(spec, order=7, density=density, surface_depth=depth, extent=4 * spec.extent)
-    return CarriedEvents(_meshes().fine, _contact(finer))
+    return CarriedEvents(meshes.fine, mesh.meshes.contact(finer, mesh.size))
 
 
 @pytest.mark.parametrize("quantity", TABLE)
-def test_parts_add_up_to_a_bound_that_covers_the_error_against_a_finer_mesh(quantity):
-    solution = solved()[quantity]
-    assert abs(solution.value - TABLE[quantity].value(_finer_events().at)) <= solution.u_num
+def test_parts_add_up_to_a_bound_that_covers_the_error_against_a_finer_mesh(quantity, solutions, finer_events):
+    solution = solutions[quantity]
+    assert abs(solution.value - TABLE[quantity].value(finer_events.at)) <= solution.u_num
     assert tuple(solution.parts) == PARTS
     assert all(0.0 <= part < math.inf for part in solution.parts.values())
     assert math.fsum(solution.parts.values()) == pytest.approx(solution.u_num, rel=1e-12)
     assert solution.u_num > 0.0
 
 
-def test_the_losses_of_both_jumps_are_the_hysteresis():
-    losses = [solved()[name].value for name in LOSSES]
+def test_the_losses_of_both_jumps_are_the_hysteresis(solutions):
+    losses = [solutions[name].value for name in LOSSES]
     assert min(losses) > 0.0
-    assert math.fsum(losses) == pytest.approx(solved()["hysteresis_energy"].value, rel=1e-12)
+    assert math.fsum(losses) == pytest.approx(solutions["hysteresis_energy"].value, rel=1e-12)
 
 
 #: How much worse a mesh is made in each feature.
 WORSE = {"surface_depth": 16.0, "extent": 1 / 16, "edge_width": 4.0}
 
 
-def test_every_part_responds_to_a_mesh_that_is_worse_in_every_feature():
-    mesh = _chosen()
+def test_every_part_responds_to_a_mesh_that_is_worse_in_every_feature(mesh, meshes):
     spec = mesh.spec
     worse = replace(spec, **{name: factor * getattr(spec, name) for name, factor in WORSE.items()})
     row = TABLE["jump_in_displacement"]
     good, bad = (
-        meshes.estimate(lambda events: row.value(events.at)).parts
-        for meshes in (_meshes(), events_on_meshes(replace(mesh, spec=worse)))
+        each.estimate(lambda events: row.value(events.at)).parts
+        for each in (meshes, events_on_meshes(replace(mesh, spec=worse)))
     )
     assert all(bad[part] > 3.0 * good[part] for part in ("first layer", "interior and exterior", "edge", "tail"))
 
 
-def test_placement_moves_the_edge_over_the_mesh():
-    meshes = _meshes()
+def test_placement_moves_the_edge_over_the_mesh(meshes):
     inward, outward = (events.at("pull_off") for events in meshes.placements)
     plain = meshes.fine.at("pull_off")
     assert inward.state.size < plain.state.size < outward.state.size

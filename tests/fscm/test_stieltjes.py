@@ -1,7 +1,6 @@
 """The Stieltjes scheme: its equations, its order, its uncertainty, its exceptions."""
 
 import math
-from functools import cache
 
 import numpy as np
 import pytest
@@ -53,16 +52,17 @@ def test_the_order_is_two_where_the_edge_is_resolved(problem, quantity):
     assert 1.85 < math.log2(abs((b - a) / (c - b))) < 2.15
 
 
-@cache
-def solved(problem):
-    return solve_together(problem, STIELTJES_QUANTITIES)
+@pytest.fixture(params=[Problem(5, 0.2, 1.0), *heavy(Problem(2, 0.4, 1.0), Problem(2, 0.0, 1.0))], scope="module")
+def solved(request):
+    """A problem and its solutions."""
+    return request.param, solve_together(request.param, STIELTJES_QUANTITIES)
 
 
 @pytest.mark.parametrize("quantity", list(STIELTJES_QUANTITIES))
-@pytest.mark.parametrize("problem", [Problem(5, 0.2, 1.0), *heavy(Problem(2, 0.4, 1.0), Problem(2, 0.0, 1.0))])
-def test_the_uncertainty_covers_the_error(problem, quantity):
+def test_the_uncertainty_covers_the_error(solved, quantity):
+    problem, solutions = solved
     solution = stieltjes_solution(problem, quantity, 200, **COARSE)
-    error = abs(solution.value - solved(problem)[quantity].value)
+    error = abs(solution.value - solutions[quantity].value)
     assert error <= solution.u_num < 0.1
     assert solution.size == 200
 

@@ -23,6 +23,7 @@ from pathlib import Path
 from py_compile import PycInvalidationMode
 from tempfile import TemporaryDirectory, mkdtemp
 
+from tests.marks import LIGHT
 from tests.test_independence import PACKAGES
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -86,7 +87,7 @@ def noticed_by(tests: tuple[str, ...], copy: Path) -> str:
     variables = {"PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1"}
     for test in tests:
         folder = mkdtemp()
-        call = [*command, "--import-mode=importlib", "-m", "not heavy and not lint", f"--basetemp={folder}/tests", test]
+        call = [*command, "--import-mode=importlib", "-m", LIGHT, f"--basetemp={folder}/tests", test]
         try:
             run = subprocess.run(
                 call, cwd=copy, env=os.environ | variables, capture_output=True, text=True, timeout=LONGEST
