@@ -311,7 +311,7 @@ class FollowedPath:
         states = states_near(point, order, density)
         radius, slope = states.extremum(height)
         others = [(order - 1, density)]
-        others += [(order, ratio * density) for ratio in other_lengths(self.meshes.problem.law)]
+        others += [(order, ratio * density) for ratio in other_lengths(self.meshes.problem)]
         radii = [states_near(states.start, *other).extremum(height)[0] for other in others]
         spec, point_there = states_near(states.start, order, density).on_fine_mesh(radius)
         radius_error = sum(abs(math.log(radius / other)) for other in radii)

@@ -15,9 +15,8 @@ from fem_reference._wells import scale_of_energy
 from fem_reference.accuracy import Level
 from fem_reference.cohesive_laws import CohesiveTrapezoid
 from fem_reference.errors import Failure, NotConverged
-from fem_reference.laws import SurfaceLaw
 from fem_reference.problem import Problem
-from fem_reference.punch import Punch, kinks_of, radius_at_height
+from fem_reference.punch import Punch, has_knots, kinks_of, radius_at_height
 from fem_reference.solid import Solid
 from fem_reference.tabulated_law import TabulatedLaw
 
@@ -37,7 +36,8 @@ __all__ = [
 
 #: Ratios of other lengths of the elements, whose differences tell the error by kinks of a law (measured: at most 0.44
 #: of the sum of both bounds in 44 values on seven solids, of which eight were up to 11 times outside by degrees alone).
-#: The round corners of a trapezoid are such kinks for the elements (by degrees alone 1.6 bounds outside, mu = 3).
+#: The round corners of a trapezoid are such kinks for the elements (by degrees alone 1.6 bounds outside, mu = 3), and
+#: so are the knots of a spline through a profile (by degrees alone up to 5 bounds outside).
 OTHER_LENGTHS = (0.6, 0.8, 1.25)
 
 #: Gap at the node s = 1 above the central gap before contact, in lengths of the law: small, so that the edge is the
@@ -109,9 +109,10 @@ OCTAVES_OF_TENSION = 50
 FINEST_SCALE = 1e-3
 
 
-def other_lengths(law: SurfaceLaw) -> tuple[float, ...]:
-    """Return the ratios of other lengths of the elements that tell the error by kinks of a law; none if smooth."""
-    return OTHER_LENGTHS if isinstance(law, CohesiveTrapezoid | TabulatedLaw) else ()
+def other_lengths(problem: Problem) -> tuple[float, ...]:
+    """Return the ratios of other lengths of the elements that tell the error by kinks of a law or knots of a punch."""
+    has_kinks = isinstance(problem.law, CohesiveTrapezoid | TabulatedLaw)
+    return OTHER_LENGTHS if has_kinks or has_knots(problem.punch) else ()
 
 
 def mesh_spec(
