@@ -189,17 +189,6 @@ def kinks_of(punch: Punch) -> tuple[float, ...]:
     return tuple(sorted(getattr(punch, "kinks", ())))
 
 
-def has_knots(punch: Punch) -> bool:
-    """Whether a higher derivative of a punch jumps where no mesh lines are: its attribute `has_knots`, if it has one.
-
-    Examples
-    --------
-    >>> has_knots(PowerPunch(n=2.0, Q=1.0))
-    False
-    """
-    return bool(getattr(punch, "has_knots", False))
-
-
 def check_contact(punch: Punch, edge_radius: float) -> None:
     """Refuse a contact beyond the radius up to which the shape is the stated one: the attribute `reach` of a ball.
 

@@ -1,7 +1,6 @@
 """Punch shapes that neither solver has: a flat end with a rounded edge, and a smooth curve through a measured profile.
 
-Both solvers take any shape with `height`, `slope` and `kinks`; the FSCM reads `growth` and `unit_of_radii`, too, the
-finite elements `has_knots`.
+Both solvers take any shape with `height`, `slope` and `kinks`; the FSCM reads `growth` and `unit_of_radii`, too.
 """
 
 from __future__ import annotations
@@ -124,11 +123,6 @@ class SmoothedProfile:
     def kinks(self) -> tuple[float, ...]:
         """The last point, where the power begins."""
         return (self.radii[-1],)
-
-    @property
-    def has_knots(self) -> bool:
-        """Whether the curve has knots between its ends, at which its third derivative jumps."""
-        return len(self._curve.get_knots()) > 2
 
     def height(self, r: Array) -> Array:
         """f(r), 0 at the apex."""

@@ -72,7 +72,6 @@ def test_pull_off_of_a_profile_with_knots():
     last = (growth * R ** (growth / 2.0) * height) ** (1.0 / growth)
     shares = np.linspace(0.0, 1.0, 33)
     profile = SmoothedProfile(tuple(last * shares), tuple(height * shares**growth), 0.002, growth)
-    assert profile.has_knots
 
     def problem(package):
         return package.Problem(package.Homogeneous(95.0, 0.3), profile, package.LennardJones(1.0, 1.0))
