@@ -7,8 +7,8 @@ from fem_reference import Ball, CustomPunch, Homogeneous, LennardJones, PowerPun
 from fem_reference._contact.mesh_lengths import KINK_HEIGHT
 from fem_reference._contact.other_lengths import has_knots
 
-#: Radii of mesh lines, and one between them.
-LINES, INSIDE = np.array([0.0, 0.5, 1.0, 1.5, 3.0, 8.0, 20.0, 40.0]), 1.7
+#: Radii of mesh lines, one between them, and a middle of two, where every other coefficient is 0.
+LINES, INSIDE, MIDDLE = np.array([0.0, 0.5, 1.0, 1.5, 3.0, 8.0, 20.0, 40.0]), 1.7, 2.25
 R = 1.0
 #: Radius at which the paraboloid is as high as knots matter.
 REACH = (2.0 * R * KINK_HEIGHT) ** 0.5
@@ -29,6 +29,7 @@ def _bent(at, order, size=0.1):
 @pytest.mark.parametrize("order", [2, 3, 4])
 def test_a_jump_of_a_derivative_is_a_knot_unless_it_is_a_line(order):
     assert _knots_of(_bent(INSIDE, order))
+    assert _knots_of(_bent(MIDDLE, order))
     assert not _knots_of(_bent(LINES[3], order))
 
 
@@ -48,7 +49,8 @@ def test_a_small_jump_is_a_knot_as_well():
     "punch",
     [
         PowerPunch(2.5, 3.0),
-        Ball(50.0),
+        # Its singularity is next to the end of an element.
+        Ball(21.1),
         # In a form that cancels near the tip.
         CustomPunch(lambda r: 30.0 * (np.sqrt(1.0 + (r / 30.0) ** 2) - 1.0), 1.0),
         CustomPunch(lambda r: r**2 / 2.0 + 0.3 * (1.0 - np.exp(-(r**2) / 10.0)), 2.0),
