@@ -142,7 +142,8 @@ class CustomPunch:
     derivative : callable, optional
         df/dr.  By default it is that of differences of f, to 1e-11 of f/r where f is smooth over a tenth of r.
     kinks : tuple of float
-        Radii at which the slope jumps; mesh lines are put there.
+        Radii at which the slope jumps; mesh lines are put there.  A jump of a higher derivative may be stated, too: the
+        bound covers it either way, and is smaller then.
 
     Examples
     --------

@@ -30,10 +30,10 @@ from fem_reference._contact.mesh_lengths import (
     balance_length,
     check_width,
     kinks_within,
-    other_lengths,
     spot_length,
 )
 from fem_reference._contact.meshes import Meshes
+from fem_reference._contact.other_lengths import other_lengths
 from fem_reference._contact.path import BEYOND_LAST_TURN, approach, beginning, completed, contact_points, traced
 from fem_reference._contact.states import NARROWER, WIDTH_SHARE, Point, edge_width
 from fem_reference._elastic.mesh import MeshSpec
@@ -310,10 +310,10 @@ class FollowedPath:
 
         states = states_near(point, order, density)
         radius, slope = states.extremum(height)
-        others = [(order - 1, density)]
-        others += [(order, ratio * density) for ratio in other_lengths(self.meshes.problem.law)]
-        radii = [states_near(states.start, *other).extremum(height)[0] for other in others]
         spec, point_there = states_near(states.start, order, density).on_fine_mesh(radius)
+        others = [(order - 1, density)]
+        others += [(order, ratio * density) for ratio in other_lengths(self.meshes.problem, spec, radius)]
+        radii = [states_near(states.start, *other).extremum(height)[0] for other in others]
         radius_error = sum(abs(math.log(radius / other)) for other in radii)
         return (spec, radius), Anchor(replace(point_there, pinned=True), slope, radius_error)
 

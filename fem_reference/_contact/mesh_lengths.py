@@ -13,32 +13,23 @@ from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._wells import scale_of_energy
 from fem_reference.accuracy import Level
-from fem_reference.cohesive_laws import CohesiveTrapezoid
 from fem_reference.errors import Failure, NotConverged
-from fem_reference.laws import SurfaceLaw
 from fem_reference.problem import Problem
 from fem_reference.punch import Punch, kinks_of, radius_at_height
 from fem_reference.solid import Solid
-from fem_reference.tabulated_law import TabulatedLaw
 
 __all__ = [
     "EDGE_PER_BALANCE",
     "EDGE_RISE",
-    "OTHER_LENGTHS",
+    "KINK_HEIGHT",
     "WIDEST",
     "balance_length",
     "check_width",
     "kinks_within",
     "mesh_spec",
-    "other_lengths",
     "scales",
     "spot_length",
 ]
-
-#: Ratios of other lengths of the elements, whose differences tell the error by kinks of a law (measured: at most 0.44
-#: of the sum of both bounds in 44 values on seven solids, of which eight were up to 11 times outside by degrees alone).
-#: The round corners of a trapezoid are such kinks for the elements (by degrees alone 1.6 bounds outside, mu = 3).
-OTHER_LENGTHS = (0.6, 0.8, 1.25)
 
 #: Gap at the node s = 1 above the central gap before contact, in lengths of the law: small, so that the edge is the
 #: parameter before any pull-off (a flat punch, n = 5 and more, pulls off 0.1 z0 below the gap of peak tension).
@@ -107,11 +98,6 @@ OCTAVES_OF_TENSION = 50
 
 #: Depth, relative to the one resolved under the surface, from which on changes of the modulus are searched for.
 FINEST_SCALE = 1e-3
-
-
-def other_lengths(law: SurfaceLaw) -> tuple[float, ...]:
-    """Return the ratios of other lengths of the elements that tell the error by kinks of a law; none if smooth."""
-    return OTHER_LENGTHS if isinstance(law, CohesiveTrapezoid | TabulatedLaw) else ()
 
 
 def mesh_spec(

@@ -5,8 +5,8 @@ times another.
 
 * mesh: the same elements with two lower degrees (`fem_reference._contact.degree_error`).  If the solid does not scale,
   the lower one of both neighbours has the contact edge half an element further out as well.  A law from a table has
-  kinks, whose error does not fall with the degree but depends on where they are in the elements: there the differences
-  from elements of other lengths are added.
+  kinks, and a punch may have knots, whose error does not fall with the degree but depends on where they are in the
+  elements: there the differences from elements of other lengths are added.
 * first layer, interior and exterior: one feature is made coarser with elements of the lowest degree, whose error is
   larger as well.  What that changes is the part, unless it exceeds that of the mesh and half of the accuracy: then the
   elements have the highest degree.  The interior has a coarser apex where the exterior begins earlier.
@@ -30,7 +30,7 @@ from fem_reference._contact.carried import CarriedEvents
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.degree_error import LARGEST_GAIN, SMALLEST_GAIN, degree_error
 from fem_reference._contact.event_mesh import EventMesh
-from fem_reference._contact.mesh_lengths import other_lengths
+from fem_reference._contact.other_lengths import other_lengths
 from fem_reference._contact.tail import TailContact
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import ENDS, FEATURES, variant
@@ -82,7 +82,7 @@ class EventsOnMeshes:
     placements : tuple of CarriedEvents
         With another placement of the contact edge.
     resized : tuple of CarriedEvents
-        With elements of other lengths, for a law with kinks.
+        With elements of other lengths, for a law with kinks or a punch with knots.
     tail : CarriedEvents
         With the displacement beyond the mesh.
     degrees : tuple of int
@@ -179,7 +179,7 @@ def events_on_meshes(mesh: EventMesh) -> EventsOnMeshes:
     def feature(name: str, full: bool) -> CarriedEvents:
         return CarriedEvents(fine, on(variant(spec if full else plain, name)))
 
-    resized = [replace(spec, density=ratio * spec.density) for ratio in other_lengths(problem.law)]
+    resized = [replace(spec, density=ratio * spec.density) for ratio in other_lengths(problem, spec, mesh.size)]
     return EventsOnMeshes(
         fine,
         CarriedEvents(fine, mesh.lower_contact),

@@ -7,7 +7,7 @@ import pytest
 
 from fem_reference import NotConverged
 from fem_reference._contact.degree_error import SMALLEST_GAIN, degree_error
-from fem_reference._contact.mesh_lengths import OTHER_LENGTHS
+from fem_reference._contact.other_lengths import OTHER_LENGTHS
 from fem_reference._contact.parts import PARTS, EventsOnMeshes
 
 #: Sums and differences of numbers near 1, relative to the differences of 1e-3 between them.

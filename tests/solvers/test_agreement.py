@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from comparisons.problem.punch_shapes import SmoothedProfile
 from tests.marks import heavy
 from tests.solvers.agreement import agreeing
 
@@ -62,6 +63,20 @@ def test_quantities_of_graded_solids(name):
 def test_forces_of_other_punches_and_laws(name):
     """The kinks of a measured punch are nodes of the mesh."""
     integral, elements = agreeing(posed(name), accuracy="quick")["pull_off_force"]
+    assert max(integral.u_num, elements.u_num) < LARGEST_BOUND * integral.value
+
+
+def test_pull_off_of_a_profile_with_knots():
+    """By the degrees of the elements alone, the forces were 5 times their bounds from each other."""
+    growth, R, height = 1.7, 9.0, 32.0
+    last = (growth * R ** (growth / 2.0) * height) ** (1.0 / growth)
+    shares = np.linspace(0.0, 1.0, 33)
+    profile = SmoothedProfile(tuple(last * shares), tuple(height * shares**growth), 0.002, growth)
+
+    def problem(package):
+        return package.Problem(package.Homogeneous(95.0, 0.3), profile, package.LennardJones(1.0, 1.0))
+
+    integral, elements = agreeing(problem, ("pull_off_force",))["pull_off_force"]
     assert max(integral.u_num, elements.u_num) < LARGEST_BOUND * integral.value
 
 

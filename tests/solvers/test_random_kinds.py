@@ -40,7 +40,7 @@ CONVERGENT = 2.05
 ROUNDING = 1e-14
 QUANTITIES = tuple(name for name in fscm.QUANTITIES if name != "critical_tabor_number")
 #: Numbers of the light tests, and what they are compared with.
-LIGHT = ((6, "1e-10"), (21, "fem"))
+LIGHT = ((6, "1e-10"), (21, "fem"), (2, "fem"))
 
 
 class Kinds(NamedTuple):
