@@ -153,7 +153,9 @@ class FollowedPath:
         if meshes.scale:
             states.states[start.parameter] = start
         highest = displacement_range(separate)[1]
-        points = contact_points(states.at, start.edge_radius, kinks, highest, turn, meshes.scale)
+        # States on the same solid, also of another problem, share compliances.
+        unit = math.nan if meshes.scale else meshes.problem.law.z0
+        points = contact_points(states.at, start.edge_radius, kinks, highest, turn, meshes.scale, unit)
         touching = completed(states.at, points, meshes.scale)
         before = complete_path([*beginning(separate, touching), *separate])
         return PathEvents((*before, *touching), states.at)

@@ -141,8 +141,8 @@ def mesh_spec(
     density, order = level.density, level.order
     kinks = tuple(r / size for r in kinks_within(problem))
     apex = max(apex / size, SMALLEST_APEX)
-    if all(solid.as_power_law for solid in solids) and math.isfinite(apex):
-        # Meshes at neighbouring radii share a compliance.
+    if math.isfinite(apex):
+        # Meshes at neighbouring radii on a power law, or of similar problems, share a compliance.
         apex = 2.0 ** math.floor(math.log2(apex))
     apex_width = min(_apex_width(problem.punch, size), apex)
     punch_scales = of_punch[0] if of_punch else None

@@ -65,6 +65,9 @@ FARTHER = 2.0
 #: found from the last.
 LOG_STEP = 0.2
 
+#: Least share of a step between the first radius and the next one, of a grid.
+LEAST_STEP = 0.3
+
 #: Change of delta in lengths of the law, and of P relative to the largest tension, below which two turning points are
 #: not told from none. It is above what the meshes of the search leave of a state: at most 6e-5 of the largest tension
 #: (measured between the degrees 4 and 6 under a cone at mu = 3 on a solid whose modulus falls to a third).
@@ -176,6 +179,7 @@ def contact_points(
     highest: float,
     last_turn: float = 0.0,
     exact_rates: bool = False,
+    unit: float = math.nan,
 ) -> list[Point]:
     """Return states in contact, from the first edge until neither load nor displacement can turn back.
 
@@ -193,6 +197,8 @@ def contact_points(
         Radius beyond which neither load nor displacement can turn back.
     exact_rates : bool
         Whether the rates of a state are those of the path; otherwise its neighbours tell them.
+    unit : float, optional
+        A length of the problem: behind the first, radii are those of its grid, which is the same for another adhesion.
 
     Raises
     ------
@@ -200,7 +206,7 @@ def contact_points(
         If a state is not found.
     """
     points: list[Point] = []
-    for radius in _radii(inner, kinks, math.log1p(SIZE_STEP) if exact_rates else LOG_STEP):
+    for radius in _radii(inner, kinks, math.log1p(SIZE_STEP) if exact_rates else LOG_STEP, unit):
         points.append(at(radius))
         if radius >= BEYOND_LAST_TURN * last_turn and len(points) >= RATE_POINTS and _settled(points, highest):
             break
@@ -270,12 +276,14 @@ def _derivative_weights(x: Array, at: float) -> Array:
     return np.linalg.solve(powers, np.eye(x.size)[min(1, x.size - 1)] * (x.size > 1)) / unit
 
 
-def _radii(inner: float, kinks: Sequence[float], step: float) -> Iterator[float]:
+def _radii(inner: float, kinks: Sequence[float], step: float, unit: float) -> Iterator[float]:
     """Radii from the first contact edge on, and both sides of each kink."""
-    radius = inner
+    radius, on_grid = inner, math.isfinite(unit)
+    number = math.ceil(math.log(inner / unit) / step - 1.0 + LEAST_STEP) if on_grid else 0
     while True:
         yield radius
-        following = radius * math.exp(step)
+        number += 1
+        following = unit * math.exp(step * number) if on_grid else radius * math.exp(step)
         for kink in sorted(kink for kink in kinks if radius * (1.0 + 2.0 * BESIDE) < kink < following):
             yield kink * (1.0 - BESIDE)
             yield kink * (1.0 + BESIDE)

@@ -137,8 +137,9 @@ def sum_of(first: Compliance, second: Compliance, size: float) -> Compliance:
     return Compliance(first.trace, matrix, unknowns, size, first.factor(size), law, second=added)
 
 
-# The path of a solid that does not scale has a compliance for each radius; one is some 1 MB.
-@lru_cache(maxsize=24)
+# The path of a solid that does not scale has a compliance for each radius, and the next problem has most of them again;
+# one is some 0.5 MB.
+@lru_cache(maxsize=64)
 def _unit_compliance(unit: Solid, spec: MeshSpec, recoverable: bool) -> tuple[Trace, Array, int]:
     """Surface functions, compliance and number of unknowns of a solid in units of the mesh."""
     stiffness, unknowns = _stiffness(unit.without_tension(), spec, recoverable)
