@@ -8,7 +8,7 @@ or on that of a neighbour if that one resolves it: one that scales follows the e
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -66,6 +66,9 @@ POLISHES = 3
 
 #: Largest number of moves of a mesh towards an event; two are usual, from an event that is 0.5 % away.
 MOVES = 12
+
+#: Least share of an interval with the event by which it is cut.
+LEAST_SHARE = 0.1
 
 #: Largest change of the radius in one of them, relative to it.
 LARGEST_MOVE = 0.1
@@ -162,9 +165,11 @@ class EdgeStates:
             As `on_fine_mesh`, or if the event is not found.
         """
         radius = self.start.edge_radius
+        known: dict[float, float] = {}
         for _ in range(MOVES):
             spec, self.start = self.on_fine_mesh(radius)
-            move = -excess(self.start) / slope
+            known[radius] = excess(self.start)
+            move = _to_root(known, radius, slope)
             if abs(move) <= 0.5 * WIDTH_SHARE * edge_width(self.start) * radius:
                 return spec, radius
             radius += float(np.clip(move, -LARGEST_MOVE * radius, LARGEST_MOVE * radius))
@@ -259,6 +264,22 @@ class EdgeStates:
                 if abs(math.log(nearest.edge_radius / radius)) <= CLOSE:
                     raise
                 self.at(math.sqrt(nearest.edge_radius * radius))
+
+
+def _to_root(known: Mapping[float, float], at: float, slope: float) -> float:
+    """Distance from the last of some radii to the root of a function with known values at them.
+
+    Next to a kink of the punch the slope is much larger than that between the states of a path, and Newton's method
+    with that one swings about the root: between two values of different signs it is where the line through both is 0.
+    """
+    rising = math.copysign(1.0, slope)
+    below = max((radius for radius, value in known.items() if rising * value < 0.0), default=None)
+    above = min((radius for radius, value in known.items() if rising * value >= 0.0), default=None)
+    if below is None or above is None or below >= above:
+        return -known[at] / slope
+    share = known[below] / (known[below] - known[above])
+    # The line of a bent function has its root near one end again and again.
+    return below + min(max(share, LEAST_SHARE), 1.0 - LEAST_SHARE) * (above - below) - at
 
 
 def _state_from(nearest: Point, beside: Point | None, contact: Contact, radius: float) -> Point:

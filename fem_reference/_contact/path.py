@@ -81,6 +81,12 @@ RATE_POINTS = 5
 #: of the law: its elements are a third of it long, and the range of the law moves the extremes by less.
 BEYOND_LAST_TURN = 1.5
 
+#: States between two kinks that tell a turn there: rates are those of the polynomial of degree 3 or more through them.
+LEAST_STATES = 4
+
+#: Largest number of states that are inserted on a side of a kink, where it cannot be told whether the path turns.
+ROUNDS = 14
+
 #: Distance from a kink of the punch, relative to its radius, at which a branch ends and the next begins.
 BESIDE = 1e-9
 
@@ -230,15 +236,67 @@ def completed(at: Callable[[float], Point], points: Sequence[Point], exact_rates
     """
     rates = list if exact_rates else with_rates
     length = points[0].branch.contact.law.z0
-    tests = (
-        (_log_displacement_sample, LARGEST_CHANGE * length),
-        (_log_load_sample, LARGEST_CHANGE * load_scale(points)),
+    scales = LARGEST_CHANGE * length, LARGEST_CHANGE * load_scale(points)
+    tests = tuple(zip((_log_displacement_sample, _log_load_sample), scales, strict=True))
+
+    def complete(branch: list[Point]) -> list[Point]:
+        return complete_branch(rates(branch), tests, lambda _, log_radius: at(math.exp(log_radius)), rates)
+
+    branches = [list(branch) for branch in branches_of(points)]
+    if not exact_rates:
+        branches = [_with_more(at, branch) for branch in branches]
+    branches = [complete(branch) for branch in branches]
+    for _ in range(ROUNDS):
+        turning = set() if exact_rates else _turning(branches, scales)
+        if not turning:
+            return [point for branch in branches for point in branch]
+        branches = [
+            complete(_halved(at, branch, (i - 1) in turning, i in turning)) for i, branch in enumerate(branches)
+        ]
+    radius = branches[min(turning)][-1].parameter
+    raise NotConverged(
+        f"it cannot be decided whether the path turns where the contact edge is at {radius:.6g}, next to a kink of the "
+        "punch",
+        Failure.FOLDS,
     )
-    return [
-        point
-        for branch in branches_of(points)
-        for point in complete_branch(rates(branch), tests, lambda _, log_radius: at(math.exp(log_radius)), rates)
-    ]
+
+
+def _turning(branches: Sequence[Sequence[Point]], scales: tuple[float, float]) -> set[int]:
+    """Branches at the end of which the rates change their sign: that state is the first of the next branch, too.
+
+    The edge passes a kink at another rate, so that rates change there, but not their signs.
+    """
+    turning = set()
+    for i, (before, after) in enumerate(pairwise(branches)):
+        for name, scale in zip(("displacement_rate", "load_rate"), scales, strict=True):
+            left, right = (getattr(point, name) for point in (before[-1], after[0]))
+            lengths = [
+                abs(branch[j].parameter - branch[k].parameter) for branch, j, k in ((before, -1, -2), (after, 0, 1))
+            ]
+            if left * right < 0.0 and max(abs(left) * lengths[0], abs(right) * lengths[1]) > scale:
+                turning.add(i)
+    return turning
+
+
+def _with_more(at: Callable[[float], Point], branch: list[Point]) -> list[Point]:
+    """The branch between two kinks with as many states as tell a turn between them."""
+    while 1 < len(branch) < LEAST_STATES:
+        widest = max(range(1, len(branch)), key=lambda i: branch[i].parameter / branch[i - 1].parameter)
+        branch = [*branch[:widest], at(_middle(branch[widest - 1], branch[widest])), *branch[widest:]]
+    return branch
+
+
+def _halved(at: Callable[[float], Point], branch: list[Point], first: bool, last: bool) -> list[Point]:
+    """The branch with another state in its first or in its last interval."""
+    if last and len(branch) > 1:
+        branch = [*branch[:-1], at(_middle(branch[-2], branch[-1])), branch[-1]]
+    if first and len(branch) > 1:
+        branch = [branch[0], at(_middle(branch[0], branch[1])), *branch[1:]]
+    return branch
+
+
+def _middle(a: Point, b: Point) -> float:
+    return math.sqrt(a.parameter * b.parameter)
 
 
 def _log_displacement_sample(point: Point) -> Sample:
