@@ -40,6 +40,7 @@ __all__ = [
     "beginning",
     "completed",
     "contact_points",
+    "filled",
     "interpolated",
     "separate_points",
     "traced",
@@ -231,7 +232,12 @@ def completed(at: Callable[[float], Point], points: Sequence[Point], exact_rates
     return [
         point
         for branch in branches_of(points)
-        for point in complete_branch(rates(branch), tests, lambda _, log_radius: at(math.exp(log_radius)), rates)
+        for point in complete_branch(
+            rates(branch if exact_rates else filled(at, branch)),
+            tests,
+            lambda _, log_radius: at(math.exp(log_radius)),
+            rates,
+        )
     ]
 
 
@@ -243,6 +249,18 @@ def _log_displacement_sample(point: Point) -> Sample:
 def _log_load_sample(point: Point) -> Sample:
     """Load and its rate along the path in the logarithm of the radius."""
     return Sample(math.log(point.parameter), point.state.load, point.load_rate * point.parameter)
+
+
+def filled(at: Callable[[float], Point], branch: list[Point]) -> list[Point]:
+    """Return a branch, or between two kinks that are close one with as many states as its rates need.
+
+    Of three, the last nearest to the kink, the rates may have the wrong sign, and a pull-off of 93 was passed for one of
+    19 (a table of 12 rows, n = 2.2, mu = 6).
+    """
+    ends = np.log([branch[0].parameter, branch[-1].parameter])
+    if len(branch) >= RATE_POINTS or ends[0] == ends[1]:
+        return branch
+    return [branch[0], *(at(math.exp(x)) for x in np.linspace(*ends, RATE_POINTS)[1:-1]), branch[-1]]
 
 
 def with_rates(points: list[Point]) -> list[Point]:
