@@ -254,8 +254,8 @@ def _log_load_sample(point: Point) -> Sample:
 def filled(at: Callable[[float], Point], branch: list[Point]) -> list[Point]:
     """Return a branch, or between two kinks that are close one with as many states as its rates need.
 
-    Of three, the last nearest to the kink, the rates may have the wrong sign, and a pull-off of 93 was passed for one of
-    19 (a table of 12 rows, n = 2.2, mu = 6).
+    Rates of three have the wrong sign where the load falls to a minimum near a kink: under a paraboloid of R = 20 z0 by
+    12 rows at mu = 1 no minimum was seen at all.
     """
     ends = np.log([branch[0].parameter, branch[-1].parameter])
     if len(branch) >= RATE_POINTS or ends[0] == ends[1]:
