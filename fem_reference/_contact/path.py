@@ -257,10 +257,10 @@ def filled(at: Callable[[float], Point], branch: list[Point]) -> list[Point]:
     Rates of three have the wrong sign where the load falls to a minimum near a kink: under a paraboloid of R = 20 z0 by
     12 rows at mu = 1 no minimum was seen at all.
     """
-    ends = np.log([branch[0].parameter, branch[-1].parameter])
-    if len(branch) >= RATE_POINTS or ends[0] == ends[1]:
+    low, high = math.log(branch[0].parameter), math.log(branch[-1].parameter)
+    if len(branch) >= RATE_POINTS or low == high:
         return branch
-    return [branch[0], *(at(math.exp(x)) for x in np.linspace(*ends, RATE_POINTS)[1:-1]), branch[-1]]
+    return [branch[0], *(at(math.exp(x)) for x in np.linspace(low, high, RATE_POINTS)[1:-1]), branch[-1]]
 
 
 def with_rates(points: list[Point]) -> list[Point]:
