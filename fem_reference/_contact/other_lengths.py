@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from fem_reference._contact.mesh_lengths import KINK_HEIGHT
+from fem_reference._contact.mesh_lengths import KINK_HEIGHT, kinks_within
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._typing import Array
 from fem_reference.cohesive_laws import CohesiveTrapezoid
@@ -47,8 +47,9 @@ def other_lengths(problem: Problem, spec: MeshSpec, size: float) -> tuple[float,
     size : float
         Radius of its edge.
     """
-    has_kinks = isinstance(problem.law, CohesiveTrapezoid | TabulatedLaw)
-    return OTHER_LENGTHS if has_kinks or has_knots(problem, size * spec.grid().r) else ()
+    of_law = isinstance(problem.law, CohesiveTrapezoid | TabulatedLaw)
+    bends = of_law or kinks_within(problem) or has_knots(problem, size * spec.grid().r)
+    return OTHER_LENGTHS if bends else ()
 
 
 def has_knots(problem: Problem, lines: Array) -> bool:

@@ -40,6 +40,7 @@ __all__ = [
     "beginning",
     "completed",
     "contact_points",
+    "filled",
     "interpolated",
     "separate_points",
     "traced",
@@ -80,9 +81,6 @@ RATE_POINTS = 5
 #: Ratio of the last radius to that beyond which neither load nor displacement turns back in the limit of a short range
 #: of the law: its elements are a third of it long, and the range of the law moves the extremes by less.
 BEYOND_LAST_TURN = 1.5
-
-#: States between two kinks that tell a turn there: rates are those of the polynomial of degree 3 or more through them.
-LEAST_STATES = 4
 
 #: Largest number of states that are inserted on a side of a kink, where it cannot be told whether the path turns.
 ROUNDS = 14
@@ -243,9 +241,7 @@ def completed(at: Callable[[float], Point], points: Sequence[Point], exact_rates
         return complete_branch(rates(branch), tests, lambda _, log_radius: at(math.exp(log_radius)), rates)
 
     branches = [list(branch) for branch in branches_of(points)]
-    if not exact_rates:
-        branches = [_with_more(at, branch) for branch in branches]
-    branches = [complete(branch) for branch in branches]
+    branches = [complete(branch if exact_rates else filled(at, branch)) for branch in branches]
     for _ in range(ROUNDS):
         turning = set() if exact_rates else _turning(branches, scales)
         if not turning:
@@ -278,14 +274,6 @@ def _turning(branches: Sequence[Sequence[Point]], scales: tuple[float, float]) -
     return turning
 
 
-def _with_more(at: Callable[[float], Point], branch: list[Point]) -> list[Point]:
-    """The branch between two kinks with as many states as tell a turn between them."""
-    while 1 < len(branch) < LEAST_STATES:
-        widest = max(range(1, len(branch)), key=lambda i: branch[i].parameter / branch[i - 1].parameter)
-        branch = [*branch[:widest], at(_middle(branch[widest - 1], branch[widest])), *branch[widest:]]
-    return branch
-
-
 def _halved(at: Callable[[float], Point], branch: list[Point], first: bool, last: bool) -> list[Point]:
     """The branch with another state in its first or in its last interval."""
     if last and len(branch) > 1:
@@ -307,6 +295,18 @@ def _log_displacement_sample(point: Point) -> Sample:
 def _log_load_sample(point: Point) -> Sample:
     """Load and its rate along the path in the logarithm of the radius."""
     return Sample(math.log(point.parameter), point.state.load, point.load_rate * point.parameter)
+
+
+def filled(at: Callable[[float], Point], branch: list[Point]) -> list[Point]:
+    """Return a branch, or between two kinks that are close one with as many states as its rates need.
+
+    Rates of three have the wrong sign where the load falls to a minimum near a kink: under a paraboloid of R = 20 z0 by
+    12 rows at mu = 1 no minimum was seen at all.
+    """
+    low, high = math.log(branch[0].parameter), math.log(branch[-1].parameter)
+    if len(branch) >= RATE_POINTS or low == high:
+        return branch
+    return [branch[0], *(at(math.exp(x)) for x in np.linspace(low, high, RATE_POINTS)[1:-1]), branch[-1]]
 
 
 def with_rates(points: list[Point]) -> list[Point]:
