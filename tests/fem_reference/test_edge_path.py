@@ -18,6 +18,7 @@ from fem_reference._contact.jkr_tension import jkr_curve
 from fem_reference._contact.meshes import Meshes
 from fem_reference._contact.path import BEYOND_LAST_TURN, completed, contact_points, separate_points, traced
 from fem_reference._contact.states import edge_is_resolved
+from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import level_for
 from tests.fem_reference.solved_together import problem_with, sphere_on
 from tests.marks import heavy
@@ -138,7 +139,8 @@ def test_an_event_moves_to_its_state_on_the_mesh_of_its_edge():
 @pytest.fixture
 def exact_states(monkeypatch):
     """States on meshes of their own are those of the polynomial, which has its minimum at x = 2."""
-    monkeypatch.setattr(EdgeStates, "on_fine_mesh", lambda states, radius: (None, _States(0.0).at(radius)))
+    spec = MeshSpec(0.1, 0.05, 64.0, 1.3, 4)
+    monkeypatch.setattr(EdgeStates, "on_fine_mesh", lambda states, radius: (spec, _States(0.0).at(radius)))
     monkeypatch.setattr(EdgeStates, "similar", lambda states, spec, radius: _States(0.0).at(radius))
 
 

@@ -74,16 +74,16 @@ def test_a_bead_on_a_soft_solid(bead):
     assert errors["jkr-sphere-projected"] == pytest.approx(projected, abs=1e-4)
 
 
-def test_a_description_traces_each_problem_once(monkeypatch):
-    """A bead, as a paraboloid and as an exact sphere: force, profile and total errors share a path each."""
+def test_a_description_finds_the_least_load_of_each_problem_once(monkeypatch):
+    """A bead, as a paraboloid and as an exact sphere: force, profile and total errors share an analysis each."""
     fscm_model._kept_analysis.cache_clear()
-    traced, deepest = [], fscm.analysis.deepest_minimum
-    monkeypatch.setattr(fscm.analysis, "deepest_minimum", lambda *path: traced.append(1) or deepest(*path))
+    found, known_minimum = [], fscm.analysis.known_minimum
+    monkeypatch.setattr(fscm.analysis, "known_minimum", lambda *of: found.append(1) or known_minimum(*of))
     content = described(replace(BEAD, law=replace(BEAD.law, values={**BEAD.law.values, "z0": 1e-6})))
     assert content["pull_off_force"]["model"] in ("atlas", "fscm")
     assert content["assumptions"]["geometry"]["basis"] == "bound"
     assert content["total_errors"]
-    assert len(traced) == 2
+    assert len(found) == 2
 
 
 def test_slopes_that_any_soft_edge_has_are_printed_where_their_effect_is_unknown(bead):
