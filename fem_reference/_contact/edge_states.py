@@ -35,7 +35,7 @@ from fem_reference._typing import Array
 from fem_reference.errors import Failure, NotConverged
 from fem_reference.laws import SurfaceLaw
 
-__all__ = ["EdgeStates"]
+__all__ = ["EdgeStates", "to_root"]
 
 #: Difference of the logarithms of two radii from which on a state is also looked for by way of one between.
 CLOSE = 0.02
@@ -169,7 +169,7 @@ class EdgeStates:
         for _ in range(MOVES):
             spec, self.start = self.on_fine_mesh(radius)
             known[radius] = excess(self.start)
-            move = _to_root(known, radius, slope)
+            move = to_root(known, radius, slope)
             if abs(move) <= 0.5 * WIDTH_SHARE * edge_width(self.start) * radius:
                 return spec, radius
             radius += float(np.clip(move, -LARGEST_MOVE * radius, LARGEST_MOVE * radius))
@@ -266,8 +266,8 @@ class EdgeStates:
                 self.at(math.sqrt(nearest.edge_radius * radius))
 
 
-def _to_root(known: Mapping[float, float], at: float, slope: float) -> float:
-    """Distance from the last of some radii to the root of a function with known values at them.
+def to_root(known: Mapping[float, float], at: float, slope: float) -> float:
+    """Return the distance from the last of some radii to the root of a function with known values at them.
 
     Next to a kink of the punch the slope is much larger than that between the states of a path, and Newton's method
     with that one swings about the root: between two values of different signs it is where the line through both is 0.

@@ -11,7 +11,7 @@ from scipy.interpolate import CubicSpline
 
 from fem_reference import Coating, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve, trace
 from fem_reference._contact import followed
-from fem_reference._contact.edge_states import EdgeStates
+from fem_reference._contact.edge_states import MOVES, EdgeStates, to_root
 from fem_reference._contact.event_kinds import Anchor
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.jkr_tension import jkr_curve
@@ -293,3 +293,22 @@ def test_the_path_goes_on_where_the_range_of_the_law_may_matter():
     assert heights[1] >= 4.0
     # No farther than asked for: a flat face under many lengths of the law has steep states without any event.
     assert heights[0] < 40.0
+
+
+@pytest.mark.parametrize("start", [0.7, 1.3])
+@pytest.mark.parametrize("steeper", [1.0, 40.0])
+def test_an_event_where_the_rate_is_much_steeper_than_between_states_is_bracketed(start, steeper):
+    """Newton's method with the slope far from the root swings about it."""
+
+    def excess(radius):
+        x = radius - 1.013
+        return x + steeper * math.tanh(x / 0.05) * 0.05
+
+    known, radius = {}, start
+    for _ in range(MOVES):
+        known[radius] = excess(radius)
+        move = to_root(known, radius, 1.0)
+        if abs(move) <= 1e-3:
+            break
+        radius += move
+    assert abs(radius - 1.013) < 2e-3
