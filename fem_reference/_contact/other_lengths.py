@@ -1,6 +1,7 @@
-"""Other lengths of the elements, whose differences tell the error by bends that does not fall with the degree.
+"""Other lengths of the elements, whose differences tell the error by bends that falls slowly with the degree, or not.
 
-A law from a table bends at its rows, at gaps that move over the mesh.  A punch may have knots: radii at which a
+At a kink of the punch, a line of the mesh, the pressure bends, and the error falls like a power of the degree.  A law
+from a table bends at its rows, at gaps that move over the mesh.  A punch may have knots: radii at which a
 derivative of any order jumps, and which are no lines of the mesh.  The elements themselves show them: on each, the
 coefficients of a smooth height fall to its rounding.
 """
@@ -37,7 +38,7 @@ KNOT_SIZE = 1e-10
 
 
 def other_lengths(problem: Problem, spec: MeshSpec, size: float) -> tuple[float, ...]:
-    """Return the ratios of other lengths of the elements that tell the error by kinks of a law or knots of a punch.
+    """Return the ratios of other lengths that tell the error by kinks of law or punch, or by knots of the punch.
 
     Parameters
     ----------

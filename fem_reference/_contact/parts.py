@@ -4,9 +4,9 @@ An event of the path is solved again on each of the others.  No part is taken fr
 times another.
 
 * mesh: the same elements with two lower degrees (`fem_reference._contact.degree_error`).  If the solid does not scale,
-  the lower one of both neighbours has the contact edge half an element further out as well.  A law from a table has
-  kinks, and a punch may have knots, whose error does not fall with the degree but depends on where they are in the
-  elements: there the differences from elements of other lengths are added.
+  the lower one of both neighbours has the contact edge half an element further out as well.  A law from a table
+  has kinks, and a punch may have kinks or knots, whose error falls slowly with the degree or not at all: there the
+  differences from elements of other lengths are added.
 * first layer, interior and exterior: one feature is made coarser with elements of the lowest degree, whose error is
   larger as well.  What that changes is the part, unless it exceeds that of the mesh and half of the accuracy: then the
   elements have the highest degree.  The interior has a coarser apex where the exterior begins earlier.
@@ -82,7 +82,7 @@ class EventsOnMeshes:
     placements : tuple of CarriedEvents
         With another placement of the contact edge.
     resized : tuple of CarriedEvents
-        With elements of other lengths, for a law with kinks or a punch with knots.
+        With elements of other lengths, for a law or a punch with bends.
     tail : CarriedEvents
         With the displacement beyond the mesh.
     degrees : tuple of int
