@@ -21,7 +21,7 @@ from tests.paths import ROOT
 PATH = Path(__file__).with_suffix(".txt")
 
 #: CPU seconds from which a test is slow: the others take less than two minutes on two cores.
-SLOW = 0.5
+SLOW = 0.25
 
 #: Tests that are never slow: they show that an installation computes right, or prepare what many quick tests need.
 ALWAYS = (
