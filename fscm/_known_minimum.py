@@ -38,9 +38,11 @@ __all__ = ["known_minimum"]
 _END, _NEWTON = 1e3, 1e-3
 #: Times that the panels at the edge are split for the gaps of the series: it may be 1e-11 of the contact radius.
 _ROUNDS = 80
-#: Steps of log c in which the minimum is looked for: the series miss it by up to 0.01 (measured).
+#: Steps of log c in which the minimum is looked for: the series miss it by 0.0014 in the median and by up to 0.03
+#: (measured, 2000 problems).
 _STEPS = (0.02, 0.04, 0.08)
-#: Largest distance of the load on a coarse mesh from that of the atlas, relative to it.
+#: Largest distance of the load on a coarse mesh from that of the atlas, relative to it; that of any other minimum is
+#: 0.73 or more.
 _SAME = 0.05
 
 
@@ -56,7 +58,7 @@ def known_minimum(problem: Problem, meshes: Meshes) -> Bracket | None:
     if not _is_in_the_atlas(problem):
         return None
     try:
-        bracket = _bracket(_first(problem, meshes), _STEPS)
+        bracket = _bracket(_first(problem, meshes))
     except NotConverged:
         return None
     if bracket is None:
@@ -92,10 +94,10 @@ def _first(problem: Problem, meshes: Meshes) -> Point:
     return _point(adapted(newton(state, control, _NEWTON), control, tolerance, True, _NEWTON))
 
 
-def _bracket(point: Point, steps: tuple[float, ...]) -> Bracket | None:
+def _bracket(point: Point) -> Bracket | None:
     """The last two of states at steps downhill, between which the load turns."""
     start, downhill = math.log(point.state.scale), -math.copysign(1.0, point.rates.load)
-    for step in steps:
+    for step in _STEPS:
         state = moved(point.state, rates_of(point.state), start + downhill * step, _NEWTON)
         after = _point(state)
         if downhill * after.rates.load >= 0.0:

@@ -19,6 +19,7 @@ from fem_reference.errors import Failure, NotConverged
 from fem_reference.punch import radius_at_height
 
 __all__ = [
+    "ROUNDS",
     "complete_branch",
     "complete_path",
     "displacement_range",

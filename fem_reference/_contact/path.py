@@ -21,7 +21,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from fem_reference._contact.completeness import complete_branch, displacement_range, load_scale
+from fem_reference._contact.completeness import ROUNDS, complete_branch, displacement_range, load_scale
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import CentralGap, GapRise, mesh_control
 from fem_reference._contact.hermite import Interval, Sample
@@ -81,9 +81,6 @@ RATE_POINTS = 5
 #: Ratio of the last radius to that beyond which neither load nor displacement turns back in the limit of a short range
 #: of the law: its elements are a third of it long, and the range of the law moves the extremes by less.
 BEYOND_LAST_TURN = 1.5
-
-#: Largest number of states that are inserted on a side of a kink, where it cannot be told whether the path turns.
-ROUNDS = 14
 
 #: Distance from a kink of the punch, relative to its radius, at which a branch ends and the next begins.
 BESIDE = 1e-9

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from fem_reference import Coating, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve, trace
-from fem_reference._contact import followed
+from fem_reference import Coating, CustomPunch, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve, trace
+from fem_reference._contact import followed, path
 from fem_reference._contact.edge_states import MOVES, EdgeStates, to_root
 from fem_reference._contact.event_kinds import Anchor
 from fem_reference._contact.events import PathEvents
@@ -312,3 +312,25 @@ def test_an_event_where_the_rate_is_much_steeper_than_between_states_is_brackete
             break
         radius += move
     assert abs(radius - 1.013) < 2e-3
+
+
+class _KinkedStates:
+    """A load that turns shortly before a kink at the radius 1, and rises behind it."""
+
+    def at(self, radius):
+        x = math.log(radius)
+        load = -1.0 - x + 0.015 * math.exp(x / 0.005) if x < 0.0 else -0.985 + 2.0 * x + 3.0 * x * x
+        punch = CustomPunch(lambda r: r**2 / 2.0, 2.0, kinks=(1.0,))
+        contact = SimpleNamespace(law=LennardJones(1.0, 1.0), punch=punch)
+        state = SimpleNamespace(load=load, displacement=x)
+        return _Point(radius, state, SimpleNamespace(contact=contact, touching=True))
+
+
+def test_rates_of_both_sides_of_a_kink_decide_what_the_test_of_each_side_does_not_see(monkeypatch):
+    """Five states see a rate of -0.8 at the kink, where it is 2."""
+    monkeypatch.setattr(path, "complete_branch", lambda points, *_: points)
+    at = _KinkedStates().at
+    points = completed(at, contact_points(at, 0.33, (1.0,), 0.0))
+    within = [(a, b) for a, b in pairwise(points) if b.edge_radius > a.edge_radius * (1.0 + 1e-6)]
+    ((a, b),) = [pair for pair in within if pair[0].load_rate < 0.0 <= pair[1].load_rate]
+    assert a.edge_radius <= math.exp(0.005 * math.log(1.0 / 3.0)) <= b.edge_radius <= 1.0
