@@ -87,10 +87,16 @@ class FullSystem:
         rule = x[None, :], w
         self.facets = FacetBasis(mesh, dofs.element, mapping, facets=top, quadrature=rule)
         self.s: Array = np.asarray(self.facets.global_coordinates())[0]
+        # scikit-fem's interpolation sorts the numbers of all functions of the mesh, each time.
+        self._functions: Array = np.stack([np.asarray(function) for function, *_ in self.facets.basis])
 
     def gap(self, u: Array, delta: float, c: float) -> Array:
         """H at the facet Gauss points."""
-        return -delta + self.force.punch.height(c * self.s) + np.asarray(self.facets.interpolate(u[1::2]))
+        return -delta + self.force.punch.height(c * self.s) + self._raised(u)
+
+    def _raised(self, u: Array) -> Array:
+        """u_z at the facet Gauss points."""
+        return np.einsum("ieq,ie->eq", self._functions, u[1::2][self.facets.element_dofs])
 
     def vector(self, pressure: Array) -> Array:
         """Return the load vector of a pressure at the facet Gauss points, shape (2 N,)."""
@@ -116,8 +122,7 @@ class FullSystem:
         """Derivative of F at y along `rate`, shape (2 N,)."""
         r = y[-1] * self.s
         by_radius, by_gap = self.force.slopes(r, self.gap(self.on_surface(y[:-2]), y[-2], y[-1]))
-        rise = np.asarray(self.facets.interpolate(self.on_surface(rate[:-2])[1::2]))
-        rise = rise - rate[-2] + rate[-1] * self.s * self.force.punch.slope(r)
+        rise = self._raised(self.on_surface(rate[:-2])) - rate[-2] + rate[-1] * self.s * self.force.punch.slope(r)
         return self.vector(by_gap * rise + rate[-1] * self.s * by_radius)
 
     def on_body(self, load: Array, body: MeshedBody) -> Array:

@@ -44,11 +44,7 @@ from fem_reference.errors import Failure, NotConverged
 
 __all__ = ["UncondensedEvents", "UncondensedValue", "uncondensed_events"]
 
-#: Residual of the first displacement, about its relative error in energy: what it leaves of its traction is known, and
-#: each digit of it would cost half an iteration in vain, because the traction changes by 3e-5 to 2e-3 of itself.
-ROUGH_TOLERANCE = 1e-4
-
-#: Residual of the displacements from then on. Under a steep traction there are several steps (measured at a Tabor
+#: Residual of the displacements. Under a steep traction there are several steps (measured at a Tabor
 #: number of 300: 1e-10 would leave 1e-7 of the force).
 LINEAR_TOLERANCE = 1e-12
 
@@ -210,7 +206,7 @@ class _Newton:
         self._folds = [name for name, equation in equations.items() if equation.is_fold]
         self.iterations = dict.fromkeys(equations, 0)
         self._step, self._load = math.inf, self._loads()
-        self._results = self._displaced([system.on_body(self._load, body) for body in system.bodies], ROUGH_TOLERANCE)
+        self._results = [_at_rest(system.on_body(self._load, body)) for body in system.bodies]
 
     def solve(self) -> None:
         """Take Newton steps until they are small.
@@ -240,7 +236,7 @@ class _Newton:
             )
 
     def _begin(self) -> None:
-        """Step from the rough displacement, with what it lacks by the condensed system, until the steps are small."""
+        """Step from the state of the lower degree to that of the condensed system."""
         for _ in range(NEWTON_STEPS):
             before, self._step = self._step, self._newton_step(self._lacking())
             if self._step <= NEWTON_TOLERANCE or not self._step <= min(LARGEST_STEP, SLOWEST * before):
@@ -273,7 +269,9 @@ class _Newton:
         loads = [
             system.on_body(changed, body) + result.remainder for body, result in zip(system.bodies, before, strict=True)
         ]
-        changes = self._displaced(loads, tolerance, [result.norm for result in before])
+        # What was at rest has left the whole of its load, and its norm is that of the load.
+        norms = [result.norm for result in before] if any(self.iterations.values()) else None
+        changes = self._displaced(loads, tolerance, norms)
         self._load = load
         self._results = [
             replace(change, solution=result.solution + change.solution)
@@ -356,6 +354,12 @@ class _Newton:
         """Column of each event, and that of its rate if the event is a fold."""
         rates = dict(zip(self._folds, columns.T[len(self._equations) :], strict=True))
         return {name: (column, rates.get(name)) for name, column in zip(self._equations, columns.T, strict=False)}
+
+
+def _at_rest(load: Array) -> LinearResult:
+    """No displacement under loads, shape (2 N, q)."""
+    count = load.shape[1]
+    return LinearResult(np.zeros_like(load), load, np.ones(count), np.zeros(count, np.intp), 1.0, 0.0)
 
 
 def _left(half_space: HalfSpace, load: Array, u: Array) -> Array:

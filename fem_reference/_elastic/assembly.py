@@ -12,7 +12,7 @@ from skfem import Dofs, ElementQuadP
 from fem_reference._elastic.condensed_elements import CondensedElements, condensed_elements
 from fem_reference._elastic.dissection import Elimination
 from fem_reference._elastic.dof_ordering import both_components, line_unknowns, reversal_signs
-from fem_reference._elastic.elasticity import Body
+from fem_reference._elastic.elasticity import Body, element_places
 from fem_reference._elastic.element_forces import ElementForces
 from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import InteriorChart
@@ -73,13 +73,21 @@ class HalfSpace:
     def matrix(self) -> sparse.csr_array:
         """Stiffness with the exterior, shape (2 N, 2 N); rows inside the elements are empty, fixed ones are not."""
         rows, cols = np.repeat(self.boundary, self.boundary.size), np.tile(self.boundary, self.boundary.size)
-        inside = self.elements.assembled()
-        total = (inside + sparse.coo_array((self.exterior.ravel(), (rows, cols)), shape=inside.shape)).tocsr()
+        inside = replace(self.elements, stiffness=self.stiffness_of_sides).assembled()
+        return (inside + sparse.coo_array((self.exterior.ravel(), (rows, cols)), shape=inside.shape)).tocsr()
+
+    @property
+    def stiffness_of_sides(self) -> Array:
+        """Stiffness of the elements on their sides, with the surface tension; shape (elements, m, m)."""
         if not self.tension:
-            return total
-        on_surface = self.skin.matrix.tocoo()
-        places = self.surface[on_surface.row], self.surface[on_surface.col]
-        return (total + sparse.coo_array((self.tension * on_surface.data, places), shape=inside.shape)).tocsr()
+            return self.elements.stiffness
+        functions, tense = self.skin.of_elements
+        stiffness, (columns, layers) = self.elements.stiffness.copy(), element_places(self.dofs.topo)
+        for element in np.flatnonzero(layers == 0):
+            rows = self.surface[functions[columns[element]]]
+            local = np.argmax(self.elements.sides[element][:, None] == rows, axis=0)
+            stiffness[element][np.ix_(local, local)] += self.tension * tense[columns[element]]
+        return stiffness
 
     @cached_property
     def skin(self) -> SurfaceTension:

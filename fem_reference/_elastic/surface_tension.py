@@ -56,21 +56,25 @@ class SurfaceTension:
         return 0.5 * (1.0 + self.depth_exponent)
 
     @cached_property
-    def matrix(self) -> sparse.csr_array:
-        """In surface order, shape (m, m)."""
+    def of_elements(self) -> tuple[Index, Array]:
+        """Functions of each element in surface order, both ends first, and its matrix; the last has what is beyond."""
         functions, slopes = self._elements
-        e, p = slopes.shape[0], self.order
-        local = np.empty((e, p + 1, p + 1))
+        local = np.empty((slopes.shape[0], self.order + 1, self.order + 1))
         local[:, 1:, 1:] = slopes
         local[:, 0, 1:] = -slopes[:, 0]
         local[:, 1:, 0] = -slopes[:, 0]
         local[:, 0, 0] = slopes[:, 0, 0]
-        rows = np.repeat(functions, p + 1, axis=1).ravel()
-        columns = np.tile(functions, (1, p + 1)).ravel()
-        last = self.nodes.size - 1
-        entries = np.append(local.ravel(), self._end), (np.append(rows, last), np.append(columns, last))
-        m = self.nodes.size + e * (p - 1)
-        return sparse.coo_array(entries, shape=(m, m)).tocsr()
+        local[-1, 1, 1] += self._end
+        return functions, local
+
+    @cached_property
+    def matrix(self) -> sparse.csr_array:
+        """In surface order, shape (m, m)."""
+        functions, local = self.of_elements
+        rows = np.repeat(functions, self.order + 1, axis=1).ravel()
+        columns = np.tile(functions, (1, self.order + 1)).ravel()
+        m = int(functions.max()) + 1
+        return sparse.coo_array((local.ravel(), (rows, columns)), shape=(m, m)).tocsr()
 
     def forces(self, w: Array) -> Array:
         """Return the product of the matrix with surface displacements, shape (m, q), to the rounding of the forces."""

@@ -9,65 +9,26 @@ formula.  A general sparse factorisation has three times the bytes, and memory i
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
 from scipy.linalg import cholesky, solve_triangular
-from scipy.linalg.lapack import dpstrf, dtrtri
+from scipy.linalg.lapack import dtrtri
 
+from fem_reference._linear.element_sums import Border, places_in
+from fem_reference._linear.strip_blocks import StripBlocks
 from fem_reference._typing import Array, Index
 from fem_reference.errors import Failure, NotConverged
 
-__all__ = ["BlockTridiagonal", "Border", "border_of", "places_in", "spread"]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Border:
-    """Coupling V V' of unknowns that are on the boundary of the mesh.
-
-    Attributes
-    ----------
-    rows : ndarray of int, shape (b,)
-        The unknowns.
-    root : ndarray, shape (b, rank)
-        V.
-    """
-
-    rows: Index
-    root: Array
-
-    def within(self, inside: Index, count: int) -> Border:
-        """Return the part on some of `count` unknowns, numbered as they are there."""
-        there = places_in(inside, count)[self.rows]
-        return Border(there[there < inside.size], self.root[there < inside.size])
-
-
-def border_of(rows: Index, coupling: Array) -> Border:
-    """Return a positive semidefinite coupling as V V', to rounding.
-
-    Examples
-    --------
-    >>> border_of(np.arange(2), np.array([[4.0, 2.0], [2.0, 1.0]])).root.tolist()
-    [[2.0], [1.0]]
-    """
-    factor, order, rank, _ = dpstrf(coupling, lower=1)
-    root = np.empty((rows.size, rank))
-    root[order - 1] = np.tril(factor)[:, :rank]
-    return Border(rows, root)
+__all__ = ["BlockTridiagonal", "spread"]
 
 
 class BlockTridiagonal:
-    """Strips of a matrix, each block tridiagonal, and a border that couples them.
+    """Factorised strips, each block tridiagonal, and a border that couples them.
 
     Parameters
     ----------
-    matrix : csr_array, shape (n, n)
-        Symmetric positive definite, with the border.
-    strips : ndarray of int, shape (n,)
-        Number of the strip of each unknown.
-    along : ndarray of int, shape (n,)
-        Position along the strip: even on grid lines, odd between them.
+    blocks : StripBlocks
+        The strips without the border; they are overwritten.
     border : Border
         Its unknowns are in the last strip or on the last line of one.
 
@@ -77,65 +38,33 @@ class BlockTridiagonal:
         If a strip is singular.
     """
 
-    def __init__(self, matrix: sparse.csr_array, strips: Index, along: Index, border: Border) -> None:
-        steps, between = (along + 1) // 2, along % 2 == 1
-        # A block is what is between two lines, and then the second line: the one before couples by its line only.
-        rank = _ranks(2 * (strips * (int(steps.max()) + 1) + steps) + between)
-        self._between = int(rank[between].max(initial=-1)) + 1
-        size = self._between + int(rank[~between].max(initial=-1)) + 1
-        slots = np.where(between, rank, self._between + rank)
-        self._shape = int(steps.max()) + 1, int(strips.max()) + 1, size
-        self._place = (steps * self._shape[1] + strips) * size + slots
+    def __init__(self, blocks: StripBlocks, border: Border) -> None:
+        self._shape, self._between = blocks.diagonal.shape[:3], blocks.below.shape[2] - blocks.below.shape[3]
+        self._place = blocks.places
         self._origin = places_in(self._place, math.prod(self._shape))
-        root = np.zeros((*self._shape, border.root.shape[1]))
-        root.reshape(-1, root.shape[-1])[self._place[border.rows]] = border.root
-        on_last_line, in_last_strip = root[-1], root[:-1, -1]
-        diagonal, below = self._blocks(matrix, strips, steps, slots)
-        self._take_away(diagonal, below, on_last_line, in_last_strip)
-        self._factorise(diagonal, below)
+        # The border is on the last line of every strip, and all along the last strip.
+        count, strips, size = self._shape
+        block, slot = np.divmod(self._place[border.rows], size)
+        step, strip = np.divmod(block, strips)
+        rank, last = border.root.shape[1], step == count - 1
+        on_last_line, in_last_strip = np.zeros((strips, size, rank)), np.zeros((count - 1, size, rank))
+        on_last_line[strip[last], slot[last]] = border.root[last]
+        in_last_strip[step[~last], slot[~last]] = border.root[~last]
+        self._factorise(blocks.diagonal, blocks.below)
         self._add(on_last_line, in_last_strip)
-
-    def _blocks(self, matrix: sparse.csr_array, strips: Index, steps: Index, slots: Index) -> tuple[Array, Array]:
-        """Blocks on the diagonal, and those that couple a block to the line before it."""
-        count, of_strips, size = self._shape
-        place, block = self._place.astype(np.int32), (steps * of_strips + strips).astype(np.int32)
-        repeats, columns = np.diff(matrix.indptr), matrix.indices
-        # How many blocks before the row the column is: those of one strip are a step apart.
-        apart = np.repeat(block, repeats) - block[columns]
-        diagonal = np.zeros((count, of_strips, size, size))
-        diagonal[...] = np.eye(size)
-        diagonal.reshape(-1, size)[place] = 0.0
-        within = np.flatnonzero(apart == 0)
-        starts = np.repeat(place * size, repeats)
-        slots = slots.astype(np.int32)
-        diagonal.reshape(-1)[starts[within] + slots[columns[within]]] = matrix.data[within]
-        lines = size - self._between
-        below = np.zeros((count, of_strips, size, lines))
-        before = np.flatnonzero(apart == of_strips)
-        on_line = slots[columns[before]] - self._between
-        before, on_line = before[on_line >= 0], on_line[on_line >= 0]
-        below.reshape(-1)[starts[before] // size * lines + on_line] = matrix.data[before]
-        return diagonal, below
-
-    def _take_away(self, diagonal: Array, below: Array, on_last_line: Array, in_last_strip: Array) -> None:
-        """Subtract the border from the blocks."""
-        diagonal[-1] -= on_last_line @ np.swapaxes(on_last_line, 1, 2)
-        diagonal[:-1, -1] -= in_last_strip @ np.swapaxes(in_last_strip, 1, 2)
-        of_strip = np.concatenate([in_last_strip, on_last_line[-1:]])
-        below[1:, -1] -= of_strip[1:] @ np.swapaxes(of_strip[:-1, self._between :], 1, 2)
 
     def _factorise(self, diagonal: Array, below: Array) -> None:
         """Factorise the strips: inverses of the Cholesky factors, and what couples them."""
-        self._inverses, self._couplings = np.empty_like(diagonal), np.empty_like(below)
+        # Factors and inverses take the memory of the blocks: new memory costs as much as they do.
+        self._inverses, self._couplings = diagonal, below
         between = self._between
         for step in range(self._shape[0]):
-            block = diagonal[step]
             if step:
                 of_line = self._inverses[step - 1][:, between:, between:]
-                coupling = np.matmul(below[step], np.swapaxes(of_line, 1, 2), out=self._couplings[step])
-                block = block - coupling @ np.swapaxes(coupling, 1, 2)
+                below[step] = below[step] @ np.swapaxes(of_line, 1, 2)
+                diagonal[step] -= below[step] @ np.swapaxes(below[step], 1, 2)
             try:
-                factor = np.linalg.cholesky(block)
+                factor = np.linalg.cholesky(diagonal[step])
             except np.linalg.LinAlgError as error:
                 raise NotConverged(f"a strip of the mesh is singular ({error})", Failure.STIFFNESS) from error
             for lower, inverse in zip(factor, self._inverses[step], strict=True):
@@ -190,38 +119,9 @@ class BlockTridiagonal:
         return sum(array.nbytes for array in arrays)
 
 
-def places_in(numbers: Index, size: int) -> Index:
-    """Place of each of `size` numbers among some of them; of the others the place after the last.
-
-    Examples
-    --------
-    >>> places_in(np.array([2, 0]), 4).tolist()
-    [1, 2, 0, 2]
-    """
-    places = np.full(size, numbers.size)
-    places[numbers] = np.arange(numbers.size)
-    return places
-
-
 def spread(values: Array, places: Index) -> Array:
     """Take values from their places, and zero from the place after the last.
 
     It costs a tenth of an assignment to indices of rows.
     """
     return np.concatenate([values, np.zeros((1, *values.shape[1:]))]).take(places, axis=0)
-
-
-def _ranks(keys: Index) -> Index:
-    """Number of each entry among those with the same key.
-
-    Examples
-    --------
-    >>> _ranks(np.array([7, 3, 7, 7])).tolist()
-    [0, 0, 1, 2]
-    """
-    order = np.argsort(keys, kind="stable")
-    ordered = keys[order]
-    starts = np.flatnonzero(np.append(True, ordered[1:] != ordered[:-1]))
-    ranks = np.empty(keys.size, np.intp)
-    ranks[order] = np.arange(keys.size) - np.repeat(starts, np.diff(np.append(starts, keys.size)))
-    return ranks

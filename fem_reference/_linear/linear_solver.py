@@ -210,6 +210,6 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
 
 
 def _expand(half_space: HalfSpace, x: Array) -> Array:
-    full = np.zeros((half_space.matrix.shape[0], *x.shape[1:]))
+    full = np.zeros((half_space.elements.size, *x.shape[1:]))
     full[half_space.free] = x
     return full

@@ -12,14 +12,12 @@ conjugate gradients take 5 to 7 iterations to 1e-10, at most one more on the fin
 from __future__ import annotations
 
 import numpy as np
-from scipy import sparse
 
 from fem_reference._elastic.assembly import HalfSpace
-from fem_reference._elastic.scaling import unit_scaling
 from fem_reference._linear.algebraic_multigrid import pyamg
-from fem_reference._linear.block_tridiagonal import Border, border_of
+from fem_reference._linear.element_sums import ScaledStiffness, grid_positions
 from fem_reference._linear.hierarchy import hierarchy_bytes, vertex_hierarchy
-from fem_reference._linear.strips import sparse_bytes, strips_of
+from fem_reference._linear.strips import element_strips
 from fem_reference._typing import Array, Index
 from fem_reference.errors import Failure, NotConverged
 
@@ -35,18 +33,6 @@ COARSE_CYCLES = 2
 SMALLEST_WORK = 0.9
 
 
-def _grid_positions(half_space: HalfSpace) -> tuple[Index, Index]:
-    """Column and row of every vertex and edge function, shape (N,): even on grid lines, odd between them."""
-    dofs, grid = half_space.dofs, half_space.grid
-    mesh = dofs.topo
-    places = 2 * np.searchsorted(grid.r, mesh.p[0]), 2 * np.searchsorted(grid.z, mesh.p[1])
-    column, row = np.zeros(dofs.N, np.intp), np.zeros(dofs.N, np.intp)
-    for position, value in zip((column, row), places, strict=True):
-        position[dofs.nodal_dofs[0]] = value
-        position[dofs.facet_dofs] = value[mesh.facets].sum(axis=0) // 2
-    return column, row
-
-
 class ElasticPreconditioner:
     """Symmetric positive definite approximate inverse of the scaled stiffness on the free rows.
 
@@ -57,7 +43,7 @@ class ElasticPreconditioner:
 
     Attributes
     ----------
-    matrix : csr_array
+    matrix : ScaledStiffness
         The scaled stiffness D A D on the free rows.
     scale : ndarray
         The diagonal of D.
@@ -69,49 +55,28 @@ class ElasticPreconditioner:
     """
 
     def __init__(self, half_space: HalfSpace) -> None:
-        free = half_space.free
-        A = half_space.matrix[free][:, free].tocsr()
-        self.scale: Array = unit_scaling(A.diagonal())
-        A.data *= np.repeat(self.scale, np.diff(A.indptr))
-        A.data *= self.scale[A.indices]
-        self.matrix: sparse.csr_array = A
-        columns, rows = (np.repeat(index, 2)[free] for index in _grid_positions(half_space))
-        border = self._border(half_space)
-        self._columns = strips_of(self.matrix, columns, rows, border)
-        self._rows = strips_of(self.matrix, rows, columns, border)
+        self.matrix = ScaledStiffness(half_space)
+        self.scale: Array = self.matrix.scale
+        self._columns, self._rows = (element_strips(self.matrix, axis) for axis in (0, 1))
         self._vertices, self._coarse = self._build_coarse(half_space)
-        self._vertex_columns = self.matrix[:, self._vertices[self._vertices >= 0]].tocsr()
-
-    def _border(self, half_space: HalfSpace) -> Border:
-        """The exterior, scaled, on the free rows of the boundary."""
-        present = np.isin(half_space.boundary, half_space.free)
-        rows = np.searchsorted(half_space.free, half_space.boundary[present])
-        scale = self.scale[rows]
-        return border_of(rows, scale[:, None] * half_space.exterior[np.ix_(present, present)] * scale)
+        self._vertex_columns = self.matrix.on_vertices(self._vertices[self._vertices >= 0])
 
     def _build_coarse(self, half_space: HalfSpace) -> tuple[Index, pyamg.MultilevelSolver]:
         """Galerkin matrix of the vertex functions, in 2 x 2 blocks, and its aggregation hierarchy."""
-        dofs, free = half_space.dofs, half_space.free
-        rows = 2 * dofs.nodal_dofs[0][:, None] + np.arange(2)
-        position = np.full(half_space.matrix.shape[0], -1)
-        position[free] = np.arange(free.size)
+        rows = 2 * half_space.dofs.nodal_dofs[0][:, None] + np.arange(2)
+        position = np.full(half_space.elements.size, -1)
+        position[half_space.free] = np.arange(half_space.free.size)
         vertices = position[rows.ravel()]
-        present = vertices >= 0
+        present = np.flatnonzero(vertices >= 0)
         free_vertices = vertices[present]
-        size = vertices.size
         # A vertex on the axis has no u_r: a unit row keeps the blocks whole.
-        injection = sparse.csr_array(
-            (np.ones(free_vertices.size), (np.flatnonzero(present), np.arange(free_vertices.size))),
-            (size, free_vertices.size),
-        )
-        padding = sparse.diags_array((~present).astype(float))
-        coarse = injection @ self.matrix[free_vertices][:, free_vertices] @ injection.T + padding
-        unit = np.zeros(size)
+        coarse = self.matrix.among_vertices(free_vertices, present, vertices.size)
+        unit = np.zeros(vertices.size)
         unit[present] = 1.0 / self.scale[free_vertices]
-        candidates = np.zeros((size, 2))
+        candidates = np.zeros((vertices.size, 2))
         candidates[0::2, 0], candidates[1::2, 1] = unit[0::2], unit[1::2]
         # Grid lines have even positions.
-        places = [index[dofs.nodal_dofs[0]] // 2 for index in _grid_positions(half_space)]
+        places = [along[half_space.dofs.nodal_dofs[0]] // 2 for along in grid_positions(half_space)]
         return vertices, vertex_hierarchy(coarse, candidates, places)
 
     def __call__(self, b: Array) -> Array:
@@ -148,7 +113,7 @@ class ElasticPreconditioner:
             coarse = np.zeros(self._vertices.size)
             coarse[present] = left[vertices]
             correction = self._coarse.solve(coarse, tol=1e-300, maxiter=COARSE_CYCLES)[present]
-            image = self._vertex_columns @ correction
+            image = (self._vertex_columns @ correction[:, None])[:, 0]
             work, energy = float(left[vertices] @ correction), float(correction @ image[vertices])
             if not work >= SMALLEST_WORK * energy or (energy == 0.0 and np.any(left[vertices])):
                 raise NotConverged(
@@ -162,6 +127,6 @@ class ElasticPreconditioner:
     @property
     def storage(self) -> int:
         """Bytes of the scaled matrix, of the strips with their factors, and of pyamg's hierarchy."""
-        matrices = sparse_bytes(self.matrix) + sparse_bytes(self._vertex_columns) + self._vertices.nbytes
+        matrices = self.matrix.nbytes + self._vertex_columns.nbytes + self._vertices.nbytes
         strips = sum(half.storage for half in (*self._columns, *self._rows))
         return matrices + strips + hierarchy_bytes(self._coarse)

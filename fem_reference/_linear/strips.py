@@ -2,9 +2,9 @@
 
 Elements have every aspect ratio, and unknowns are coupled strongly along thin columns and along thin rows.  A strip is
 all between two grid lines four positions apart; every other strip is independent of the next, but for the exterior, so
-that one factorisation solves half of them: by small dense blocks (`block_tridiagonal`), or a sparse one.  Strips are
-solved exactly, so that a residual is left on the lines between them only: it is kept and changed there, at a tenth of
-the cost of a product with the whole matrix.
+that one factorisation solves half of them: by small dense blocks made of those of the elements (`block_tridiagonal`),
+or a sparse one.  Strips are solved exactly, so that a residual is left on the lines between them only: it is kept and
+changed there, at a tenth of the cost of a product with the whole matrix.
 """
 
 from __future__ import annotations
@@ -12,18 +12,19 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import SuperLU, splu
 
-from fem_reference._linear.block_tridiagonal import BlockTridiagonal, Border, places_in, spread
+from fem_reference._linear.block_tridiagonal import BlockTridiagonal, spread
+from fem_reference._linear.element_sums import ElementSum, ScaledStiffness, places_in
+from fem_reference._linear.strip_blocks import PERIOD, coupling_of, split, strip_blocks
 from fem_reference._typing import Array, Index
 from fem_reference.errors import Failure, NotConverged
 
-__all__ = ["StripSmoother", "Strips", "factorise", "sparse_bytes", "strips_of"]
+__all__ = ["StripSmoother", "Strips", "element_strips", "factorise", "sparse_bytes", "strips_of"]
 
-#: Positions from one strip to the next that is solved with it: strips of three positions, a line between two.
-PERIOD = 4
+#: Positions, of a period, of the lines between the strips of the first half and of the second.
+_DROPPED = (PERIOD // 2, 0)
 
 
 def factorise(matrix: Any) -> SuperLU:
@@ -65,16 +66,17 @@ class Strips:
         Unknowns in the strips, and on the grid lines between them.
     factors : SuperLU or BlockTridiagonal
         Of the matrix on `inside`.
-    coupling : csr_array
+    coupling : csr_array or ElementSum
         The matrix, rows `lines` and columns `inside`.
-    bytes_of_factors : int
+    bytes_of_matrices : int
+        Of both.
     """
 
     inside: Index
     lines: Index
     factors: _Factors
-    coupling: sparse.csr_array
-    bytes_of_factors: int
+    coupling: sparse.csr_array | ElementSum
+    bytes_of_matrices: int
     _places: tuple[Index, Index] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -92,14 +94,11 @@ class Strips:
     @property
     def storage(self) -> int:
         """Bytes of factors, coupling and indices."""
-        indices = sum(index.nbytes for index in (self.inside, self.lines, *self._places))
-        return indices + self.bytes_of_factors + sparse_bytes(self.coupling)
+        return self.bytes_of_matrices + sum(index.nbytes for index in (self.inside, self.lines, *self._places))
 
 
-def strips_of(
-    matrix: sparse.csr_array, positions: Index, along: Index | None = None, border: Border | None = None
-) -> list[Strips]:
-    """Return both halves of the strips.
+def strips_of(matrix: sparse.csr_array, positions: Index) -> list[Strips]:
+    """Return both halves of the strips of a sparse matrix.
 
     Parameters
     ----------
@@ -107,10 +106,6 @@ def strips_of(
         Symmetric positive definite.
     positions : ndarray of int, shape (N,)
         Position of each unknown across the lines, such as its column; unknowns on the same position are in one strip.
-    along : ndarray of int, shape (N,), optional
-        Position along the strips, even on grid lines and odd between them: the strips are then solved by dense blocks.
-    border : Border, optional
-        What couples the ends of all strips, and the last of them.
 
     Raises
     ------
@@ -124,25 +119,33 @@ def strips_of(
     [[2, 6], [0, 4]]
     """
     strips = []
-    for dropped in (PERIOD // 2, 0):
-        between = positions % PERIOD == dropped
-        inside, lines = np.flatnonzero(~between), np.flatnonzero(between)
+    for dropped in _DROPPED:
+        inside, lines = split(positions, dropped)
         columns = matrix[:, inside].tocsr()
-        within = columns[inside]
-        if along is None or border is None:
-            try:
-                sparse_factors = factorise(within)
-            except RuntimeError as error:
-                raise NotConverged(f"a strip of the mesh is singular ({error})", Failure.STIFFNESS) from error
-            factors: _Factors = sparse_factors
-            size = 12 * sparse_factors.nnz
-        else:
-            numbers = (positions[inside] + PERIOD - dropped) // PERIOD
-            dense = BlockTridiagonal(
-                within, numbers - numbers.min(), along[inside], border.within(inside, positions.size)
-            )
-            factors, size = dense, dense.nbytes
-        strips.append(Strips(inside, lines, factors, columns[lines], int(size)))
+        try:
+            factors = factorise(columns[inside])
+        except RuntimeError as error:
+            raise NotConverged(f"a strip of the mesh is singular ({error})", Failure.STIFFNESS) from error
+        coupling = columns[lines]
+        strips.append(Strips(inside, lines, factors, coupling, 12 * factors.nnz + sparse_bytes(coupling)))
+    return strips
+
+
+def element_strips(stiffness: ScaledStiffness, axis: int) -> list[Strips]:
+    """Return both halves of the strips of the elements: columns (axis 0) or rows (axis 1).
+
+    Raises
+    ------
+    NotConverged
+        If a strip is singular.
+    """
+    strips = []
+    for dropped in _DROPPED:
+        inside, lines = split(stiffness.positions[axis], dropped)
+        border = stiffness.border.within(inside, stiffness.size)
+        factors = BlockTridiagonal(strip_blocks(stiffness, axis, dropped), border)
+        coupling = coupling_of(stiffness, axis, dropped)
+        strips.append(Strips(inside, lines, factors, coupling, factors.nbytes + coupling.nbytes))
     return strips
 
 

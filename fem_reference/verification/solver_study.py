@@ -104,7 +104,7 @@ def solver_table(cases: Iterable[SolverCase] = QUICK_STUDY) -> list[SolverRow]:
 def _row(case: SolverCase) -> SolverRow:
     grid = case.spec.grid()
     half_space = assemble_half_space(grid, PowerLaw(1.0, 1.0, case.k, case.nu), case.spec.order)
-    load = np.zeros(half_space.matrix.shape[0])
+    load = np.zeros(half_space.elements.size)
     load[half_space.surface] = _LOAD(trace_of(grid, case.spec.order))
     begin = time.perf_counter()
     preconditioner = ElasticPreconditioner(half_space)
