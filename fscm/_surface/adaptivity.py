@@ -8,6 +8,7 @@ A kink of the punch ends a panel only where the pressure that the panel misses a
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -59,6 +60,8 @@ _KNOWN_ROUNDS, _GUESS_ROUNDS = 6, 2
 #: r^n at the tip of a punch is not smooth: coefficients of the innermost panel fall algebraically, so that the
 #: omitted ones together exceed the last.  Measured on n = 1.5, k = 0.6, mu = 3: by up to 10.
 _ALGEBRAIC = 30.0
+#: Largest number of times that the innermost panel is halved at once.
+_MOST_SPLITS = 8
 
 
 class _Field:
@@ -274,6 +277,25 @@ def lengthened(state: State, end_height: float) -> State:
     return replace(state, disc=Discretisation(problem, longer, state.disc), unknowns=np.concatenate([state.gap, gap]))
 
 
+def _towards_tip(tip: float, before: tuple[float, float], now: tuple[float, float], tolerance: float) -> Array:
+    """Places where the innermost panel is split further, if it is unresolved again.
+
+    At the tip of a punch the pressure is a power of the radius, and what a panel there leaves unresolved is a power of
+    its length: the lengths and effects of two rounds tell the length that is resolved.
+
+    Examples
+    --------
+    >>> _towards_tip(0.0, (1.0, 1e-2), (0.5, 1e-3), 1e-5).tolist()  # a tenth by each half, one of which is made anyway
+    [0.125]
+    """
+    (length_before, effect_before), (length, effect) = before, now
+    if not (tolerance < effect < effect_before and length < length_before):
+        return np.empty(0)
+    power = math.log(effect / effect_before) / math.log(length / length_before)
+    splits = min(math.ceil(math.log2(effect / tolerance) / power), _MOST_SPLITS)
+    return tip + length * 0.5 ** np.arange(2.0, splits + 1.0)
+
+
 def newton_tolerance(tolerance: float) -> float:
     """Tolerance of Newton's method whose error is negligible relative to that of the mesh."""
     return max(STEP_TOLERANCE, _NEWTON_MARGIN * tolerance)
@@ -315,10 +337,13 @@ def adapted(
     iterations = state.iterations
     if step_tolerance is None:
         step_tolerance = newton_tolerance(tolerance)
+    at_tip = math.inf, 0.0
     for attempt in range(_MAX_ROUNDS):
         mesh = state.disc.mesh
         effect, places = _indicator(_Field(state))
-        places = places[effect > tolerance]
+        before, at_tip = at_tip, (float(mesh.lengths[0]), float(effect[0]))
+        further = _towards_tip(mesh.offsets[0], before, at_tip, tolerance)
+        places = np.concatenate([further, places[effect > tolerance]])
         drop = _superfluous(state, tolerance) if coarsen and attempt == 0 else np.empty(0, np.intp)
         # A new mesh costs a solve: worth it for missing panels, or for many superfluous ones.
         if not places.size and drop.size < _WORTH_MERGING * len(mesh.offsets):

@@ -2,6 +2,7 @@
 
 import itertools
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from fscm import Coating, LennardJones, Mie, NotConverged, PowerPunch, Problem, solve
 from fscm._path.arc_length import parameter_control, parameter_of
 from fscm._path.continuation import equilibrium_path
+from fscm._surface import adaptivity
 from fscm._surface.linearisation import rates_by
 from fscm._surface.newton import _least_clearance, newton
 from fscm._surface.state import Control, State
@@ -128,3 +130,20 @@ def test_a_law_with_a_soft_repulsion_has_a_zero_load() -> None:
     )
     problem = Problem(coating, PowerPunch(n=2.0, Q=29779.364927597602), Mie(m=2.3519028939091093, n=1.2015510827386442))
     assert solve(problem, "zero_load_displacement").value == pytest.approx(1.0039246136470368, rel=1e-9)
+
+
+def test_the_tip_of_a_cone_is_resolved_in_three_rounds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By halves, one in each round, it would take six; each has another response and other steps of Newton's."""
+    state = _state(Problem(1, 0.6, 2.0), in_contact=True, end_height=1e3)
+    control, solved = parameter_control(state, parameter_of(state)), []
+
+    def counted(*arguments: Any) -> State:
+        solved.append(newton(*arguments))
+        return solved[-1]
+
+    monkeypatch.setattr(adaptivity, "newton", counted)
+    innermost = state.disc.mesh.lengths[0]
+    found = adaptivity.adapted(state, control, 1e-7)
+    assert np.max(adaptivity.indicator(found)) <= 1e-7
+    assert found.disc.mesh.lengths[0] <= 0.5**6 * innermost
+    assert len(solved) <= 3
