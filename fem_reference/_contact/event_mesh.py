@@ -100,10 +100,20 @@ class EventMesh:
         NotConverged
             If the path cannot be traced.
         """
-        return path_on(self.meshes, self.spec, self.size) if self.meshes.scale else self.path.events()
+        return path_on(self.meshes, self.whole_spec, self.size) if self.meshes.scale else self.path.events()
+
+    @property
+    def whole_spec(self) -> MeshSpec:
+        """The mesh; one that scales extends as far as the whole path needs."""
+        return self.meshes.spec_at(self.spec.edge_width, self.size) if self.meshes.scale else self.spec
 
 
-def event_mesh(meshes: Meshes, events: Sequence[str], start: tuple[MeshSpec, float] | None = None) -> EventMesh:
+def event_mesh(
+    meshes: Meshes,
+    events: Sequence[str],
+    start: tuple[MeshSpec, float] | None = None,
+    others: Sequence[str] = (),
+) -> EventMesh:
     """Return the mesh whose edge width, and size unless it scales, suit the computed gap.
 
     Parameters
@@ -113,6 +123,8 @@ def event_mesh(meshes: Meshes, events: Sequence[str], start: tuple[MeshSpec, flo
         Events that are needed.  A mesh that does not scale is fine at the edge of the first.
     start : tuple, optional
         The mesh and size of a similar problem, to begin with.
+    others : sequence of str
+        Further events of the same mesh, which the path may not have.
 
     Raises
     ------
@@ -122,7 +134,7 @@ def event_mesh(meshes: Meshes, events: Sequence[str], start: tuple[MeshSpec, flo
         If the path cannot be traced, or the edge is narrower than the mesh can resolve.
     """
     path = followed_path(meshes)
-    return EventMesh(path, *path.mesh(events, start), events[0])
+    return EventMesh(path, *path.mesh(events, start, others), events[0])
 
 
 def chosen(
@@ -131,6 +143,7 @@ def chosen(
     accuracy: float | str,
     usable: Callable[[EventMesh], object] | None = None,
     start: tuple[MeshSpec, float] | None = None,
+    others: Sequence[str] = (),
 ) -> EventMesh:
     """Choose the coarsest meshes, from those of an accuracy on, on which the path of a problem can be traced.
 
@@ -145,7 +158,7 @@ def chosen(
         As for `fem_reference.accuracy.level_for`.
     usable : callable, optional
         Called with the result; if it raises NotConverged, other meshes are tried.
-    start : tuple, optional
+    start, others
         As for `event_mesh`.
 
     Raises
@@ -159,7 +172,7 @@ def chosen(
     """
 
     def mesh(meshes: Meshes) -> EventMesh:
-        suitable = event_mesh(meshes, events, start)
+        suitable = event_mesh(meshes, events, start, others)
         if usable is not None:
             usable(suitable)
         return suitable

@@ -25,6 +25,7 @@ __all__ = [
     "WIDEST",
     "balance_length",
     "check_width",
+    "extent_for",
     "kinks_within",
     "mesh_spec",
     "scales",
@@ -79,7 +80,7 @@ KINK_HEIGHT = 300.0
 MOST_KINKS = 60
 
 #: Of a mesh, in units of its edge radius. It costs an element for each factor of two.
-LARGEST_EXTENT = 1e8
+SMALLEST_EXTENT, LARGEST_EXTENT = 50.0, 1e8
 
 #: Bound of the relative error of the displacement from the power law that the exterior takes: half of the accuracy
 #: "default", for all accuracies, because it falls with the square of the extent.
@@ -126,13 +127,10 @@ def mesh_spec(
     apex : float
         Radius of the spot on which contact begins, if it is so small that the apex has to be finer for it.
     """
-    law, solids = problem.law, problem.solids
+    solids = problem.solids
     width = 2.0 ** math.floor(math.log2(min(max(width, NARROWEST), WIDEST)))
     depth = min(_layer_depth(solid, width, size) for solid in solids)
-    C, m = law.decay
-    height = FAR_HEIGHT ** max(1.0, 3.0 / m) if C != 0.0 else FAR_HEIGHT
-    far = radius_at_height(problem.punch, height * law.z0)
-    extent = 2.0 ** math.ceil(math.log2(min(max(far / smallest, 50.0), LARGEST_EXTENT)))
+    extent = extent_for(problem, smallest)
     while max(_far_error(solid, extent, size) for solid in solids) > EXTERIOR_ERROR and extent < LARGEST_EXTENT:
         extent *= 2.0
     scales, *of_punch = [
@@ -147,6 +145,15 @@ def mesh_spec(
     apex_width = min(_apex_width(problem.punch, size), apex)
     punch_scales = of_punch[0] if of_punch else None
     return MeshSpec(width, depth, extent, density, order, apex_width, scales, far_share, kinks, punch_scales)
+
+
+def extent_for(problem: Problem, radius: float) -> float:
+    """Return how far a mesh extends, relative to the radius of the edge: to where the punch is `FAR_HEIGHT` high."""
+    law = problem.law
+    C, m = law.decay
+    height = FAR_HEIGHT ** max(1.0, 3.0 / m) if C != 0.0 else FAR_HEIGHT
+    far = radius_at_height(problem.punch, height * law.z0)
+    return float(2.0 ** math.ceil(math.log2(min(max(far / radius, SMALLEST_EXTENT), LARGEST_EXTENT))))
 
 
 def _layer_depth(solid: Solid, width: float, size: float) -> float:

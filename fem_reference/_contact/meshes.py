@@ -13,6 +13,7 @@ from fem_reference._contact.mesh_lengths import (
     EDGE_RISE,
     balance_length,
     check_width,
+    extent_for,
     mesh_spec,
     scales,
     spot_length,
@@ -33,6 +34,11 @@ FAR_SHARE = 0.5
 
 #: Radius on which contact begins, relative to that where the punch rises by `EDGE_RISE`, below which it is small.
 SMALL_SPOT = 0.25
+
+
+#: Least depth, in units of the edge radius, at which a mesh ends that would extend farther (see
+#: `fem_reference._elastic.mesh.ended`).
+NEAREST_END = 128.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,19 +87,31 @@ class Meshes:
 
     def spec_at(self, width: float, radius: float) -> MeshSpec:
         """Mesh of one radius of the edge, for an edge of that relative width; of every radius if the meshes scale."""
-        law, punch = self.problem.law, self.problem.punch
-        rise = radius_at_height(punch, EDGE_RISE * law.z0)
         if self.scale:
-            smallest, size = min(self.spot, rise), 2.0 * radius_at_height(punch, law.z0)
-            far_share = FAR_SHARE ** max(self.failures, int(smallest < SMALL_SPOT * rise))
-            return mesh_spec(self.problem, self.level, width, size, smallest, far_share)
-        smallest = min(radius, rise)
-        apex = spot_length(self.problem, 2.0 * radius_at_height(punch, law.z0))
-        return mesh_spec(self.problem, self.level, width, radius, smallest, apex=apex)
+            smallest = min(self.spot, self._rise)
+            far_share = FAR_SHARE ** max(self.failures, int(smallest < SMALL_SPOT * self._rise))
+            return mesh_spec(self.problem, self.level, width, self._size, smallest, far_share)
+        apex = spot_length(self.problem, self._size)
+        return mesh_spec(self.problem, self.level, width, radius, min(radius, self._rise), apex=apex)
+
+    def spec_from(self, width: float, smallest: float) -> MeshSpec:
+        """Mesh that scales, for an edge of that relative width, which ends where a radius and larger ones need it."""
+        end = max(extent_for(self.problem, smallest), NEAREST_END)
+        return replace(self.spec_at(width, self._size), end=end)
+
+    @property
+    def _rise(self) -> float:
+        """Radius at which the punch rises by `EDGE_RISE`."""
+        return radius_at_height(self.problem.punch, EDGE_RISE * self.problem.law.z0)
+
+    @property
+    def _size(self) -> float:
+        """Radius of the edge on the mesh on which a path begins."""
+        return 2.0 * radius_at_height(self.problem.punch, self.problem.law.z0)
 
     def first(self) -> tuple[MeshSpec, float]:
         """Mesh on which a path begins, and the radius of its edge."""
-        size = 2.0 * radius_at_height(self.problem.punch, self.problem.law.z0)
+        size = self._size
         width = 0.5 * balance_length(self.problem, size) / size * NARROWER**self.failures
         check_width(width)
         return self.spec_at(width, size), size

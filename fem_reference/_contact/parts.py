@@ -33,7 +33,7 @@ from fem_reference._contact.event_mesh import EventMesh
 from fem_reference._contact.other_lengths import other_lengths
 from fem_reference._contact.tail import TailContact
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference._elastic.variants import ENDS, FEATURES, variant
+from fem_reference._elastic.variants import ENDS, FEATURES, SHRINKAGE, variant
 from fem_reference._wells import has_one_well
 from fem_reference.accuracy import SEARCH_DEGREE
 from fem_reference.errors import NotConverged
@@ -167,7 +167,8 @@ def events_on_meshes(mesh: EventMesh) -> EventsOnMeshes:
     """
     fine, meshes, spec = mesh.events, mesh.meshes, mesh.spec
     problem, contact = meshes.problem, fine.contact
-    plain = replace(spec, order=SEARCH_DEGREE)
+    # The path has been followed on it.
+    plain = replace(spec, order=SEARCH_DEGREE, end=math.inf)
     # Another placement of the edge needs another mesh if the solid does not scale: that of the degree below.
     placements = (-PLACEMENT, PLACEMENT) if meshes.scale else ()
     sides = () if meshes.scale or fine.anchor(mesh.event).radius_error == 0.0 else (-1.0, 1.0)
@@ -177,7 +178,11 @@ def events_on_meshes(mesh: EventMesh) -> EventsOnMeshes:
 
     @lru_cache(maxsize=2 * len(FEATURES))
     def feature(name: str, full: bool) -> CarriedEvents:
-        return CarriedEvents(fine, on(variant(spec if full else plain, name)))
+        coarser = spec if full else plain
+        if name == ENDS:
+            # A mesh of the whole extent shows what another one loses by its end.
+            coarser = replace(coarser, end=spec.end / SHRINKAGE if full else spec.end)
+        return CarriedEvents(fine, on(variant(coarser, name)))
 
     resized = [replace(spec, density=ratio * spec.density) for ratio in other_lengths(problem, spec, mesh.size)]
     return EventsOnMeshes(

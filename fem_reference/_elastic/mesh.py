@@ -20,7 +20,13 @@ from fem_reference._elastic.depth_scales import DepthScales
 from fem_reference._elastic.nodes import depth_nodes, outer_nodes, radial_nodes, sinh_nodes
 from fem_reference._typing import Array
 
-__all__ = ["Grid", "MeshSpec", "edge_grid", "uniform_grid"]
+__all__ = ["Grid", "MeshSpec", "edge_grid", "ended", "shortened", "uniform_grid"]
+
+#: Smallest ratio of the last depth to the one before it, where a mesh has been shortened.
+CLEARANCE = 1.5
+
+#: Smallest ratio of the last radius to the one before it, where a mesh ends before its extent.
+NEAREST = 1.1
 
 _NO_SCALES = DepthScales()
 
@@ -127,6 +133,30 @@ def edge_grid(
     return Grid(np.concatenate([inside, outside[1:]]), depths)
 
 
+def ended(grid: Grid, end: float) -> Grid:
+    """Return a grid that ends at its first depth from `end` on, or the same if that is its last one.
+
+    No element is much longer than it was: what the elements at the end leave of a value falls fast with their distance
+    (measured at degree 4: up to 2e-9 of a pull-off force from an end of 74 on, up to 2e-11 from one of 180 on; up to
+    2e-8 with an end at 134 that is 4 times as far as the last depth before it).
+
+    Examples
+    --------
+    >>> shorter = ended(edge_grid(extent=1000.0), 100.0)
+    >>> bool(100.0 <= shorter.extent < 200.0), bool(shorter.r[-1] == shorter.extent)
+    (True, True)
+    """
+    last = int(np.searchsorted(grid.z, end))
+    if last >= grid.z.size - 1:
+        return grid
+    return Grid(shortened(grid.r, float(grid.z[last]), NEAREST), grid.z[: last + 1])
+
+
+def shortened(nodes: Array, end: float, clearance: float = CLEARANCE) -> Array:
+    """Nodes up to a new end."""
+    return np.append(nodes[nodes * clearance <= end], end)
+
+
 def uniform_grid(extent: float, count: int) -> Grid:
     """Return `count` x `count` equal squares on [0, extent]^2 (for manufactured solutions).
 
@@ -160,6 +190,9 @@ class MeshSpec:
         Radii where the slope of the punch jumps, in units of the edge radius: the mesh then has one size only.
     punch_scales : DepthScales, optional
         As `scales`, of the solid of an elastic punch: both meshes have the same radial nodes.
+    end : float
+        Depth, in units of the edge radius, from which on the first node of a mesh of the whole `extent` ends this one:
+        the elements within are the same.
     """
 
     edge_width: float
@@ -172,10 +205,11 @@ class MeshSpec:
     far_share: float = 1.0
     kinks: tuple[float, ...] = ()
     punch_scales: DepthScales | None = None
+    end: float = math.inf
 
     def grid(self) -> Grid:
         """Return the grid with its edge at s = 1."""
-        return edge_grid(
+        grid = edge_grid(
             1.0,
             self.edge_width,
             self.surface_depth,
@@ -186,6 +220,7 @@ class MeshSpec:
             self.far_share,
             self.kinks,
         )
+        return ended(grid, self.end)
 
     def moved(self, ratio: float) -> MeshSpec:
         """Return the mesh whose edge radius is `ratio` times as large, with the lines where they are.

@@ -6,12 +6,12 @@ at least halved from the variant to the mesh if it is at least linear, so that t
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+import math
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from fem_reference._elastic.mesh import Grid, MeshSpec
-from fem_reference._typing import Array
+from fem_reference._elastic.mesh import Grid, MeshSpec, shortened
 
 __all__ = ["ENDS", "FEATURES", "VariantSpec", "variant"]
 
@@ -26,13 +26,13 @@ FEATURES = ("first layer", ENDS)
 #: Smallest ratio of the extent to that of a variant.
 SHRINKAGE = 2.0
 
-#: Smallest ratio of the last depth to the one before it, where a mesh has been shortened.
-CLEARANCE = 1.5
-
 
 @dataclass(frozen=True, slots=True)
 class VariantSpec(MeshSpec):
-    """A mesh with one feature of `FEATURES` made coarser, hashable."""
+    """A mesh with one feature of `FEATURES` made coarser, hashable.
+
+    With `ENDS`, it ends at its own `end`, if that is at most half of the extent.
+    """
 
     feature: str = ""
 
@@ -41,13 +41,11 @@ class VariantSpec(MeshSpec):
         grid = MeshSpec.grid(self)
         if self.feature == "first layer":
             return Grid(grid.r, np.delete(grid.z, 1))
-        r = grid.r[grid.r <= grid.extent / SHRINKAGE * (1.0 + 1e-12)]
-        return Grid(np.delete(r, 1), _shortened(grid.z, float(r[-1])))
-
-
-def _shortened(nodes: Array, end: float) -> Array:
-    """Nodes up to a new end."""
-    return np.append(nodes[nodes * CLEARANCE <= end], end)
+        whole = replace(self, feature="", end=math.inf)
+        if grid.extent > MeshSpec.grid(whole).extent / SHRINKAGE:
+            r = grid.r[grid.r <= grid.extent / SHRINKAGE * (1.0 + 1e-12)]
+            grid = Grid(r, shortened(grid.z, float(r[-1])))
+        return Grid(np.delete(grid.r, 1), grid.z)
 
 
 def variant(spec: MeshSpec, feature: str) -> VariantSpec:
