@@ -81,6 +81,9 @@ WIDEST_EDGE = 5.0
 #: number of such meshes.
 SPOT_DENSITY, SPOT_MESHES = 1.5, 6
 
+#: Largest number of meshes for a spot that is about where it is expected: the second has the spot found on the first.
+EXPECTED_SPOTS = 3
+
 #: Largest number of meshes tried for the edge where folds merge, and of those in a row on which the path cannot be
 #: traced.
 CUSP_MESHES, FAILURES = 10, 3
@@ -100,8 +103,29 @@ class FollowedPath:
     @cached_property
     def meshes(self) -> Meshes:
         """The meshes; those that scale extend as far from the spot on which contact begins."""
+        return self._begun[0]
+
+    @cached_property
+    def _begun(self) -> tuple[Meshes, tuple[list[Point], Point] | None]:
+        """The meshes, and the path before contact on the first of them if it has been followed there."""
+        if not self._meshes.scale:
+            return self._meshes, None
+        meshes = self._meshes.expected
+        for _ in range(EXPECTED_SPOTS):
+            spec, size = meshes.first()
+            try:
+                separate, start = approach(meshes.contact(replace(spec, order=SEARCH_DEGREE), size))
+            except NotConverged:
+                break
+            meshes = replace(meshes, spot=_spot(separate, start))
+            if meshes.first()[0] == spec:
+                return meshes, (separate, start)
+        return self._searched(), None
+
+    def _searched(self) -> Meshes:
+        """The meshes of a spot that is not where it is expected, found from a larger one."""
         meshes, density = self._meshes, SPOT_DENSITY
-        for _ in range(SPOT_MESHES if meshes.scale else 0):
+        for _ in range(SPOT_MESHES):
             spec, size = meshes.first()
             try:
                 coarse = replace(spec, order=SEARCH_DEGREE, density=density * spec.density)
@@ -113,8 +137,7 @@ class FollowedPath:
                     meshes = replace(meshes, spot=spot, failures=meshes.failures + 1)
                 density = 1.0
             else:
-                spot = min(point.state.size for point in (*separate, start))
-                meshes = replace(meshes, spot=min(meshes.spot, spot))
+                meshes = replace(meshes, spot=min(meshes.spot, _spot(separate, start)))
                 if meshes.first()[0] == spec:
                     break
         return meshes
@@ -128,7 +151,8 @@ class FollowedPath:
     def _approach(self) -> tuple[list[Point], Point]:
         """The path before contact, and its first state in contact, on the first mesh."""
         spec, size = self._first
-        separate, start = approach(self.meshes.contact(replace(spec, order=SEARCH_DEGREE), size))
+        begun = self._begun[1]
+        separate, start = begun or approach(self.meshes.contact(replace(spec, order=SEARCH_DEGREE), size))
         *separate, start = complete_path([*separate, start])
         return separate, start
 
@@ -331,6 +355,11 @@ class FollowedPath:
         radii = [states_near(states.start, *other).extremum(height)[0] for other in others]
         radius_error = sum(abs(math.log(radius / other)) for other in radii)
         return (spec, radius), Anchor(replace(point_there, pinned=True), slope, radius_error)
+
+
+def _spot(separate: Sequence[Point], start: Point) -> float:
+    """Smallest radius that the meshes before contact have, and its first edge."""
+    return min(point.state.size for point in (*separate, start))
 
 
 # Several problems are solved in turns where a parameter is varied.

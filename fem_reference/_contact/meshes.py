@@ -13,6 +13,7 @@ from fem_reference._contact.mesh_lengths import (
     EDGE_RISE,
     balance_length,
     check_width,
+    expected_spot,
     extent_for,
     mesh_spec,
     scales,
@@ -98,6 +99,11 @@ class Meshes:
         """Mesh that scales, for an edge of that relative width, which ends where a radius and larger ones need it."""
         end = max(extent_for(self.problem, smallest), NEAREST_END)
         return replace(self.spec_at(width, self._size), end=end)
+
+    @property
+    def expected(self) -> Meshes:
+        """Those that extend as far from the spot on which contact is expected to begin."""
+        return replace(self, spot=expected_spot(self.problem, self._size, self._rise))
 
     @property
     def _rise(self) -> float:
