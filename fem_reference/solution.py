@@ -245,10 +245,10 @@ def _solved_together(
     begin = time.perf_counter()
     results: dict[str, Solution | NoSuchEvent] = {}
     missed: dict[str, NotConverged] = {}
-    others = tuple(dict.fromkeys(event for row in rows.values() for event in row.events))
+    force_alone = all(row.kind == "force" for row in rows.values())
     for name, row in rows.items():
         try:
-            mesh = chosen(problem, row.events, accuracy, partial(_estimated, row), start, others)
+            mesh = chosen(problem, row.events, accuracy, partial(_estimated, row), start, force_alone)
         except NoSuchEvent as reason:
             results[name] = reason.with_traceback(None)
         else:

@@ -100,19 +100,14 @@ class EventMesh:
         NotConverged
             If the path cannot be traced.
         """
-        return path_on(self.meshes, self.whole_spec, self.size) if self.meshes.scale else self.path.events()
-
-    @property
-    def whole_spec(self) -> MeshSpec:
-        """The mesh; one that scales extends as far as the whole path needs."""
-        return self.meshes.spec_at(self.spec.edge_width, self.size) if self.meshes.scale else self.spec
+        return path_on(self.meshes, self.spec, self.size) if self.meshes.scale else self.path.events()
 
 
 def event_mesh(
     meshes: Meshes,
     events: Sequence[str],
     start: tuple[MeshSpec, float] | None = None,
-    others: Sequence[str] = (),
+    force_alone: bool = False,
 ) -> EventMesh:
     """Return the mesh whose edge width, and size unless it scales, suit the computed gap.
 
@@ -123,8 +118,8 @@ def event_mesh(
         Events that are needed.  A mesh that does not scale is fine at the edge of the first.
     start : tuple, optional
         The mesh and size of a similar problem, to begin with.
-    others : sequence of str
-        Further events of the same mesh, which the path may not have.
+    force_alone : bool
+        Whether the pull-off force alone is wanted: a mesh that scales may end nearer.
 
     Raises
     ------
@@ -134,7 +129,7 @@ def event_mesh(
         If the path cannot be traced, or the edge is narrower than the mesh can resolve.
     """
     path = followed_path(meshes)
-    return EventMesh(path, *path.mesh(events, start, others), events[0])
+    return EventMesh(path, *path.mesh(events, start, force_alone), events[0])
 
 
 def chosen(
@@ -143,7 +138,7 @@ def chosen(
     accuracy: float | str,
     usable: Callable[[EventMesh], object] | None = None,
     start: tuple[MeshSpec, float] | None = None,
-    others: Sequence[str] = (),
+    force_alone: bool = False,
 ) -> EventMesh:
     """Choose the coarsest meshes, from those of an accuracy on, on which the path of a problem can be traced.
 
@@ -158,7 +153,7 @@ def chosen(
         As for `fem_reference.accuracy.level_for`.
     usable : callable, optional
         Called with the result; if it raises NotConverged, other meshes are tried.
-    start, others
+    start, force_alone
         As for `event_mesh`.
 
     Raises
@@ -172,7 +167,7 @@ def chosen(
     """
 
     def mesh(meshes: Meshes) -> EventMesh:
-        suitable = event_mesh(meshes, events, start, others)
+        suitable = event_mesh(meshes, events, start, force_alone)
         if usable is not None:
             usable(suitable)
         return suitable

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property, lru_cache
 
@@ -39,7 +38,7 @@ from fem_reference._contact.path import BEYOND_LAST_TURN, approach, beginning, c
 from fem_reference._contact.states import NARROWER, WIDTH_SHARE, Point, edge_width
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import SEARCH_DEGREE
-from fem_reference.errors import Failure, NoSuchEvent, NotConverged
+from fem_reference.errors import Failure, NotConverged
 from fem_reference.punch import radius_at_height
 
 __all__ = ["FollowedPath", "followed_path", "path_on"]
@@ -199,17 +198,17 @@ class FollowedPath:
         self,
         events: Sequence[str],
         start: tuple[MeshSpec, float] | None = None,
-        others: Sequence[str] = (),
+        force_alone: bool = False,
     ) -> tuple[MeshSpec, float]:
         """Return the mesh that is fine at the contact edge of the first event, and the radius of that edge.
 
-        A mesh that scales is fine at the edges of all of them, and extends far enough for the others as well.
+        A mesh that scales is fine at the edges of all of them.
 
         Parameters
         ----------
         events : sequence of str
-        others : sequence of str
-            Further events, which the path may not have.
+        force_alone : bool
+            Whether the least load alone is wanted: a mesh that scales may end nearer.
         start : tuple, optional
             The mesh and size of a similar problem, to begin with at the cusp.
 
@@ -224,7 +223,7 @@ class FollowedPath:
         if event == CUSP:
             return self._mesh_of_cusp(start)
         if self.meshes.scale:
-            return self._mesh_of_all(events, others)
+            return self._mesh_of_all(events, force_alone)
         if event == JUMP_IN and self._jumps_before_contact():
             return self._first
         located = [self._located(event, point) for point in self._lowest(event)]
@@ -232,22 +231,22 @@ class FollowedPath:
         self._whole.relocate(event, anchor)
         return mesh
 
-    def _mesh_of_all(self, events: Sequence[str], others: Sequence[str]) -> tuple[MeshSpec, float]:
+    def _mesh_of_all(self, events: Sequence[str], force_alone: bool) -> tuple[MeshSpec, float]:
         """The mesh for the narrowest edge of the part of the path in which several events are, with the pull-off."""
         if events[0] == JUMP_IN and self._jumps_before_contact():
             return self._first
         points = self._whole.points
-        located = [self._whole.at(event) for event in events]
-        for event in others:
-            with suppress(NoSuchEvent, NotConverged):
-                located.append(self._whole.at(event))
+        for event in events:
+            self._whole.at(event)
         if not any(beyond_pull_off(event) for event in events):
             # Beyond the pull-off the edge is sharper relative to its radius, but that part is not needed.
             deepest = min(range(len(points)), key=lambda i: points[i].state.load)
             points = points[: deepest + 3]
-        # Contact begins on a spot that may be much smaller than the contact at any event.
-        smallest = min(point.state.size for point in located)
-        return self.meshes.spec_from(self._width_of(points), smallest), self._first[1]
+        spec, size = self._mesh_of(points)
+        if force_alone:
+            # Contact begins on a spot that may be much smaller than the contact at the pull-off.
+            spec = self.meshes.ended(spec, self._whole.at(events[0]).state.size)
+        return spec, size
 
     def mesh_of_path(self) -> tuple[MeshSpec, float]:
         """Return the mesh that scales and is fine at every edge of the path, and its size.
@@ -257,15 +256,14 @@ class FollowedPath:
         NotConverged
             As `mesh`.
         """
-        size = self._first[1]
-        return self.meshes.spec_at(self._width_of(self._whole.points), size), size
+        return self._mesh_of(self._whole.points)
 
-    def _width_of(self, points: Sequence[Point]) -> float:
-        """Width of the narrowest edge that is resolved."""
+    def _mesh_of(self, points: Sequence[Point]) -> tuple[MeshSpec, float]:
         narrowest = min((edge_width(point) for point in points if point.branch.touching), default=WIDEST)
         width = min(WIDTH_SHARE * narrowest, self._first[0].edge_width)
         check_width(width)
-        return width
+        size = self._first[1]
+        return self.meshes.spec_at(width, size), size
 
     def _mesh_of_cusp(self, start: tuple[MeshSpec, float] | None) -> tuple[MeshSpec, float]:
         """The mesh for the edge where folds merge, on which the whole path is traced: they merge before it is sharp."""

@@ -21,6 +21,7 @@ from fem_reference.solid import Solid
 __all__ = [
     "EDGE_PER_BALANCE",
     "EDGE_RISE",
+    "FORCE_HEIGHT",
     "KINK_HEIGHT",
     "WIDEST",
     "balance_length",
@@ -76,6 +77,10 @@ RADIUS_STEP = 1.1
 #: power 3/m of it for a slower H^-m): beyond it the traction enters P by a quadrature to infinity, and its displacement
 #: (below 1e-8 z0 even for a cone) is dropped.
 FAR_HEIGHT = 1e4
+
+#: The same for a mesh of the pull-off force alone: a displacement that is the same in all of the contact does not
+#: change the least load (measured at n = 1: by 2e-10 of it at mu = 0.05, and by 5e-11 and less from mu = 0.3 on).
+FORCE_HEIGHT = 1e3
 
 #: Height, in lengths of the law, below which the kinks of a punch are mesh lines: the traction beyond is 1e-5 of a
 #: load, and a kink inside an element leaves 1e-3 of that.
@@ -152,11 +157,11 @@ def mesh_spec(
     return MeshSpec(width, depth, extent, density, order, apex_width, scales, far_share, kinks, punch_scales)
 
 
-def extent_for(problem: Problem, radius: float) -> float:
-    """Return how far a mesh extends, relative to the radius of the edge: to where the punch is `FAR_HEIGHT` high."""
+def extent_for(problem: Problem, radius: float, height: float = FAR_HEIGHT) -> float:
+    """Return how far a mesh extends, relative to the radius of the edge: to a height of the punch."""
     law = problem.law
     C, m = law.decay
-    height = FAR_HEIGHT ** max(1.0, 3.0 / m) if C != 0.0 else FAR_HEIGHT
+    height = height ** max(1.0, 3.0 / m) if C != 0.0 else height
     far = radius_at_height(problem.punch, height * law.z0)
     return float(2.0 ** math.ceil(math.log2(min(max(far / radius, SMALLEST_EXTENT), LARGEST_EXTENT))))
 

@@ -11,6 +11,7 @@ from fem_reference._contact.bodies import compliance_of
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.mesh_lengths import (
     EDGE_RISE,
+    FORCE_HEIGHT,
     balance_length,
     check_width,
     expected_spot,
@@ -37,8 +38,9 @@ FAR_SHARE = 0.5
 SMALL_SPOT = 0.25
 
 
-#: Least depth, in units of the edge radius, at which a mesh ends that would extend farther (see
-#: `fem_reference._elastic.mesh.ended`).
+#: Least depth, in units of the edge radius, at which the mesh of a pull-off force ends if that of the path extends
+#: farther (see `fem_reference._elastic.mesh.ended`): its bound grows by at most 3 % (measured on 70 problems).
+#: That of a displacement, which the solid at the end moves, would be up to twice as large.
 NEAREST_END = 128.0
 
 
@@ -95,10 +97,9 @@ class Meshes:
         apex = spot_length(self.problem, self._size)
         return mesh_spec(self.problem, self.level, width, radius, min(radius, self._rise), apex=apex)
 
-    def spec_from(self, width: float, smallest: float) -> MeshSpec:
-        """Mesh that scales, for an edge of that relative width, which ends where a radius and larger ones need it."""
-        end = max(extent_for(self.problem, smallest), NEAREST_END)
-        return replace(self.spec_at(width, self._size), end=end)
+    def ended(self, spec: MeshSpec, radius: float) -> MeshSpec:
+        """The same mesh up to where the pull-off force needs it, with the edge at that radius."""
+        return replace(spec, end=max(extent_for(self.problem, radius, FORCE_HEIGHT), NEAREST_END))
 
     @property
     def expected(self) -> Meshes:

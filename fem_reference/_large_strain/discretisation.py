@@ -160,7 +160,7 @@ class Discretisation:
     def block(self, radius: float) -> Block:
         """Return the elements with their edge at a radius."""
         solid = self.problem.solid
-        spec = replace(self.spec, extent=self.extent, end=math.inf)
+        spec = replace(self.spec, extent=self.extent)
         bonded = self.friction == "bonded"
         if self._without_length:
             unit = NeoHookean(1.0, float(solid.poisson(np.array(radius))))

@@ -72,7 +72,7 @@ def path_states(
     states: list[PathState] = []
     in_contact = False
     for point in _refined(list(mesh.whole_path.points)):
-        linear = LinearEvent(point, mesh.whole_spec, mesh.size)
+        linear = LinearEvent(point, mesh.spec, mesh.size)
         try:
             path_state = _state_at(linear, discretised(linear))
         except NotConverged as error:

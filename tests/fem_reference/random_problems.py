@@ -13,7 +13,6 @@ import numpy as np
 
 from fem_reference import NotConverged, Solution, solve_together
 from fem_reference._contact.carried import CarriedEvents
-from fem_reference._contact.event_kinds import EVENTS
 from fem_reference._contact.event_mesh import chosen
 from fem_reference._contact.parts import events_on_meshes
 from fem_reference.quantities import TABLE as QUANTITIES
@@ -65,7 +64,7 @@ def rows(number: int, accuracy: str = "quick") -> list[dict[str, object]]:
         solutions = solve_together(problem, NAMES, accuracy)
     except NotConverged:
         return [{**head, "quantity": name, "status": "NotConverged"} for name in NAMES]
-    mesh = chosen(problem, ("zero_load",), accuracy, events_on_meshes, others=EVENTS)
+    mesh = chosen(problem, ("zero_load",), accuracy, events_on_meshes)
     spec = mesh.spec
     finer = replace(
         spec,

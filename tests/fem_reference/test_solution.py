@@ -94,7 +94,7 @@ def test_finer_meshes_are_taken_where_a_path_cannot_be_traced(monkeypatch, trace
     """As that of n = 5, k = 0.6, mu = 3, whose contact begins on a spot a 500th of the rim."""
     tried = []
 
-    def suitable(meshes, events, start=None, others=()):
+    def suitable(meshes, events, start=None, force_alone=False):
         tried.append(meshes.level)
         if traceable is None or meshes.level != level_for(traceable):
             raise NotConverged("the path stops")
