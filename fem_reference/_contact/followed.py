@@ -114,11 +114,11 @@ class FollowedPath:
             spec, size = meshes.first()
             try:
                 separate, start = approach(meshes.contact(replace(spec, order=SEARCH_DEGREE), size))
+                meshes = replace(meshes, spot=_spot(separate, start))
+                if meshes.first()[0] == spec:
+                    return meshes, _completed(separate, start)
             except NotConverged:
                 break
-            meshes = replace(meshes, spot=_spot(separate, start))
-            if meshes.first()[0] == spec:
-                return meshes, (separate, start)
         return self._searched(), None
 
     def _searched(self) -> Meshes:
@@ -149,11 +149,11 @@ class FollowedPath:
     @cached_property
     def _approach(self) -> tuple[list[Point], Point]:
         """The path before contact, and its first state in contact, on the first mesh."""
-        spec, size = self._first
         begun = self._begun[1]
-        separate, start = begun or approach(self.meshes.contact(replace(spec, order=SEARCH_DEGREE), size))
-        *separate, start = complete_path([*separate, start])
-        return separate, start
+        if begun is not None:
+            return begun
+        spec, size = self._first
+        return _completed(*approach(self.meshes.contact(replace(spec, order=SEARCH_DEGREE), size)))
 
     def events(self, event: str = "") -> PathEvents:
         """Return the events of the path; for a jump into contact before there is an edge, of that part of it.
@@ -358,6 +358,12 @@ class FollowedPath:
 def _spot(separate: Sequence[Point], start: Point) -> float:
     """Smallest radius that the meshes before contact have, and its first edge."""
     return min(point.state.size for point in (*separate, start))
+
+
+def _completed(separate: Sequence[Point], start: Point) -> tuple[list[Point], Point]:
+    """The path before contact with all of its turning points, and its first edge."""
+    *separate, start = complete_path([*separate, start])
+    return separate, start
 
 
 # Several problems are solved in turns where a parameter is varied.
