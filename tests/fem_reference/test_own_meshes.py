@@ -190,3 +190,16 @@ def test_a_power_law_has_the_same_mesh_at_neighbouring_radii():
     assert not narrow.scale
     width = 1.01 * 2.0**-26
     assert len({narrow.spec_at(width, radius) for radius in (58.0, 58.5, 59.0)}) == 1
+
+
+def test_the_mesh_of_a_pull_off_force_ends_nearer_than_its_path():
+    """With the elements of the path within: the force is the same, and half of the extent would not have shown it."""
+    meshes = Meshes(problem_with(0.0, 0.3, 1.0), level_for("quick"))
+    whole, ended = (event_mesh(meshes, ("pull_off",), force_alone=alone) for alone in (False, True))
+    grids = [mesh.spec.grid() for mesh in (whole, ended)]
+    assert grids[1].extent < grids[0].extent / 50.0
+    assert np.array_equal(grids[1].z, grids[0].z[: grids[1].z.size])
+    assert np.array_equal(grids[1].r[:-1], grids[0].r[: grids[1].r.size - 1])
+    loads = [mesh.events.at("pull_off").state.load for mesh in (whole, ended)]
+    assert loads[1] == pytest.approx(loads[0], rel=1e-9)
+    assert loads[1] != loads[0]
