@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -177,6 +178,8 @@ def point_at(nearest: Point, parameter: float) -> Point:
     return point
 
 
+# A state is asked for it as the neighbour of each that is sought from it, and for the mesh of the events.
+@lru_cache(maxsize=128)
 def edge_width(point: Point) -> float:
     """Radial length over which the gap rises by the length of the law at the edge, relative to the edge radius.
 
