@@ -9,7 +9,8 @@ times another.
   differences from elements of other lengths are added.
 * first layer, interior and exterior: one feature is made coarser with elements of the lowest degree, whose error is
   larger as well.  What that changes is the part, unless it exceeds that of the mesh and half of the accuracy: then the
-  elements have the highest degree.  The interior has a coarser apex where the exterior begins earlier.
+  elements have the highest degree.  The interior has a coarser apex where the exterior begins earlier: where a mesh
+  ends before its extent, it is one that ends there, compared with one of the whole extent.
 * edge: the same mesh, with the contact edge a quarter of an element further in and out.  If the solid does not scale:
   at the radius where the values of states beside it have an extremum, and as far on the other side, where that was
   looked for.

@@ -137,7 +137,7 @@ def ended(grid: Grid, end: float) -> Grid:
     """Return a grid that ends at its first depth from `end` on, or the same if that is its last one.
 
     No element is much longer than it was: what the elements at the end leave of a value falls fast with their distance
-    (measured at degree 4: up to 2e-9 of a pull-off force from an end of 74 on, up to 2e-11 from one of 180 on; up to
+    (measured at degree 4: up to 2e-9 of a pull-off force from an end of 74 on, up to 1e-10 from one of 180 on; up to
     2e-8 with an end at 134 that is 4 times as far as the last depth before it).
 
     Examples
