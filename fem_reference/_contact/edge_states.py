@@ -137,9 +137,11 @@ class EdgeStates:
             If the state is not found, or its edge is narrower than a mesh can resolve.
         """
         width = self.share * self._expected_width(radius)
+        # On the meshes of the accuracy itself the whole system is solved, if an event is there.
+        whole = (self.degree, self.density) == (self.meshes.level.order, self.meshes.level.density)
         for _ in range(WIDTHS):
             spec = self.meshes.spec_at(width, radius)
-            contact = self.meshes.contact(replace(spec, order=self.degree, density=self.density), radius)
+            contact = self.meshes.contact(replace(spec, order=self.degree, density=self.density), radius, whole)
             point = self._reached(contact, radius)
             relative = edge_width(point)
             # The gap falls at the edge of a mesh that is too coarse to tell the width.

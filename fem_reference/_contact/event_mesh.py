@@ -60,7 +60,7 @@ class EventMesh:
     @property
     def contact(self) -> Contact:
         """The problem on this mesh."""
-        return self.meshes.contact(self.spec, self.size)
+        return self.meshes.contact(self.spec, self.size, whole=True)
 
     @property
     def lower_contact(self) -> Contact:

@@ -22,7 +22,6 @@ from fem_reference._contact.mesh_lengths import (
 )
 from fem_reference._contact.states import NARROWER
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference._elastic.variants import VariantSpec
 from fem_reference.accuracy import Level
 from fem_reference.problem import Problem
 from fem_reference.punch import radius_at_height
@@ -69,10 +68,8 @@ class Meshes:
         """Whether the meshes scale: the compliance of one size is that of every size, but for a factor."""
         return scales(self.problem)
 
-    def contact(self, spec: MeshSpec, size: float) -> Contact:
-        """Discretise the problem on a mesh with its edge at the radius `size`."""
-        # The whole system is solved on meshes of the accuracy itself, not on those that differ in one thing.
-        whole = spec.order == self.level.order and not isinstance(spec, VariantSpec)
+    def contact(self, spec: MeshSpec, size: float, whole: bool = False) -> Contact:
+        """Discretise the problem on a mesh with its edge at the radius `size`, for its whole system as well or not."""
         return Contact(self.problem.force, compliance_of(self.problem.solids, spec, size, self.scale, whole))
 
     def lower_contact(self, spec: MeshSpec, size: float) -> Contact:
