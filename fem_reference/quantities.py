@@ -35,10 +35,15 @@ def _load(point: Point) -> float:
 
 
 def _one(
-    event: str, functional: Callable[[Point], float], kind: Literal["force", "length"], weight: float = 1.0
+    event: str,
+    functional: Callable[[Point], float],
+    kind: Literal["force", "length"],
+    weight: float = 1.0,
+    *,
+    stationary: bool = False,
 ) -> Quantity:
     """A quantity of one state."""
-    return Quantity((Term(weight, functional, event),), kind)
+    return Quantity((Term(weight, functional, event, stationary),), kind)
 
 
 #: What the jump out of contact and the jump into contact lose: the energy at the fold less that where the jump ends.
@@ -52,11 +57,11 @@ LOSSES = ("jump_in_energy", "jump_out_energy")
 
 #: Quantities by name; pull_off_force is the positive number -min P.
 TABLE = {
-    "pull_off_force": _one("pull_off", _load, "force", -1.0),
+    "pull_off_force": _one("pull_off", _load, "force", -1.0, stationary=True),
     "pull_off_displacement": _one("pull_off", _displacement, "length"),
-    "jump_in_displacement": _one("jump_in", _displacement, "length"),
+    "jump_in_displacement": _one("jump_in", _displacement, "length", stationary=True),
     "jump_in_gap": _one("jump_in", _central_gap, "length"),
-    "jump_out_displacement": _one("jump_out", _displacement, "length"),
+    "jump_out_displacement": _one("jump_out", _displacement, "length", stationary=True),
     "jump_out_gap": _one("jump_out", _central_gap, "length"),
     "zero_load_displacement": _one("zero_load", _displacement, "length"),
     "hysteresis_energy": Quantity((*_LOST_OUT, *_LOST_IN), "energy", addends=LOSSES),

@@ -14,11 +14,22 @@ __all__ = ["Quantity", "Term"]
 
 @dataclass(frozen=True, slots=True)
 class Term:
-    """A weight, a functional of a state, and the event of the state."""
+    """A weight, a functional of a state, and the event of the state.
+
+    Attributes
+    ----------
+    weight : float
+    functional : callable
+    event : str
+    stationary : bool
+        Whether the functional does not change along the path there: an error of the place of the event changes it by
+        its square only.
+    """
 
     weight: float
     functional: Callable[[Point], float]
     event: str
+    stationary: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +59,11 @@ class Quantity:
     def events(self) -> tuple[str, ...]:
         """The events that it needs."""
         return tuple(dict.fromkeys(term.event for term in self.terms))
+
+    @property
+    def placed(self) -> tuple[str, ...]:
+        """The events whose place matters."""
+        return tuple(dict.fromkeys(term.event for term in self.terms if not term.stationary))
 
     def value(self, at: Callable[[str], Point]) -> float:
         """Return the value in the units of the problem, from the state at each event."""

@@ -8,9 +8,10 @@ system, its residual is not: at the end nothing is left of the condensed complia
 displacement is a rough one: what it leaves of its traction moves the surface by the condensed system, too, until the
 traction belongs to that.  From there on conjugate gradients give every displacement, to their full tolerance.
 
-The rates along the path are solved in the same way, because a fold is where one of them vanishes.  All events of a
-problem are columns of one linear system.  Two elastic bodies are two such systems under the same tractions, and their
-displacements of the surface add.
+The rates along the path are solved in the same way, because a fold is where one of them vanishes; where only the load
+or displacement that is stationary there is asked for, the fold stays where the condensed path has it: the error of its
+place enters by its square.  All events of a problem are columns of one linear system.  Two elastic bodies are two such
+systems under the same tractions, and their displacements of the surface add.
 
 The condensation of the same mesh, by another elimination, is the second opinion: what both differ by is a part of the
 bound.
@@ -19,7 +20,7 @@ bound.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -126,6 +127,7 @@ class UncondensedEvents:
         self._path, self._other, self._system = path, other, system
         self._points: dict[str, Point] = {}
         self._shifted: dict[str, Point] = {}
+        self._placed: set[str] = set()
 
     def prepare(self, quantities: Iterable[Quantity]) -> None:
         """Solve the events of several quantities together.
@@ -137,15 +139,23 @@ class UncondensedEvents:
         NotConverged
             If the whole system misses a tolerance.
         """
-        self._prepare(event for quantity in quantities for event in quantity.events)
+        rows = tuple(quantities)
+        self._prepare(
+            dict.fromkeys(event for row in rows for event in row.events),
+            {event for row in rows for event in row.placed},
+        )
 
-    def _prepare(self, events: Iterable[str]) -> None:
-        missing = {event: self._path.at(event) for event in events if event not in self._points}
+    def _prepare(self, events: Iterable[str], placed: Set[str]) -> None:
+        """Solve events; those whose place does not matter stay where the condensed path has them."""
+        known = {event for event in self._points if event not in placed or event in self._placed}
+        missing = {event: self._path.at(event) for event in events if event not in known}
         # A jump ends at the displacement where it begins, which therefore comes first.
         for end in sorted(missing):
             begin = None if missing[end].pinned else beginning_of(end)
             if begin is not None:
                 missing = {begin: self._path.at(begin), **missing}
+        self._placed |= missing.keys() & placed
+        missing |= {name: replace(point, pinned=True) for name, point in missing.items() if name not in self._placed}
         if missing:
             self._solve(missing)
 
@@ -176,7 +186,7 @@ class UncondensedEvents:
         NoSuchEvent, NotConverged
             As `prepare`.
         """
-        self._prepare((event,))
+        self._prepare((event,), {event})
         return self._points[event]
 
     def _solve(self, condensed: Mapping[str, Point]) -> None:

@@ -186,6 +186,23 @@ def test_every_event_takes_iterations_and_none_is_refused(soft_path, lower, soft
         again.value(TABLE["pull_off_force"])
 
 
+def test_a_stationary_quantity_needs_no_rate_of_the_whole_system(soft_path, lower, soft_system, monkeypatch):
+    """Its event stays where the condensed path has it, until another quantity asks for the place."""
+    columns = []
+
+    def counted(half_space, load, *_, **options):
+        columns.append(load.shape[1])
+        return solve_cg(half_space, load, *_, **options)
+
+    monkeypatch.setattr(uncondensed, "solve_cg", counted)
+    events = UncondensedEvents(soft_path, lower, lambda: soft_system)
+    force = events.value(TABLE["pull_off_force"])
+    assert set(columns) == {1}
+    events.at("pull_off")
+    assert set(columns) == {1, 2}
+    assert events.value(TABLE["pull_off_force"]).value == pytest.approx(force.value, abs=1e-3 * ALGEBRA)
+
+
 def test_the_whole_system_ends_where_its_condensation_does_from_any_start(soft_path, lower, soft_system):
     """A lower degree, other elements and the event itself as starts: one equilibrium, to rounding."""
     other = _soft_contact(spec=replace(SPEC, density=1.1))
