@@ -25,12 +25,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from decimal import Decimal, localcontext
 from functools import cached_property, lru_cache
 
-import mpmath
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from fscm._surface.gamma import gamma
 from fscm._typing import Array
 
 __all__ = ["NEAR_LIMIT", "Kernel", "Phi", "Psi", "box_cox", "kernel_of", "ring_response"]
@@ -48,8 +49,8 @@ _SMALLEST_K = 1e-22
 #: Stand-in for k = 0: the O(k) remainder is below double precision.
 _ZERO_K = "1e-30"
 #: Digits of D where none are lost; it loses 2 log10(1/k): k - 1 rounds relative to 1, then the gamma function has its
-#: pole there.
-_DIGITS = 40
+#: pole there.  The gamma function loses a few more.
+_DIGITS, _MORE_DIGITS = 40, 10
 #: Binary digits with which D and C, of the size of 1, are summed before they are rounded.
 _BITS = 128
 
@@ -76,26 +77,61 @@ def _digits(k: float) -> int:
     return _DIGITS + math.ceil(-2.0 * math.log10(k or float(_ZERO_K)))
 
 
-def _gauss_series(a: mpmath.mpf, b: mpmath.mpf, c: mpmath.mpf, terms: int) -> list[mpmath.mpf]:
-    """Taylor coefficients of F(a, b; c; x), in integers of the precision of their arguments."""
-    bits = mpmath.mp.prec
-    unit = 1 << bits
-    a_m, b_m, c_m = (int(mpmath.ldexp(x, bits)) for x in (a, b, c))
-    coefficients = [unit]
-    for m in range(1, terms):
-        coefficients.append((coefficients[-1] * a_m >> bits) * b_m // (c_m * m))
-        a_m, b_m, c_m = a_m + unit, b_m + unit, c_m + unit
-    return [mpmath.ldexp(coefficient, -bits) for coefficient in coefficients]
+class _Series:
+    """Taylor coefficients of multiples of Gauss series in integers, units of 2^-bits.
+
+    Parameters
+    ----------
+    k : float
+        Gradient exponent, whose expansions need the digits.
+    """
+
+    def __init__(self, k: float) -> None:
+        self.bits = math.ceil(_digits(k) * math.log2(10.0))
+        self.unit = 1 << self.bits
+
+    def integer(self, x: Decimal) -> int:
+        """A number in these units."""
+        return int(x * self.unit)
+
+    def gauss(self, a: Decimal, b: Decimal, c: Decimal, terms: int, factor: Decimal | int = 1) -> list[int]:
+        """Those of `factor` times F(a, b; c; x)."""
+        bits, unit = self.bits, self.unit
+        a_m, b_m, c_m = (self.integer(x) for x in (a, b, c))
+        coefficients = [unit]
+        for m in range(1, terms):
+            coefficients.append((coefficients[-1] * a_m >> bits) * b_m // (c_m * m))
+            a_m, b_m, c_m = a_m + unit, b_m + unit, c_m + unit
+        return coefficients if factor == 1 else self.times(coefficients, Decimal(factor))
+
+    def times(self, coefficients: list[int], factor: Decimal) -> list[int]:
+        """Those of a multiple."""
+        by = self.integer(factor)
+        return [c * by >> self.bits for c in coefficients]
+
+    def polynomial(self, coefficients: list[int]) -> Array:
+        """`_polynomial` of these coefficients."""
+        return _polynomial([c >> self.bits - _BITS for c in reversed(coefficients)])
 
 
-def _polynomial(taylor: list[mpmath.mpf], limit: float) -> Array:
-    """Economised power coefficients, in u = 2 y / limit - 1, of a Taylor series on 0 <= y <= limit."""
+@lru_cache(maxsize=1)
+def _places() -> tuple[Array, list[int]]:
+    """Chebyshev points u, and (u + 1) NEAR_LIMIT / 2 in units of 2^-_BITS."""
     nodes = chebyshev.chebpts1(_NEAR_DEGREE + 1)
-    # Horner's rule in integers, units of 2^-_BITS: it takes a tenth of the time.
-    coefficients = [int(mpmath.ldexp(c, _BITS)) for c in reversed(taylor)]
+    return nodes, [int((Decimal(u) + 1) * Decimal(0.5 * NEAR_LIMIT) * (1 << _BITS)) for u in nodes.tolist()]
+
+
+def _polynomial(coefficients: list[int]) -> Array:
+    """Economised power coefficients, in u = 2 y / NEAR_LIMIT - 1, of a Taylor series on 0 <= y <= NEAR_LIMIT.
+
+    Parameters
+    ----------
+    coefficients : list of int
+        From the last one on, in units of 2^-_BITS.
+    """
+    nodes, places = _places()
     values = []
-    for u in nodes:
-        y = int(mpmath.ldexp((mpmath.mpf(float(u)) + 1) * limit / 2, _BITS))
+    for y in places:
         total = 0
         for c in coefficients:
             total = (total * y >> _BITS) + c
@@ -139,24 +175,26 @@ class Kernel:
         if not 0.0 <= k < 1.0:
             raise ValueError(f"gradient exponent k = {k} is outside [0, 1): the ring response diverges at k = 1")
         self.k = 0.0 if k < _SMALLEST_K else float(k)
-        with mpmath.workdps(_digits(self.k)):
-            q = mpmath.mpf(self.k) if self.k > 0 else mpmath.mpf(_ZERO_K)
-            a = (1 + q) / 2
-            half = mpmath.mpf(1) / 2
-            gamma: Callable[[mpmath.mpf], mpmath.mpf] = mpmath.gamma
-            terms = _SERIES_TERMS
+        series, terms = _Series(self.k), _SERIES_TERMS
+        with localcontext(prec=_digits(self.k) + _MORE_DIGITS):
+            q = self._exponent
+            a, half = (1 + q) / 2, Decimal("0.5")
+            root = gamma(half)
             # F(a, 1/2; 1; 1 - y) = A + y^{-k/2} B
-            A = _scaled(_gauss_series(a, half, 1 + q / 2, terms), gamma(-q / 2) / (gamma(1 - a) * gamma(half)))
-            B = _scaled(_gauss_series(1 - a, half, 1 - q / 2, terms), gamma(q / 2) / (gamma(a) * gamma(half)))
-            self.near_D = _polynomial([x + y for x, y in zip(A, B, strict=True)], NEAR_LIMIT)
-            self.near_C = _polynomial([x * q / 2 for x in B], NEAR_LIMIT)
-            self.far = np.array([float(c) for c in _gauss_series(a, a, mpmath.mpf(1), 12)])
+            A = series.gauss(a, half, 1 + q / 2, terms, gamma(-q / 2) / (gamma(1 - a) * root))
+            B = series.gauss(1 - a, half, 1 - q / 2, terms, gamma(q / 2) / (gamma(a) * root))
+            self.near_D = series.polynomial([x + y for x, y in zip(A, B, strict=True)])
+            self.near_C = series.polynomial(series.times(B, q / 2))
+            self.far = np.array([c / series.unit for c in series.gauss(a, a, Decimal(1), 12)])
+
+    @property
+    def _exponent(self) -> Decimal:
+        return Decimal(self.k or _ZERO_K)
 
     def _primitive_series(self, less: int, c: int) -> _Primitive:
-        with mpmath.workdps(_digits(self.k)):
-            q = mpmath.mpf(self.k) if self.k > 0 else mpmath.mpf(_ZERO_K)
-            a = (1 + q) / 2
-            return _Primitive(a, a - less, mpmath.mpf(c), q)
+        with localcontext(prec=_digits(self.k) + _MORE_DIGITS):
+            a = (1 + self._exponent) / 2
+            return _Primitive(a, a - less, Decimal(c), self._exponent)
 
     @cached_property
     def _inner(self) -> _Primitive:
@@ -239,26 +277,20 @@ class Kernel:
         return out
 
 
-def _scaled(series: list[mpmath.mpf], factor: mpmath.mpf) -> list[mpmath.mpf]:
-    return [c * factor for c in series]
-
-
 class _Primitive:
     """F(a, b; c; x^2) with c - a - b = 1 - k on 0 <= x <= 1; the case behind Phi and Psi."""
 
-    def __init__(self, a: mpmath.mpf, b: mpmath.mpf, c: mpmath.mpf, k: mpmath.mpf) -> None:
-        gamma = mpmath.gamma
-        terms = _SERIES_TERMS
-        # F(a, b; c; 1 - y) = A(y) + y^{1-k} B(y); y^{m+1} of A and y^m of B are paired so that 1/k cancels.
-        A = _scaled(_gauss_series(a, b, k, terms + 1), gamma(c) * gamma(1 - k) / (gamma(c - a) * gamma(c - b)))
-        B = _scaled(_gauss_series(c - a, c - b, 2 - k, terms), gamma(c) * gamma(k - 1) / (gamma(a) * gamma(b)))
+    def __init__(self, a: Decimal, b: Decimal, c: Decimal, k: Decimal) -> None:
         self._k = float(k) if k >= _SMALLEST_K else 0.0
-        self._at_one = float(A[0])
-        self._at_one_minus_one = float(A[0] - 1)
-        self._D = _polynomial([x + y for x, y in zip(A[1:], B, strict=True)], NEAR_LIMIT)
-        self._C = _polynomial([x * k for x in B], NEAR_LIMIT)
-        taylor = _gauss_series(a, b, c, terms)
-        self._taylor_minus_one = _polynomial(taylor[1:], NEAR_LIMIT)
+        series, terms = _Series(self._k), _SERIES_TERMS
+        # F(a, b; c; 1 - y) = A(y) + y^{1-k} B(y); y^{m+1} of A and y^m of B are paired so that 1/k cancels.
+        A = series.gauss(a, b, k, terms + 1, gamma(c) * gamma(1 - k) / (gamma(c - a) * gamma(c - b)))
+        B = series.gauss(c - a, c - b, 2 - k, terms, gamma(c) * gamma(k - 1) / (gamma(a) * gamma(b)))
+        self._at_one = A[0] / series.unit
+        self._at_one_minus_one = (A[0] - series.unit) / series.unit
+        self._D = series.polynomial([x + y for x, y in zip(A[1:], B, strict=True)])
+        self._C = series.polynomial(series.times(B, k))
+        self._taylor_minus_one = series.polynomial(series.gauss(a, b, c, terms)[1:])
 
     def value(self, x: Array, y: Array, minus_one: bool = False) -> Array:
         """F(x^2), or F - 1; `y` is 1 - x^2 to full relative accuracy."""

@@ -1,11 +1,13 @@
 """The ring response and its primitives against mpmath, in every corner."""
 
+from decimal import Decimal, localcontext
 from functools import partial
 
 import mpmath
 import numpy as np
 import pytest
 
+from fscm._surface.gamma import gamma
 from fscm._surface.kernel import _NEAR_DEGREE, Kernel, Phi, Psi, _polynomial, ring_response
 
 # The first one above zero is below the rounding of one.
@@ -14,6 +16,8 @@ DISTANCES = [1e-300, 1e-100, 1e-30, 1e-12, 1e-5, 0.01, 0.3, 0.5, 0.8, 0.83, 0.99
 # Required of the kernel; measured worst 5.1e-15 (Phi at k = 0.95).
 RELATIVE = 1e-12
 DIGITS = 60
+# Digits that the gamma function may lose: the logarithm of Gamma at 110 is 400, and small arguments are rounded.
+GAMMA_LOSES = 4
 
 
 def _radii(distance: float, outside: bool) -> tuple[mpmath.mpf, mpmath.mpf]:
@@ -91,4 +95,12 @@ def test_primitives_at_the_ring_itself_near_the_gibson_limit(k):
 
 def test_a_polynomial_has_its_coefficients_that_are_zero_too():
     """Several exponents are evaluated together; which of their last coefficients are 0 differs between processors."""
-    np.testing.assert_array_equal(_polynomial([mpmath.mpf(0)], 0.5), np.zeros(_NEAR_DEGREE + 1))
+    np.testing.assert_array_equal(_polynomial([0]), np.zeros(_NEAR_DEGREE + 1))
+
+
+@pytest.mark.parametrize("digits", [10, 50, 110])
+@pytest.mark.parametrize("x", [2.0, 1.0, 0.5, 1e-30, -1e-30, 0.47, -0.47, -1.0 + 2.0**-53])
+def test_the_gamma_function_has_the_digits_of_its_context_but_a_few(x, digits):
+    with localcontext(prec=digits), mpmath.workdps(digits + 30):
+        ratio = mpmath.mpf(str(gamma(Decimal(x)))) / mpmath.gamma(mpmath.mpf(x))
+        assert abs(ratio - 1) < mpmath.mpf(10) ** (GAMMA_LOSES - digits)
