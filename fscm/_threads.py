@@ -6,6 +6,7 @@ they wait for each other: a computation then takes many times longer.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -16,10 +17,8 @@ __all__ = ["one_thread"]
 
 
 @cache
-def _blas() -> ThreadpoolController:
-    """The BLAS libraries of NumPy and SciPy; found once, because the search takes milliseconds."""
-    import scipy.linalg  # noqa: F401  # loads its BLAS before the search
-
+def _blas(with_scipy: bool) -> ThreadpoolController:
+    """The BLAS libraries of NumPy and SciPy; found once each, because the search takes milliseconds."""
     return ThreadpoolController().select(user_api="blas")
 
 
@@ -27,8 +26,9 @@ def _blas() -> ThreadpoolController:
 def one_thread() -> Iterator[None]:
     """Limit BLAS to one thread; also a decorator.  What was set before is restored, after an exception as well.
 
-    The limit holds for the whole process.  Where it is set already (in a nested call, in another Python thread)
-    nothing is done, and nothing is restored: that is left to the call that set it.
+    The limit holds for the whole process, and for the libraries that are loaded: a module that computes with those of
+    SciPy imports `scipy.linalg`.  Where a library has it already (in a nested call, in another Python thread) nothing
+    is done, and nothing is restored: that is left to the call that set it.
 
     Examples
     --------
@@ -37,9 +37,10 @@ def one_thread() -> Iterator[None]:
     ...     {library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"}
     {1}
     """
-    blas = _blas()
-    if all(library.num_threads == 1 for library in blas.lib_controllers):
+    blas = _blas("scipy.linalg" in sys.modules)
+    free = [library.filepath for library in blas.lib_controllers if library.num_threads > 1]
+    if not free:
         yield
     else:
-        with blas.limit(limits=1):
+        with blas.select(filepath=free).limit(limits=1):
             yield

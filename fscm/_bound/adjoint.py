@@ -15,7 +15,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import scipy
 
 from fscm._path.arc_length import parameter_of, rates_of
 from fscm._path.continuation import moved
@@ -50,12 +49,12 @@ class Adjoint:
     def __init__(self, state: State, functional: str, control: str) -> None:
         self._state, self._functional, self._control = state, functional, control
         system = linearised(state)
-        matrix = system.bordered()
-        matrix[-1] = system.row(_unit(control))
-        lu, pivots, info = scipy.linalg.lapack.dgetrf(matrix, overwrite_a=1)
-        if info != 0:
-            raise NotConverged("the tangent at the event is singular: its adjoint is not known", Failure.EVENT)
-        self._adjoint: Array = scipy.linalg.lapack.dgetrs(lu, pivots, system.row(_unit(functional)), trans=1)[0]
+        matrix = system.bordered(system.row(_unit(control))).matrix()
+        try:
+            self._adjoint = np.asarray(np.linalg.solve(matrix.T, system.row(_unit(functional))), float)
+        except np.linalg.LinAlgError as error:
+            singular = "the tangent at the event is singular: its adjoint is not known"
+            raise NotConverged(singular, Failure.EVENT) from error
         self._value, self._left = getattr(state, functional), self._left_sides(state, system)
 
     def _left_sides(self, state: State, system: Linearisation) -> Array:

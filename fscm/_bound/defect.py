@@ -19,8 +19,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-import scipy
 
+from fscm._surface.bordered import FAR, Bordered
 from fscm._surface.discretisation import Discretisation
 from fscm._surface.linearisation import linearised
 from fscm._surface.mesh import PanelMesh
@@ -42,6 +42,8 @@ _GROWTH = 16.0
 #: products) and of a pressure times an area.
 _ROUNDOFF = 2.0**-51
 _ENTRY, _WEIGHT = 8.0, 4.0
+#: Functionals whose derivatives by the unknowns cost little.
+_WITH_GRADIENT = ("load", "displacement", "central_gap")
 #: Relative step of the derivatives of the tail's energy.
 _STEP = 1e-5
 
@@ -99,7 +101,8 @@ def finer(disc: Discretisation) -> Discretisation:
     for end, shorter, longer, sign in _uneven(mesh):
         while (shorter := _GROWTH * shorter) < longer:
             added.append(end + sign * shorter)
-    return Discretisation(disc.problem, PanelMesh(np.union1d(ends, added), mesh.order + _MORE_NODES, mesh.origin))
+    ends = np.array(sorted({*ends.tolist(), *added}))
+    return Discretisation(disc.problem, PanelMesh(ends, mesh.order + _MORE_NODES, mesh.origin))
 
 
 def _uneven(mesh: PanelMesh) -> Iterator[tuple[float, float, float, float]]:
@@ -131,7 +134,7 @@ class Defect:
         self._area = 2.0 * state.scale**2 * mesh.weights * mesh.nodes
         polynomial = coarse.transfer(state.pressure, mesh)
         # Errors of the interpolated pressure, and of the deformation between the nodes.
-        samples, force = Samples(mesh), fine.problem.force
+        samples, force = Samples(mesh), fine.force
         radii = state.scale * samples.radii
         gap = fine.height(radii) - state.displacement + coarse.transfer(nodal, mesh, POINTS)
         sampled = force.traction(radii, gap) - coarse.transfer(state.pressure, mesh, POINTS)
@@ -156,7 +159,7 @@ class Defect:
         missed : float
             Value of the control minus the prescribed one, by rounding.
         """
-        y = scipy.linalg.lu_solve(self._factor(control), self._gradient(functional), trans=1, check_finite=False)
+        y = self._adjoint(functional, control)
         N = self.fine.disc.mesh.size
         adjoint, anchor, border = y[:N], float(y[N]), float(y[N + 1])
         mesh = self._by_panel(adjoint * self._gap_error - self._backwards(adjoint) * self._pressure_error)
@@ -180,7 +183,7 @@ class Defect:
     @cached_property
     def _remainder(self) -> Array | None:
         f = self.fine
-        return f.disc.problem.force.remainder(f.radius, f.gap)
+        return f.disc.force.remainder(f.radius, f.gap)
 
     def _by_pressure(self, name: str) -> Array:
         """Derivatives of a functional by the pressure at fixed unknowns."""
@@ -199,15 +202,21 @@ class Defect:
     def _by_panel(self, values: Array) -> Array:
         return np.asarray(np.bincount(self._owner, values, minlength=self._panels), float)
 
-    def _factor(self, control: str) -> tuple[Array, Array]:
-        if control not in self._factors:
-            matrix = self._system.bordered()
-            matrix[-1] = self._gradient(control)
-            self._factors[control] = scipy.linalg.lu_factor(matrix, overwrite_a=True, check_finite=False)
-        return self._factors[control]
+    def _bordered(self, control: str) -> Bordered:
+        return self._system.bordered(self._gradient(control))
+
+    def _adjoint(self, functional: str, control: str) -> Array:
+        """Solution of the transposed system; with the first one of a control come all whose right sides cost little."""
+        known = self._adjoints.setdefault(control, {})
+        if functional not in known:
+            names = [functional, *(name for name in _WITH_GRADIENT if name != functional and not known)]
+            right = np.column_stack([self._gradient(name) for name in names])
+            bordered = self._bordered(control)
+            known.update(zip(names, bordered.condensed(bordered.near(FAR)).adjoints(right).T, strict=True))
+        return known[functional]
 
     @cached_property
-    def _factors(self) -> dict[str, tuple[Array, Array]]:
+    def _adjoints(self) -> dict[str, dict[str, Array]]:
         return {}
 
     def _backwards(self, adjoint: Array) -> Array:
@@ -228,7 +237,7 @@ class Defect:
         return unit
 
     def _energy_gradient(self) -> Array:
-        f, tail, force = self.fine, self.fine.tail, self.fine.disc.problem.force
+        f, tail, force = self.fine, self.fine.tail, self.fine.disc.force
         k = f.disc.problem.k
         weighed = self._area * f.pressure
         slope = force.slope(f.radius, f.gap)
@@ -253,7 +262,7 @@ class Defect:
 
     def _drift_of_energy(self, weighed: Array, drift: Array) -> float:
         """Derivative of the energy by log c by that of the pressure at a fixed gap."""
-        f, force = self.fine, self.fine.disc.problem.force
+        f, force = self.fine, self.fine.disc.force
         outside, inside = (force.energy(f.radius * (1.0 + step), f.gap) for step in (_STEP, -_STEP))
         elastic = 0.5 * (self._area * f.deformation + self._backwards(weighed)) @ drift
         return float(elastic + self._area @ (outside - inside) / (2.0 * _STEP))
@@ -281,12 +290,12 @@ class Defect:
     def _surface_energy(self) -> Array:
         """That of the gap between the nodes, by panel of the finer mesh."""
         samples, radii, gap = self._sampled
-        energy = self.fine.disc.problem.force.energy(radii, gap)
+        energy = self.fine.disc.force.energy(radii, gap)
         return samples.integrals(2.0 * self.coarse.scale * radii * energy)
 
     def _coarse_energy(self) -> Array:
         state = self.coarse
-        mesh, force = state.disc.mesh, state.disc.problem.force
+        mesh, force = state.disc.mesh, state.disc.force
         density = 0.5 * state.pressure * state.deformation + force.energy(state.radius, state.gap)
         return (2.0 * state.scale**2 * mesh.weights * mesh.nodes * density).reshape(self._panels, -1).sum(axis=1)
 
@@ -337,7 +346,7 @@ class Defect:
         f = self.fine
         row = np.abs(adjoint)
         backwards = np.abs(self._backwards(row))
-        force = f.disc.problem.force
+        force = f.disc.force
         product = float(backwards @ force.size(f.radius, f.gap))
         size, of_gap = self._system.sizes()
         product += float(backwards @ np.abs(force.slope(f.radius, f.gap) * of_gap)) / _ENTRY
@@ -346,7 +355,7 @@ class Defect:
 
     def _functional_rounding(self, name: str) -> float:
         """Sizes of the terms of a functional, in units of the roundoff."""
-        f, force = self.fine, self.fine.disc.problem.force
+        f, force = self.fine, self.fine.disc.force
         sizes = force.size(f.radius, f.gap)
         stored = float(np.abs(self._gradient(name)[:-2]) @ np.abs(f.gap))
         if name == "load":
@@ -362,12 +371,8 @@ class Defect:
 
     def rate_rounding(self, functional: str, control: str) -> float:
         """Rounding of the derivative of a functional by a control: of the bordered solution that gives it."""
-        lu = self._factor(control)
-        right = np.zeros(len(self._area) + 2)
+        matrix, right = self._bordered(control).matrix(), np.zeros(len(self._area) + 2)
         right[-1] = 1.0
-        tangent = np.abs(scipy.linalg.lu_solve(lu, right, check_finite=False))
-        gradient = self._gradient(functional)
-        adjoint = np.abs(scipy.linalg.lu_solve(lu, gradient, trans=1, check_finite=False))
-        matrix = np.abs(self._system.bordered())
-        matrix[-1] = np.abs(self._gradient(control))
-        return _ROUNDOFF * _ENTRY * float(adjoint @ (matrix @ tangent) + np.abs(gradient) @ tangent)
+        tangent = np.abs(np.linalg.solve(matrix, right))
+        adjoint, gradient = np.abs(self._adjoint(functional, control)), np.abs(self._gradient(functional))
+        return _ROUNDOFF * _ENTRY * float(adjoint @ (np.abs(matrix) @ tangent) + gradient @ tangent)

@@ -16,7 +16,7 @@ from copy import copy
 from typing import NamedTuple
 
 import numpy as np
-import scipy
+import scipy.linalg
 from numpy.typing import NDArray
 
 from fscm._many.meshes import CommonMesh, Nodes

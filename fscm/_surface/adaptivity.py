@@ -88,7 +88,9 @@ def _missed_at_kinks(field: _Field, starts: Array, lengths: Array, modes: Array)
     """
     mesh, height = field.mesh, field.problem.punch.height
     largest, places = np.zeros(len(starts)), starts.copy()
-    kinks = np.array(kinks_of(field.problem.punch)) / field.scale - mesh.origin
+    if not (kinks_at := kinks_of(field.problem.punch)):
+        return largest, places
+    kinks = np.array(kinks_at) / field.scale - mesh.origin
     from_start = kinks - starts[:, None]
     panel, kink = np.nonzero((from_start > SLIVER) & (from_start < lengths[:, None] - SLIVER))
     if not kink.size:
@@ -350,7 +352,7 @@ def adapted(
             return replace(state, iterations=iterations)
         mesh = replace(mesh, offsets=np.delete(mesh.offsets, drop))
         mesh = at_kinks(state.disc.problem, mesh, state.scale, state.scale)
-        places = places[~np.isin(places, mesh.offsets)]  # a kink beside its end
+        places = places[np.all(places[:, None] != mesh.offsets, axis=1)]  # a kink beside its end
         ends = np.sort(np.concatenate([mesh.offsets, places]))
         if np.any(np.diff(ends) <= 0.0):
             raise NotConverged(

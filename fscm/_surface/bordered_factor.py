@@ -1,27 +1,37 @@
-"""LU factors of the bordered tangent, reused for other controls and for neighbouring states."""
+"""The bordered tangent in a form that serves many right sides: other controls and neighbouring states."""
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
-import scipy
 
+from fscm._surface.bordered import FAR, Bordered
+from fscm._surface.elimination import Elimination
 from fscm._typing import Array
 from fscm.errors import Failure, NotConverged
 
 __all__ = ["BorderedFactor"]
 
+#: Rows of the largest block that is inverted: a smaller one takes less time, two of them no less than one.
+_BLOCK = 110
+#: First and second correction of the tangent, relative to its largest component, up to which the solutions serve.
+#: Otherwise the whole matrix is inverted: no rows are exchanged between blocks, and a block may belong to a part of the
+#: surface that is at a fold of its own.
+_ACCURATE = 1e-5, 1e-8
+#: After a correction below this the tangent is exact to rounding.
+_ROUNDED = 1e-8
+
 
 class BorderedFactor:
-    """LU factors of a bordered matrix, whose last row is a control.
+    """Inverse blocks of a bordered matrix, whose last row is a control.
 
     Parameters
     ----------
-    matrix : ndarray, shape (N + 2, N + 2)
-        In Fortran order; it is overwritten.
-    stiffness_slope : ndarray, shape (N,)
-        Factors of the columns of the response in the matrix.
+    bordered : Bordered
+
+    Attributes
+    ----------
+    tangent : ndarray, shape (N + 2,)
+        Solution, to rounding, of the system whose right side is the last unit vector.
 
     Raises
     ------
@@ -29,24 +39,39 @@ class BorderedFactor:
         When the matrix is singular.
     """
 
-    def __init__(self, matrix: Array, stiffness_slope: Array) -> None:
-        self.stiffness_slope = stiffness_slope
-        # dgetrf directly: the rows differ by many orders of magnitude, which does not harm partial pivoting but makes
-        # the condition estimate of the wrapper warn.
-        self._lu, self._pivots, info = scipy.linalg.lapack.dgetrf(matrix, overwrite_a=1)
-        if info != 0:
-            raise NotConverged("Newton met a singular tangent", Failure.ITERATION)
+    def __init__(self, bordered: Bordered) -> None:
+        self.stiffness_slope = bordered.slope
+        # Far from equilibrium the numbers may overflow, which Newton's method notices.
+        with np.errstate(over="ignore", invalid="ignore"):
+            if not self._eliminates(bordered, bordered.near(FAR), _BLOCK):
+                self._eliminates(bordered, len(bordered.slope), len(bordered.slope) + 2)
 
-    def _back(self, right: Array) -> Array:
-        solution: Array = scipy.linalg.lapack.dgetrs(self._lu, self._pivots, right, overwrite_b=1)[0]
-        return solution
+    def _eliminates(self, bordered: Bordered, near: int, largest: int) -> bool:
+        """Set the blocks and the tangent; whether they are accurate."""
+        self._condensed = bordered.condensed(near)
+        try:
+            self._eliminated = Elimination(self._condensed.matrix, largest)
+        except np.linalg.LinAlgError as error:
+            if largest == _BLOCK:
+                return False
+            raise NotConverged("Newton met a singular tangent", Failure.ITERATION) from error
+        unit = np.zeros(len(bordered.slope) + 2)
+        unit[-1] = 1.0
+        self.tangent = self._solved(unit)
+        for largest_change in _ACCURATE:
+            correction = self._solved(unit - bordered @ self.tangent)
+            self.tangent = self.tangent + correction
+            change = float(np.abs(correction).max() / np.abs(self.tangent).max())
+            if not change <= largest_change:
+                return False
+            if change <= _ROUNDED:
+                break
+        return True
 
-    @cached_property
-    def tangent(self) -> Array:
-        """Solution of the system whose right side is the last unit vector."""
-        right = np.zeros(len(self.stiffness_slope) + 2)
-        right[-1] = 1.0
-        return self._back(right)
+    def _solved(self, right: Array) -> Array:
+        x = self._condensed.right(right)
+        self._eliminated.solve(x)
+        return self._condensed.whole(x, right)
 
     def solve(self, right: Array, row: Array) -> Array:
         """Solution with the last row of the matrix replaced.
@@ -55,11 +80,11 @@ class BorderedFactor:
         ----------
         right, row : ndarray, shape (N + 2,)
         """
-        top = right.copy()
-        top[-1] = 0.0
-        solution = self._back(top)
         along = float(row @ self.tangent)
         if along == 0.0:
             raise NotConverged("Newton met a singular tangent", Failure.ITERATION)
+        top = right.copy()
+        top[-1] = 0.0
+        solution = self._solved(top)
         solution += (float(right[-1]) - float(row @ solution)) / along * self.tangent
         return solution

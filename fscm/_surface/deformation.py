@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from fscm._surface.kernel import Kernel, box_cox
 from fscm._surface.mesh import PanelMesh, gauss_rule
-from fscm._surface.response_store import known_blocks
+from fscm._surface.response_store import as_matrix, known_matrix
 from fscm._typing import Array
 
 __all__ = ["Pieces", "axis_row", "moments", "response_blocks", "response_matrix"]
@@ -236,22 +236,22 @@ def response_blocks(
 def response_matrix(kernel: Kernel, mesh: PanelMesh, previous: tuple[PanelMesh, Array] | None = None) -> Array:
     """The whole matrix W, shape (m q, m q); stored blocks, and those of `previous`, are reused."""
     count, q = len(mesh.lengths), mesh.order
-    blocks = known_blocks(kernel, mesh, partial(response_blocks, kernel))
-    if blocks is None:
-        blocks = np.empty((count, count, q, q))
-        computed = np.zeros((count, count), bool)
-        if previous is not None and (previous[0].order, previous[0].origin) == (q, mesh.origin):
-            old, old_matrix = previous
-            where = {edges: i for i, edges in enumerate(pairwise(old.offsets.tolist()))}
-            match = np.array([where.get(edges, -1) for edges in pairwise(mesh.offsets.tolist())])
-            reused, panels = np.flatnonzero(match >= 0), len(old.lengths)
-            old_blocks = old_matrix.reshape(panels, q, panels, q).transpose(0, 2, 1, 3)
-            blocks[np.ix_(reused, reused)] = old_blocks[np.ix_(match[reused], match[reused])]
-            computed[np.ix_(reused, reused)] = True
-        targets, sources = np.nonzero(~computed)
-        blocks[targets, sources] = response_blocks(kernel, mesh, targets, sources)
-    # In Fortran order, like the tangent.
-    return blocks.transpose(1, 3, 0, 2).reshape(count * q, count * q).T
+    matrix = known_matrix(kernel, mesh, partial(response_blocks, kernel))
+    if matrix is not None:
+        return matrix
+    blocks = np.empty((count, count, q, q))
+    computed = np.zeros((count, count), bool)
+    if previous is not None and (previous[0].order, previous[0].origin) == (q, mesh.origin):
+        old, old_matrix = previous
+        where = {edges: i for i, edges in enumerate(pairwise(old.offsets.tolist()))}
+        match = np.array([where.get(edges, -1) for edges in pairwise(mesh.offsets.tolist())])
+        reused, panels = np.flatnonzero(match >= 0), len(old.lengths)
+        old_blocks = old_matrix.reshape(panels, q, panels, q).transpose(0, 2, 1, 3)
+        blocks[np.ix_(reused, reused)] = old_blocks[np.ix_(match[reused], match[reused])]
+        computed[np.ix_(reused, reused)] = True
+    targets, sources = np.nonzero(~computed)
+    blocks[targets, sources] = response_blocks(kernel, mesh, targets, sources)
+    return as_matrix(blocks.reshape(-1, q, q))
 
 
 def axis_row(kernel: Kernel, mesh: PanelMesh) -> Array:

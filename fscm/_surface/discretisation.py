@@ -37,18 +37,17 @@ class Discretisation:
     """
 
     def __init__(self, problem: Problem, mesh: PanelMesh, previous: Discretisation | None = None) -> None:
-        self.problem, self.mesh = problem, mesh
+        self.problem, self.mesh, self.force = problem, mesh, problem.force
+        vertical = isinstance(self.force, Derjaguin)
+        #: Whether the punch is steep, so that the unknowns are deformations.
+        self.steep = problem.punch.growth > (STEEP if vertical else _STEEP_AS_A_WHOLE)
         self.elastic: PowerLawOnMesh = on_mesh(problem, mesh, None if previous is None else previous.elastic)
+        self._power = 1.0 - problem.k
+        self._stiffness = problem.compliance * self._power
         #: The latest factors of a tangent on this mesh, which serve neighbouring states.
         self.factor: BorderedFactor | None = None
         edge = int(np.searchsorted(mesh.offsets, 1.0 - mesh.origin))
         self.edge = mesh.row_at_end(max(edge - 1, 0), 1.0)
-
-    @property
-    def steep(self) -> bool:
-        """Whether the punch is steep, so that the unknowns are deformations."""
-        vertical = isinstance(self.problem.force, Derjaguin)
-        return self.problem.punch.growth > (STEEP if vertical else _STEEP_AS_A_WHOLE)
 
     def height(self, radius: Array) -> Array:
         """Height of the punch, bounded for a steep one."""
@@ -77,5 +76,4 @@ class Discretisation:
 
     def stiffness_scale(self, c: float) -> float:
         """M (1-k) c^{1-k}, the factor of W."""
-        p = self.problem
-        return p.compliance * (1.0 - p.k) * c ** (1.0 - p.k)
+        return self._stiffness * c**self._power

@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from fscm._surface.anchors import AtEdge
+from fscm._surface.bordered import Bordered
 from fscm._surface.bordered_factor import BorderedFactor
 from fscm._surface.state import Control, Rates, State, SteepState
 from fscm._typing import Array
@@ -22,13 +23,13 @@ from fscm._typing import Array
 __all__ = ["Linearisation", "linearised", "rates_by"]
 
 #: Largest row sum of the difference of two tangents for which the factors of one serve the other.
-_NEAR = 0.1
+_NEAR = 0.05
 #: Rounding of a few operations, and that of an entry of the response in units of it (see `fscm._bound.defect`).
 _ROUNDOFF, _ENTRY = 2.0**-51, 8.0
 #: A tangent from the factors of a neighbouring state is corrected as long as each correction is smaller than the one
-#: before by _CONVERGING; it is exact to rounding when the last one is below _ROUNDED, relative to its largest component
-#: (of gaps relative to 1 + |H|).
-_CONVERGING, _ROUNDED, _CORRECTIONS = 0.1, 1e-14, 12
+#: before by _CONVERGING: more than about seven of them take longer than new factors.  It is exact to rounding after one
+#: below _ROUNDED, relative to its largest component (of gaps relative to 1 + |H|).
+_CONVERGING, _ROUNDED = 0.01, 1e-14
 
 
 class Linearisation:
@@ -38,7 +39,7 @@ class Linearisation:
         self.state = s = state
         d, problem = s.disc, s.disc.problem
         K = d.stiffness_scale(s.scale)
-        slope = problem.force.slope(s.radius, s.gap)
+        slope = d.force.slope(s.radius, s.gap)
         k = problem.k
         rise = d.rise(s.radius)
         self.residual = s.mismatch(s.deformation)
@@ -46,7 +47,7 @@ class Linearisation:
         self._stiffness_slope = K * slope
         growth, axis_growth = (K * rate for rate in d.growth(s.scale, s.pressure))
         #: r dp/dr at a fixed gap, by which the pressure at a node changes with log c; None if it does not.
-        self.drift = problem.force.drift(s.radius, s.gap)
+        self.drift = d.force.drift(s.radius, s.gap)
         if self.drift is not None:
             growth = growth + K * (d.response(s.scale) @ self.drift)
             axis_growth = axis_growth + K * float(d.axis_response(s.scale) @ self.drift)
@@ -101,39 +102,33 @@ class Linearisation:
         by_scale = (1.0 - d.problem.k) * elastic + s.tail.displacement_rate + self._growth_on_axis
         return self.by_unknowns(row, -(1.0 - s.tail.displacement_slope), by_scale)
 
-    def bordered(self) -> Array:
-        """The bordered matrix in Fortran order, shape (N + 2, N + 2); its last row is not set."""
-        d = self.state.disc
-        N = d.mesh.size
-        matrix = np.empty((N + 2, N + 2), order="F")
-        J = matrix[:N, :N]
-        np.multiply(d.response(self.state.scale), -self._stiffness_slope, out=J)
-        J[np.arange(N), np.arange(N)] += 1.0
-        matrix[:N, N] = self._displacement_column
-        matrix[:N, N + 1] = self.scale_column
-        matrix[N, :N] = self._anchor_row
-        matrix[N, N:] = self._anchor_ends
-        return matrix
+    def bordered(self, row: Array) -> Bordered:
+        """The bordered tangent with a last row."""
+        N = len(self.residual)
+        columns = np.empty((N, 2))
+        columns[:, 0], columns[:, 1] = self._displacement_column, self.scale_column
+        rows = np.array([np.append(self._anchor_row, self._anchor_ends), row])
+        return Bordered(self.state.disc.response(self.state.scale), self._stiffness_slope, columns, rows)
 
     def rounding(self) -> Array:
         """Bound of the rounding of the residual, shape (N,)."""
         s, d = self.state, self.state.disc
-        product = d.stiffness_scale(s.scale) * (d.response(s.scale) @ d.problem.force.size(s.radius, s.gap))
+        product = d.stiffness_scale(s.scale) * (d.response(s.scale) @ d.force.size(s.radius, s.gap))
         return np.asarray(_ROUNDOFF * (self.sizes()[0] + _ENTRY * product))
 
     def near(self, factor: BorderedFactor) -> bool:
         """Whether the factors of another state's tangent serve this one."""
         change = np.abs(self._stiffness_slope - factor.stiffness_slope)
-        return bool(np.max(self.state.disc.response(self.state.scale) @ change) < _NEAR)
+        return bool((self.state.disc.response(self.state.scale) @ change).max() < _NEAR)
 
     def times(self, x: Array) -> Array:
-        """All rows of the bordered matrix but the last, times a vector; shape (N + 1,)."""
+        """The bordered matrix times a vector, with zero in place of its last row; shape (N + 2,)."""
         d, dH = self.state.disc, x[:-2]
-        product = np.empty(len(x) - 1)
-        product[:-1] = dH - d.response(self.state.scale) @ (self._stiffness_slope * dH)
-        product[:-1] += self._displacement_column * x[-2] + self.scale_column * x[-1]
-        product[-1] = self._anchor_ends[0] * x[-2] + self._anchor_ends[1] * x[-1]
-        product[-1] += self._anchor_row @ dH
+        product = np.zeros(len(x))
+        product[:-2] = dH - d.response(self.state.scale) @ (self._stiffness_slope * dH)
+        product[:-2] += self._displacement_column * x[-2] + self.scale_column * x[-1]
+        product[-2] = self._anchor_ends[0] * x[-2] + self._anchor_ends[1] * x[-1]
+        product[-2] += self._anchor_row @ dH
         return product
 
     def row(self, control: Control) -> Array:
@@ -151,10 +146,8 @@ class Linearisation:
         return self._factored(self.row(control))
 
     def _factored(self, row: Array) -> BorderedFactor:
-        matrix = self.bordered()
-        matrix[-1] = row
         self.state.disc.factor = None  # frees its memory first
-        self.state.disc.factor = BorderedFactor(matrix, self._stiffness_slope)
+        self.state.disc.factor = BorderedFactor(self.bordered(row))
         return self.state.disc.factor
 
     def violation(self, control: Control) -> float:
@@ -183,15 +176,14 @@ class Linearisation:
             x, last_change = factor.tangent, np.inf
             # Gaps and their rates are many decades larger far out than near the edge.
             size = np.append(1.0 + np.abs(self.state.gap), [1.0, 1.0])
-            for _ in range(_CORRECTIONS):
-                x = x / float(row @ x)
-                correction = factor.solve(np.append(self.times(x), 0.0), row)
-                change = float(np.max(np.abs(correction) / size) / np.max(np.abs(x) / size))
-                if not change < _CONVERGING * last_change:
-                    if last_change < _ROUNDED:
-                        return x
-                    break
-                x, last_change = x - correction, change
+            change = 1.0
+            while change < _CONVERGING * last_change:
+                last_change, x = change, x / float(row @ x)
+                correction = factor.solve(self.times(x), row)
+                change = float((np.abs(correction) / size).max() / (np.abs(x) / size).max())
+                x = x - correction
+                if change < _ROUNDED:
+                    return x
         return self._factored(row).tangent
 
 

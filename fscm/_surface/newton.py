@@ -49,11 +49,11 @@ def _least_clearance(law: SurfaceLaw) -> float:
     return clearance
 
 
-def _largest_damping(state: State, step: Array) -> float:
+def _largest_damping(state: State, step: Array, least_clearance: float) -> float:
     """Largest fraction of a step that keeps the gaps away from the singular one."""
     floor = state.disc.problem.law.singular_gap
     clearance = state.gap - floor
-    least = np.maximum(_SHRINK * clearance, _least_clearance(state.disc.problem.law))
+    least = np.maximum(_SHRINK * clearance, least_clearance)
     change = step[:-2], float(step[-2]), float(step[-1])
     largest = _LARGEST_GROWTH / max(abs(change[2]), 1e-300)
     if not state.is_linear(change[2]):
@@ -76,7 +76,12 @@ def _change_of_gap(state: State, step: Array) -> Array:
 def _step(state: State, factor: BorderedFactor, rhs: Array, row: Array) -> tuple[Array, float]:
     """Step by the given factors, and its largest change of a gap relative to 1 + |H|."""
     step = -factor.solve(rhs, row)
-    return step, float(np.max(np.abs(_change_of_gap(state, step)) / (1.0 + np.abs(state.gap))))
+    return step, _largest(_change_of_gap(state, step), state)
+
+
+def _largest(values: Array, state: State) -> float:
+    """Largest size at a node, relative to 1 + |H|."""
+    return float((np.abs(values) / (1.0 + np.abs(state.gap))).max())
 
 
 def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, most: int = _MAX_ITERATIONS) -> State:
@@ -102,13 +107,13 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
     NotConverged
         After too many iterations, or when a gap approaches the singular gap.
     """
-    state = guess
+    state, clearance = guess, _least_clearance(guess.disc.problem.law)
     factor, last_change, full = state.disc.factor, math.inf, math.inf
     for iteration in range(1, most + 1):
         system = linearised(state)
         row = system.row(control)
         rhs = np.concatenate([system.residual, [system.anchor, system.violation(control)]])
-        if not np.all(np.isfinite(rhs)):
+        if not np.isfinite(rhs).all():
             raise NotConverged("Newton met a residual that is not finite", Failure.ITERATION)
         if iteration == 1 and factor is not None and not system.near(factor):
             factor = None
@@ -117,28 +122,23 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
         if not reused:
             factor = system.factor(control)
             step, change = _step(state, factor, rhs, row)
-        damping = _largest_damping(state, step)
+        damping = _largest_damping(state, step, clearance)
         if damping < _SMALLEST_DAMPING:
             raise NotConverged("Newton is driven into the singular gap of the surface law", Failure.ITERATION)
-        residual = float(np.max(np.abs(rhs[:-2]) / (1.0 + np.abs(state.gap))))
+        residual = _largest(rhs[:-2], state)
         dH = _change_of_gap(state, step)
-        state = replace(
-            state.shifted(step[:-2], float(step[-2]), float(step[-1]), damping),
-            iterations=iteration,
-            residual=residual,
-        )
-        change = float(np.max(np.abs(dH) / (1.0 + np.abs(state.gap))))
+        state = state.shifted(step[:-2], float(step[-2]), float(step[-1]), damping)
+        change = _largest(dH, state)
         if not math.isfinite(change) or change > _DIVERGED:
             raise NotConverged("Newton diverged", Failure.ITERATION)
         if damping == 1.0:
-            if change < tolerance and not reused:
-                return state
+            found = change < tolerance and not reused
             # With old factors convergence is linear.
             ahead = change * min(1.0, change / last_change if math.isfinite(last_change) else 1.0)
-            if reused and change < tolerance and ahead < tolerance**_REMAINDER:
-                return state
-            if not reused and full <= _STALLED * change and np.all(np.abs(system.residual) <= system.rounding()):
-                return state
+            found |= reused and change < tolerance and ahead < tolerance**_REMAINDER
+            stalled = not reused and full <= _STALLED * change
+            if found or (stalled and np.all(np.abs(system.residual) <= system.rounding())):
+                return replace(state, iterations=iteration, residual=residual)
         last_change = change
         full = change if damping == 1.0 and not reused else math.inf
         if damping < 1.0 or change > _CHORD:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from fscm._surface.mesh import PanelMesh
 from fscm._typing import Array
 
-__all__ = ["BLOCKS_MEMORY", "ResponseBlocks", "clear", "known_blocks", "memory"]
+__all__ = ["BLOCKS_MEMORY", "ResponseBlocks", "as_matrix", "clear", "known_matrix", "memory"]
 
 #: Largest memory of all stored blocks, in bytes; temporarily, while a table grows, one half more.
 BLOCKS_MEMORY = 96_000_000
@@ -55,7 +55,7 @@ class ResponseBlocks:
         return self._blocks.nbytes + self._known.nbytes
 
     def of(self, mesh: PanelMesh) -> Array:
-        """Blocks between all panels of a mesh, shape (m, m, q, q); missing ones are computed and stored."""
+        """Blocks between all panels of a mesh as a matrix, shape (m q, m q); missing ones are computed and stored."""
         with self._lock:
             panels = list(pairwise(mesh.offsets.tolist()))
             new = [panel for panel in panels if panel not in self._places]
@@ -65,7 +65,7 @@ class ResponseBlocks:
                 self._known[:], new = False, panels
                 if len(new) > most:
                     everything = np.indices((len(panels), len(panels))).reshape(2, -1)
-                    return self._compute(mesh, *everything).reshape(len(panels), len(panels), mesh.order, mesh.order)
+                    return as_matrix(self._compute(mesh, *everything))
             for panel in new:
                 self._places[panel] = len(self._places)
             self._grow(len(self._places), mesh.order, most)
@@ -76,8 +76,10 @@ class ResponseBlocks:
                 targets, sources = places[lacking[0]], places[lacking[1]]
                 self._blocks[targets, sources] = self._compute(mesh, *lacking)
                 self._known[targets, sources] = True
-            blocks: Array = self._blocks[both]
-            return blocks
+            matrix = np.empty((len(panels), mesh.order, len(panels), mesh.order))
+            for rows, place in zip(matrix, places.tolist(), strict=True):
+                rows[:] = self._blocks[place].take(places, axis=0).transpose(1, 0, 2)
+            return matrix.reshape(mesh.size, mesh.size)
 
     def _grow(self, count: int, order: int, most: int) -> None:
         old = len(self._known)
@@ -94,8 +96,14 @@ _STORES: OrderedDict[Any, ResponseBlocks] = OrderedDict()
 _LOCK = threading.Lock()
 
 
-def known_blocks(kernel: object, mesh: PanelMesh, compute: Compute) -> Array | None:
-    """Blocks between all panels of a mesh, shape (m, m, q, q); None if its panels do not come from the initial ones.
+def as_matrix(blocks: Array) -> Array:
+    """The matrix, shape (m q, m q), of blocks of all targets and sources in turn, shape (m m, q, q)."""
+    count, q = math.isqrt(len(blocks)), blocks.shape[-1]
+    return blocks.reshape(count, count, q, q).transpose(0, 2, 1, 3).reshape(count * q, count * q)
+
+
+def known_matrix(kernel: object, mesh: PanelMesh, compute: Compute) -> Array | None:
+    """The matrix of all panels of a mesh, shape (m q, m q); None if its panels do not come from the initial ones.
 
     Afterwards all tables together take at most `BLOCKS_MEMORY`; the least recently used is dropped first.
     """
@@ -106,11 +114,11 @@ def known_blocks(kernel: object, mesh: PanelMesh, compute: Compute) -> Array | N
     with _LOCK:
         store = _STORES.setdefault(key, ResponseBlocks(compute))
         _STORES.move_to_end(key)
-    blocks = store.of(mesh)
+    matrix = store.of(mesh)
     with _LOCK:
         while memory() > BLOCKS_MEMORY:
             _STORES.popitem(last=False)
-    return blocks
+    return matrix
 
 
 def memory() -> int:

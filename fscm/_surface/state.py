@@ -189,7 +189,7 @@ class State:
     @cached_property
     def pressure(self) -> Array:
         """p at the nodes, shape (N,)."""
-        return self.disc.problem.force.traction(self.radius, self.gap)
+        return self.disc.force.traction(self.radius, self.gap)
 
     @cached_property
     def tail(self) -> Tail:
@@ -227,7 +227,7 @@ class State:
         """
         d = self.disc
         area = 2.0 * self.scale**2 * d.mesh.weights * d.mesh.nodes
-        density = 0.5 * self.pressure * self.deformation + d.problem.force.energy(self.radius, self.gap)
+        density = 0.5 * self.pressure * self.deformation + d.force.energy(self.radius, self.gap)
         return float(area @ density) + tail_energy(self.disc.problem, self.end, self.displacement)
 
 

@@ -105,7 +105,7 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
 
 def _is_whole(problem: Problem) -> bool:
     """Whether the potential of the whole punch reaches beyond the mesh."""
-    return problem.law.decay[0] != 0.0 and not isinstance(problem.force, Derjaguin)
+    return problem.interaction != "derjaguin" and problem.law.decay[0] != 0.0
 
 
 def _ring_integrals(problem: Problem, T: float) -> tuple[float, float, float]:

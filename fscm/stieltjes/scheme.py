@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
-import scipy
+import scipy.linalg
 
 from fscm._roots import bracketed_root
 from fscm._surface.kernel import Psi

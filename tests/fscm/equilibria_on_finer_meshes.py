@@ -59,9 +59,8 @@ class Pair:
 
     def adjoint(self, functional: str) -> Array:
         """Effect on a functional of a unit residual at each node, at a fixed parameter (by the transposed system)."""
-        system = self.defect._system.bordered()
-        system[-1] = self.defect._gradient(self.parameter)
-        return np.linalg.solve(system.T, self.defect._gradient(functional))[:-2]
+        system = self.defect._system.bordered(self.defect._gradient(self.parameter))
+        return np.linalg.solve(system.matrix().T, self.defect._gradient(functional))[:-2]
 
 
 @cache

@@ -1,6 +1,7 @@
 """One BLAS thread inside a computation of either reference, and afterwards what was set before."""
 
 import threading
+from contextlib import ExitStack
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import fscm
 from fem_reference import _threads as threads_of_elements
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.verification.solver_study import SolverCase, solver_table
+from fscm import _threads
 from fscm._threads import one_thread
 from fscm.stieltjes import StieltjesScheme, stieltjes_solution
 
@@ -90,4 +92,23 @@ def test_computations_that_overlap_leave_what_was_set(limit):
         inside.wait()
     leave.set()
     thread.join()
+    assert blas_threads() == {2}
+
+
+def test_a_library_that_is_loaded_during_a_computation_is_limited_by_the_next_one(monkeypatch):
+    """Each call restores the libraries that it has limited, whichever ends first."""
+    blas = ThreadpoolController().select(user_api="blas")
+    first = blas.select(filepath=[blas.lib_controllers[0].filepath])
+    if len(first.lib_controllers) == len(blas.lib_controllers):
+        pytest.skip("NumPy and SciPy share a library")
+    found = iter([first, blas])
+    monkeypatch.setattr(_threads, "_blas", lambda with_scipy: next(found))
+    outer, inner = ExitStack(), ExitStack()
+    outer.enter_context(one_thread())
+    assert blas_threads() == {1, 2}
+    inner.enter_context(one_thread())
+    assert blas_threads() == {1}
+    outer.close()
+    assert blas_threads() == {1, 2}
+    inner.close()
     assert blas_threads() == {2}

@@ -14,7 +14,6 @@ import math
 from functools import cached_property, lru_cache
 
 import numpy as np
-import scipy
 from numpy.polynomial import chebyshev
 
 from fscm._surface.response.kernel import GradedKernel
@@ -39,15 +38,17 @@ _AROUND, _STEP = 6, 1e-3
 @lru_cache(maxsize=1)
 def _bessel_rule() -> tuple[Array, Array]:
     """Nodes x and weights of int_0^oo f(x) J0(x) dx for a function f that is smooth in log x."""
-    zeros = scipy.special.jn_zeros(0, _INTERVALS + 1)
+    from scipy.special import bdtrc, j0, jn_zeros
+
+    zeros = jn_zeros(0, _INTERVALS + 1)
     ends = np.concatenate([[0.0], zeros[0] * 2.0 ** np.arange(-_HALVINGS, 1.0), zeros[1:]])
     left = np.arange(_AVERAGED, 0, -1)
     # Share of the partial sums, averaged _AVERAGED times with their successors, that contain an interval.
-    shares = np.concatenate([np.ones(len(ends) - 1 - _AVERAGED), scipy.special.bdtrc(_AVERAGED - left, _AVERAGED, 0.5)])
+    shares = np.concatenate([np.ones(len(ends) - 1 - _AVERAGED), bdtrc(_AVERAGED - left, _AVERAGED, 0.5)])
     u, w = np.polynomial.legendre.leggauss(_NODES)
     half = 0.5 * np.diff(ends)
     x = (ends[:-1] + half)[:, None] + half[:, None] * u
-    return x.ravel(), ((shares * half)[:, None] * w * scipy.special.j0(x)).ravel()
+    return x.ravel(), ((shares * half)[:, None] * w * j0(x)).ravel()
 
 
 class DistantRing:

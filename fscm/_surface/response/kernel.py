@@ -10,7 +10,6 @@ For a homogeneous solid D = 1, and G is that of Eq. 6 at k = 0.  Where every sur
 from __future__ import annotations
 
 import numpy as np
-import scipy
 
 from fscm._surface.response.images import Images, images_of
 from fscm._typing import Array, ComplexArray
@@ -37,9 +36,11 @@ def image_ring(total: Array, distance: Array, depth: Array) -> Array:
     >>> float(image_ring(2.0, 2.0, 0.0))           # at the center of a ring of radius 2
     0.5
     """
+    from scipy.special import ellipkm1
+
     outer = total * total + depth * depth
     ratio = (distance * distance + depth * depth) / outer
-    return _BESSEL * scipy.special.ellipkm1(ratio) / np.sqrt(outer)
+    return _BESSEL * ellipkm1(ratio) / np.sqrt(outer)
 
 
 def ring_mean(a: ComplexArray, b: ComplexArray) -> ComplexArray:

@@ -175,7 +175,6 @@ def remainder(
         matrix.reshape(N + 1, len(h), q)[node, panel] = row
         if previous is not None:
             matrix[np.ix_(reused, reused)] = getattr(previous[1], name)[np.ix_(old_indices, old_indices)]
-        # In Fortran order, like the matrix of the surface.
-        matrices.append(np.asfortranarray(matrix[:N]))
+        matrices.append(matrix[:N].copy())
         axes.append(matrix[N].copy())
     return Remainder(*matrices, *axes)
