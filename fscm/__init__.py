@@ -18,8 +18,7 @@ What a solver of an equilibrium path must have, and where it is:
 7. a bound of the error of every value by its causes: `_bound.defect`, `_bound.parts`;
 8. quantities, each a row that names its event and its functional: `quantities`; `analysis` computes them by 1 to 7.
 
-The names in `__all__` of the modules of solids, punches and laws are names of the package, too.  `_lazy.pyi` lists the
-others; a module is loaded when one of its names is first used.
+The names of the package are listed in `_lazy.pyi`; a module is loaded when one of its names is first used.
 """
 
 from pathlib import Path
@@ -27,49 +26,10 @@ from typing import TYPE_CHECKING
 
 import lazy_loader
 
-from fscm import (
-    cohesive_laws,
-    custom_punch,
-    custom_solid,
-    dlvo,
-    laws,
-    layers,
-    measured_punch,
-    punch,
-    solids,
-    tabulated_law,
-    tabulated_modulus,
-)
-from fscm.cohesive_laws import *
-from fscm.custom_punch import *
-from fscm.custom_solid import *
-from fscm.dlvo import *
-from fscm.laws import *
-from fscm.layers import *
-from fscm.measured_punch import *
-from fscm.punch import *
-from fscm.solids import *
-from fscm.tabulated_law import *
-from fscm.tabulated_modulus import *
-
 if TYPE_CHECKING:
     from fscm._lazy import *
 
 __getattr__, _, __all__ = lazy_loader.attach_stub(__name__, str(Path(__file__).with_name("_lazy.pyi")))
-_STATED = (
-    cohesive_laws,
-    custom_punch,
-    custom_solid,
-    dlvo,
-    laws,
-    layers,
-    measured_punch,
-    punch,
-    solids,
-    tabulated_law,
-    tabulated_modulus,
-)
-__all__ += [name for module in _STATED for name in module.__all__]
 
 
 def __dir__() -> list[str]:

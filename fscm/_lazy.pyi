@@ -1,4 +1,4 @@
-"""Public names besides solids, punches and laws; `__init__.py` loads a module when one of its names is first used."""
+"""Public names; `__init__.py` loads a module when one of its names is first used."""
 
 from ._surface.kernel import Phi as Phi, Psi as Psi, ring_response as ring_response
 from ._numbers import BoundedNumber as BoundedNumber
@@ -32,3 +32,29 @@ from .states import (
     equilibria as equilibria,
     profile as profile,
 )
+from .cohesive_laws import CohesiveExponential as CohesiveExponential, CohesiveTrapezoid as CohesiveTrapezoid
+from .custom_punch import CustomPunch as CustomPunch
+from .custom_solid import CustomSolid as CustomSolid
+from .dlvo import Dlvo as Dlvo
+from .laws import LennardJones as LennardJones, Mie as Mie, SurfaceLaw as SurfaceLaw
+from .layers import Layers as Layers
+from .measured_punch import MeasuredPunch as MeasuredPunch
+from .punch import (
+    Ball as Ball,
+    Cone as Cone,
+    PowerPunch as PowerPunch,
+    PowerSum as PowerSum,
+    PunchShape as PunchShape,
+    RoundedCone as RoundedCone,
+    Sphere as Sphere,
+)
+from .solids import (
+    Coating as Coating,
+    Exponential as Exponential,
+    GradedHalfSpace as GradedHalfSpace,
+    Homogeneous as Homogeneous,
+    OffsetPowerLaw as OffsetPowerLaw,
+    PowerLaw as PowerLaw,
+)
+from .tabulated_law import TabulatedLaw as TabulatedLaw
+from .tabulated_modulus import TabulatedModulus as TabulatedModulus

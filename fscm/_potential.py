@@ -31,7 +31,6 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-import scipy
 
 from fscm._typing import Array
 from fscm.punch import PunchShape, joints_of, kinks_of
@@ -229,16 +228,19 @@ def _legendre(count: int) -> tuple[Array, Array]:
 @lru_cache(maxsize=64)
 def _azimuth(m: float) -> tuple[Array, Array]:
     """Chebyshev coefficients of F of J, and of w times F of K: over w for an integer m, else over its root."""
+    from scipy.fft import dct
+    from scipy.special import hyp2f1
+
     s = 0.5 * (m + 3.0)
     t = 0.5 * (1.0 + np.polynomial.chebyshev.chebpts1(4 * _DEGREE))
     w = t if m == round(m) else t * t
     parts = (
-        scipy.special.hyp2f1(1.0 - s, 0.5, 1.0, 1.0 - w * w),
-        w * scipy.special.hyp2f1(2.0 - s, 1.5, 2.0, 1.0 - w * w),
+        hyp2f1(1.0 - s, 0.5, 1.0, 1.0 - w * w),
+        w * hyp2f1(2.0 - s, 1.5, 2.0, 1.0 - w * w),
     )
     coefficients = []
     for values in parts:
-        series = scipy.fft.dct(values[::-1], type=2)[: _DEGREE + 1] / values.size
+        series = dct(values[::-1], type=2)[: _DEGREE + 1] / values.size
         series[0] *= 0.5
         last = np.flatnonzero(np.abs(series) > _NEGLIGIBLE)[-1]
         coefficients.append(series[: last + 1])

@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from fscm._threads import one_thread
 from fscm.accuracy import Accuracy, Meshes
 from fscm.analysis import Analysis
 from fscm.errors import NoSuchEvent
-from fscm.gibson import GibsonSolid
 from fscm.problem import Problem, checked_problem
 from fscm.quantities import QUANTITIES, quantity_named
 from fscm.solution import Solution
+
+if TYPE_CHECKING:
+    from fscm.gibson import GibsonSolid
 
 __all__ = ["QUANTITIES", "solve", "solve_together"]
 
 
 def _model(problem: Problem, accuracy: Accuracy) -> Analysis | GibsonSolid:
     meshes = Meshes.of(accuracy)
-    return GibsonSolid(problem) if problem.k == 1.0 else Analysis(problem, meshes)
+    if problem.k < 1.0:
+        return Analysis(problem, meshes)
+    from fscm.gibson import GibsonSolid
+
+    return GibsonSolid(problem)
 
 
 @one_thread()

@@ -24,10 +24,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
 from fscm._path.arc_length import Point, rates_of
 from fscm._surface.state import State
+from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm.errors import Failure, NotConverged
 
@@ -88,8 +88,10 @@ def margins(state: State, count: int = 1) -> Array:
     NotConverged
         When the eigenvalues are not found.
     """
+    from scipy.sparse.linalg import ArpackError, eigs
+
     d = state.disc
-    slope = d.problem.force.slope(state.radius, state.gap)
+    slope = d.force.slope(state.radius, state.gap)
     attracted = slope > 0.0
     K = d.stiffness_scale(state.scale) * d.response(state.scale)
     size = int(np.count_nonzero(attracted))
@@ -99,9 +101,9 @@ def margins(state: State, count: int = 1) -> Array:
         if size <= count + 1:
             values = np.linalg.eigvals(reduced)
         else:
-            largest = scipy.sparse.linalg.eigs
-            values = largest(reduced, k=count, which="LM", v0=np.ones(size), return_eigenvectors=False)
-    except (np.linalg.LinAlgError, scipy.sparse.linalg.ArpackError) as error:
+            with one_thread():  # the BLAS of SciPy may be new
+                values = eigs(reduced, k=count, which="LM", v0=np.ones(size), return_eigenvectors=False)
+    except (np.linalg.LinAlgError, ArpackError) as error:
         raise NotConverged(
             f"the stability of the state at H_0 = {state.central_gap:.6g} was not found: {error}",
             Failure.ITERATION,

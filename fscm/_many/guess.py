@@ -7,7 +7,6 @@ distances from the edge, in units of that width, are graded equally for all prob
 from __future__ import annotations
 
 from functools import cache
-from importlib.resources import files
 from pathlib import Path
 from typing import NamedTuple
 
@@ -20,7 +19,7 @@ from fscm.interpolation.coordinates import BOX, reduced_compliance
 __all__ = ["DATA", "INSIDE", "OUTSIDE", "Guess", "basis", "described", "guesses", "outer_end", "point_offsets", "terms"]
 
 #: File of the series.
-DATA = Path(str(files("fscm") / "interpolation" / "data" / "pull_off_states.npz"))
+DATA = Path(__file__).parents[1] / "interpolation" / "data" / "pull_off_states.npz"
 #: Numbers of points inside and outside the edge.
 INSIDE, OUTSIDE = 16, 24
 #: Factor of the compliance in the third coordinate, and the weight of its degree.

@@ -29,7 +29,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import scipy
 
 from fscm._surface.response import response_of
 from fscm._surface.state import State
@@ -279,6 +278,8 @@ class LeastLoad:
     @cached_property
     def _flat_punches(self) -> tuple[Array, Array, Array]:
         """C_a, <f> and the weights (1 - phi) 2 r dr outside, for the radii a."""
+        from scipy.special import betainc
+
         k, squares = self.problem.k, self.radii**2
         a = self.radii[_EVERY::_EVERY]
         C = 4.0 * math.cos(0.5 * math.pi * k) / (math.pi * self.problem.compliance * (1.0 - k * k))
@@ -288,5 +289,5 @@ class LeastLoad:
         mean = self.heights[0] + (-np.diff(left, axis=1) @ slopes) / a ** (1.0 + k)
         with np.errstate(divide="ignore"):
             ratio = np.minimum(a[:, None] ** 2 / squares[1:], 1.0)
-        phi = scipy.special.betainc(0.5 * (1.0 + k), 0.5 * (1.0 - k), ratio)
+        phi = betainc(0.5 * (1.0 + k), 0.5 * (1.0 - k), ratio)
         return C * a ** (1.0 + k), mean, (1.0 - phi) * np.diff(squares)

@@ -11,7 +11,6 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-import scipy
 
 from fscm._path.arc_length import Point, parameter_control, parameter_of, rates_of
 from fscm._path.continuation import moved
@@ -224,9 +223,11 @@ def slowest(points: Sequence[Point]) -> tuple[Point, Point, Point, float]:
 
 
 def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
+    from scipy.optimize import minimize_scalar
+
     between = Between(a, b)
     orientation = a.state.orientation
-    best = scipy.optimize.minimize_scalar(
+    best = minimize_scalar(
         lambda x: orientation * between(x)[1].displacement,
         bounds=(between.low, between.high),
         method="bounded",

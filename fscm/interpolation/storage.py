@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import csv
-import hashlib
 import json
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +20,7 @@ from fscm.interpolation.series import Series
 __all__ = ["BOUNDS", "COEFFICIENTS", "FOLDER", "LAYOUTS", "RECORD", "Stored", "coordinates_of", "data_digest", "stored"]
 
 #: Folder of the data.
-FOLDER = Path(str(files("fscm.interpolation") / "data"))
+FOLDER = Path(__file__).with_name("data")
 #: Files of the data: layouts of the components, a record of their fit, coefficients and bounds.
 LAYOUTS, RECORD, COEFFICIENTS, BOUNDS = (
     FOLDER / name for name in ("layouts.json", "record.json", "coefficients.csv", "bounds.csv")
@@ -110,7 +108,9 @@ def data_digest() -> str:
     >>> len(data_digest())
     8
     """
-    return hashlib.sha256(b"".join(path.read_bytes() for path in (LAYOUTS, COEFFICIENTS, BOUNDS))).hexdigest()[:8]
+    from hashlib import sha256  # with OpenSSL, which takes milliseconds to load
+
+    return sha256(b"".join(path.read_bytes() for path in (LAYOUTS, COEFFICIENTS, BOUNDS))).hexdigest()[:8]
 
 
 def coordinates_of(row: Mapping[str, Any]) -> Coordinates:

@@ -1,5 +1,6 @@
 """Both references have the same names with the same arguments for solids, punches and laws; both solve layers."""
 
+import importlib
 import inspect
 import math
 
@@ -39,6 +40,27 @@ def test_the_names_of_a_package_are_listed_once():
     for package in (fscm, fem_reference):
         assert sorted(package.__all__) == sorted(set(dir(package)))
         assert {*NAMES, "solve"} <= set(package.__all__)
+
+
+@pytest.mark.parametrize(
+    "module",
+    [
+        "cohesive_laws",
+        "custom_punch",
+        "custom_solid",
+        "dlvo",
+        "laws",
+        "layers",
+        "measured_punch",
+        "punch",
+        "solids",
+        "tabulated_law",
+        "tabulated_modulus",
+    ],
+)
+def test_the_names_of_solids_punches_and_laws_are_names_of_the_package(module):
+    module = importlib.import_module(f"fscm.{module}")
+    assert [name for name in module.__all__ if getattr(fscm, name) is not getattr(module, name)] == []
 
 
 @pytest.mark.parametrize("package", [fscm, fem_reference])
