@@ -27,7 +27,6 @@ from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
-import scipy
 
 from fscm._threads import one_thread
 from fscm.errors import Failure, NoSuchEvent, NotConverged
@@ -296,5 +295,7 @@ _QUANTITIES: dict[str, Callable[[GibsonSolid], Number]] = {
 
 def _integral(f: Callable[[float], float], a: float, b: float) -> Number:
     """Integral and its error by adaptive quadrature; the error replaces its warnings."""
-    value, error, *_ = scipy.integrate.quad(f, a, b, epsabs=_QUADRATURE, epsrel=_QUADRATURE, limit=200, full_output=1)
+    from scipy.integrate import quad
+
+    value, error, *_ = quad(f, a, b, epsabs=_QUADRATURE, epsrel=_QUADRATURE, limit=200, full_output=1)
     return float(value), float(error)

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
-import scipy.linalg
 
 from fscm._roots import bracketed_root
 from fscm._surface.kernel import Psi
@@ -87,6 +86,14 @@ class CentralGapRates:
 
     displacement: float
     load: float
+
+
+def _solved(matrix: Array, right: Array) -> Array:
+    """Solution of a linear system; not a number when the matrix is singular."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right), float)
+    except np.linalg.LinAlgError:
+        return np.full_like(right, np.nan)
 
 
 class StieltjesScheme:
@@ -199,9 +206,7 @@ class StieltjesScheme:
             p, matrix = self._linearised(central_gap, H)
             residual = H - central_gap - self._height - self._front * (_psi_table(self.problem.k, self.segments) @ p)
             # A singular matrix or an overflow makes an iterate that fails the check below.
-            new = H - scipy.linalg.lu_solve(
-                scipy.linalg.lu_factor(matrix, check_finite=False), residual, check_finite=False
-            )
+            new = H - _solved(matrix, residual)
             if not (np.all(np.isfinite(new)) and new.min() > self.problem.law.singular_gap):
                 break
             change = np.abs(new - H)
@@ -240,7 +245,7 @@ class StieltjesScheme:
         _, matrix = self._linearised(state.central_gap, state.gap)
         # H_0 enters Eq. 34 itself and through the middle of the first segment.
         by_central = 1.0 + 0.5 * self._front * slope[0] * _psi_table(self.problem.k, self.segments)[:, 0]
-        dH = scipy.linalg.lu_solve(scipy.linalg.lu_factor(matrix, check_finite=False), by_central, check_finite=False)
+        dH = _solved(matrix, by_central)
         dp = slope * self._middle(1.0, dH)
         return CentralGapRates(float(self._w @ dp) - 1.0, float(self._area @ dp))
 

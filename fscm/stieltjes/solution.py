@@ -7,7 +7,6 @@ import time
 from functools import lru_cache
 
 import numpy as np
-import scipy
 
 from fscm._threads import one_thread
 from fscm.problem import Problem
@@ -89,6 +88,8 @@ def _beyond(scheme: StieltjesScheme, state: StieltjesState, row: AtEvent) -> flo
 
 def _tail(scheme: StieltjesScheme, state: StieltjesState, exponent: float) -> float:
     """Size of the integral of p d(r^exponent) beyond the last segment, where w hardly changes."""
+    from scipy.integrate import quad
+
     problem, radius = scheme.problem, float(scheme.radius[-1])
     shift = float(state.gap[-1]) - scheme.farthest_height
 
@@ -98,4 +99,4 @@ def _tail(scheme: StieltjesScheme, state: StieltjesState, exponent: float) -> fl
         return float((problem.law.traction(gap) * exponent * r**exponent)[0])
 
     # In log r the integrand decays exponentially; it is negligible where f has grown by e^60.
-    return abs(float(scipy.integrate.quad(density, 0.0, 60.0 / problem.punch.growth, limit=200)[0]))
+    return abs(float(quad(density, 0.0, 60.0 / problem.punch.growth, limit=200)[0]))
