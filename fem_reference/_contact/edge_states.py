@@ -34,6 +34,7 @@ from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._typing import Array
 from fem_reference.errors import Failure, NotConverged
 from fem_reference.laws import SurfaceLaw
+from fem_reference.punch import kinks_of
 
 __all__ = ["EdgeStates", "to_root"]
 
@@ -79,6 +80,9 @@ CUBIC_STEPS = 1.5
 #: Change of the logarithm of the radius between states whose values tell an extremum: the polynomial of degree 4 has it
 #: to 3e-7 for a load of the limit of a short range (by its fifth derivative), which changes the load by 2e-13.
 EXTREMUM_STEP = 0.02
+
+#: The same, as a share of the distance to the nearest kink of the punch, and the least; steps of one move.
+SHARE_TO_KINK, LEAST_EXTREMUM_STEP, MOST_STEPS_AT_ONCE = 0.4, 1e-4, 5.0
 
 
 Value = TypeVar("Value", float, Array)
@@ -193,19 +197,25 @@ class EdgeStates:
             As `on_fine_mesh`, or if the extremum is not found.
         """
         radius = self.start.edge_radius
-        steps = EXTREMUM_STEP * np.arange(-2, 3)
         for _ in range(MOVES):
+            step = self._extremum_step(radius)
+            steps = step * np.arange(-2, 3)
             spec, self.start = self.on_fine_mesh(radius)
             values = [value(self.similar(spec, radius * math.exp(x))) for x in steps]
             polynomial = np.polynomial.Polynomial.fit(steps, values, steps.size - 1)
             rate, bend = polynomial.deriv(), polynomial.deriv(2)
             x = -float(rate(0.0) / bend(0.0))
-            if abs(x) <= EXTREMUM_STEP:
+            if abs(x) <= step:
                 for _ in range(POLISHES):
                     x -= float(rate(x) / bend(x))
                 return radius * math.exp(x), float(bend(x)) / radius**2
-            radius *= math.exp(float(np.clip(x, -LARGEST_MOVE, LARGEST_MOVE)))
+            radius *= math.exp(float(np.clip(x, -MOST_STEPS_AT_ONCE * step, MOST_STEPS_AT_ONCE * step)))
         raise NotConverged(f"the contact edge of an extremum was not found near the radius {radius:.4g}", Failure.EVENT)
+
+    def _extremum_step(self, radius: float) -> float:
+        """Change of the logarithm of the radius between states about an extremum, none of which is beyond a kink."""
+        nearest = min((abs(math.log(kink / radius)) for kink in kinks_of(self.meshes.problem.punch)), default=math.inf)
+        return min(EXTREMUM_STEP, max(SHARE_TO_KINK * nearest, LEAST_EXTREMUM_STEP))
 
     def similar(self, spec: MeshSpec, radius: float) -> Point:
         """The state with the contact edge at a radius, on a mesh as fine at its edge as another one."""

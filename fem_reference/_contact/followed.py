@@ -322,12 +322,18 @@ class FollowedPath:
         excess = excess_of(event, level)
         spec, radius = states.located(excess, slope)
         if is_extremum:
-            beside = states.similar(spec, radius * math.exp(BESIDE_EXTREMUM))
-            rate = (_height(event, beside) - _height(event, states.start)) / BESIDE_EXTREMUM
+            here = _height(event, states.start)
+            rise = _height(event, states.similar(spec, radius * math.exp(BESIDE_EXTREMUM))) - here
             bend = slope * radius**2
-            radius_error = abs((rate - radius * excess(states.start)) / bend - 0.5 * BESIDE_EXTREMUM)
-            if radius_error > FARTHEST:
+            if kinks_within(self.meshes.problem):
+                # Near a kink the path bends within the width of the edge, which its states do not tell.
+                fall = here - _height(event, states.similar(spec, radius * math.exp(-BESIDE_EXTREMUM)))
+                bend = (rise - fall) / BESIDE_EXTREMUM**2
+            moved = (rise / BESIDE_EXTREMUM - radius * excess(states.start)) / bend if bend else math.inf
+            radius_error = abs(moved - 0.5 * BESIDE_EXTREMUM)
+            if radius_error > FARTHEST or bend * slope < 0.0:
                 return self._extremum(event, states.start)
+            slope = bend / radius**2
             return (spec, radius), Anchor(states.start, slope, radius_error)
         if pinned:
             radius -= excess(states.start) / slope

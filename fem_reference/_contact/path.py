@@ -26,7 +26,16 @@ from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import CentralGap, GapRise, mesh_control
 from fem_reference._contact.hermite import Interval, Sample
 from fem_reference._contact.mesh_lengths import EDGE_RISE
-from fem_reference._contact.states import SIZE_STEP, Branch, Point, branches_of, contact_branch, continuation, point_at
+from fem_reference._contact.states import (
+    SIZE_STEP,
+    Branch,
+    Point,
+    branches_of,
+    contact_branch,
+    continuation,
+    edge_width,
+    point_at,
+)
 from fem_reference._roots import root_between
 from fem_reference._typing import Array
 from fem_reference._wells import outermost_turn
@@ -81,6 +90,10 @@ RATE_POINTS = 5
 #: Ratio of the last radius to that beyond which neither load nor displacement turns back in the limit of a short range
 #: of the law: its elements are a third of it long, and the range of the law moves the extremes by less.
 BEYOND_LAST_TURN = 1.5
+
+#: Distances of states from a kink, in widths of the edge: there the load changes within a width (under six rows and a
+#: cohesive trapezoid, w/(E* R) = 0.3, by 0.3 of 49.8 within 0.2 of a radius of 13.3; the minimum was missed).
+BESIDE_KINKS = 1.0, 3.0, 9.0
 
 #: Distance from a kink of the punch, relative to its radius, at which a branch ends and the next begins.
 BESIDE = 1e-9
@@ -238,7 +251,10 @@ def completed(at: Callable[[float], Point], points: Sequence[Point], exact_rates
         return complete_branch(rates(branch), tests, lambda _, log_radius: at(math.exp(log_radius)), rates)
 
     branches = [list(branch) for branch in branches_of(points)]
-    branches = [complete(branch if exact_rates else filled(at, branch)) for branch in branches]
+    if not exact_rates:
+        last = len(branches) - 1
+        branches = [_beside_kinks(at, filled(at, branch), i > 0, i < last) for i, branch in enumerate(branches)]
+    branches = [complete(branch) for branch in branches]
     for _ in range(ROUNDS):
         turning = set() if exact_rates else _turning(branches, scales)
         if not turning:
@@ -304,6 +320,20 @@ def filled(at: Callable[[float], Point], branch: list[Point]) -> list[Point]:
     if len(branch) >= RATE_POINTS or low == high:
         return branch
     return [branch[0], *(at(math.exp(x)) for x in np.linspace(low, high, RATE_POINTS)[1:-1]), branch[-1]]
+
+
+def _beside_kinks(at: Callable[[float], Point], branch: list[Point], first: bool, last: bool) -> list[Point]:
+    """The branch with states beside the kinks at its ends, at multiples of the width of the edge.
+
+    Within that width the edge feels what is beyond the kink, and the load may turn (see `BESIDE_KINKS`).
+    """
+    added = []
+    for is_kink, end, neighbour in ((first, 0, 1), (last, -1, -2)):
+        if is_kink and len(branch) > 1:
+            span = math.log(branch[neighbour].parameter / branch[end].parameter)
+            shares = [multiple * max(edge_width(branch[end]), 0.0) / abs(span) for multiple in BESIDE_KINKS]
+            added += [at(branch[end].parameter * math.exp(share * span)) for share in shares if 0.0 < share < 0.5]
+    return sorted([*branch, *added], key=lambda point: point.parameter)
 
 
 def with_rates(points: list[Point]) -> list[Point]:

@@ -42,6 +42,7 @@ def factorise(matrix: Any) -> SuperLU:
 
     Examples
     --------
+    >>> import numpy as np
     >>> factorise(sparse.csr_array(np.array([[2.0, 1.0], [1.0, 2.0]]))).solve(np.array([3.0, 3.0]))
     array([1., 1.])
     """
@@ -114,6 +115,7 @@ def strips_of(matrix: sparse.csr_array, positions: Index) -> list[Strips]:
 
     Examples
     --------
+    >>> import numpy as np
     >>> chain = sparse.diags_array([-np.ones(7), 2 * np.ones(8), -np.ones(7)], offsets=[-1, 0, 1]).tocsr()
     >>> [strips.lines.tolist() for strips in strips_of(chain, np.arange(8))]
     [[2, 6], [0, 4]]

@@ -9,7 +9,20 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from fem_reference import Coating, CustomPunch, LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve, trace
+from fem_reference import (
+    Coating,
+    CohesiveTrapezoid,
+    CustomPunch,
+    Homogeneous,
+    LennardJones,
+    MeasuredPunch,
+    NotConverged,
+    PowerLaw,
+    PowerPunch,
+    Problem,
+    solve,
+    trace,
+)
 from fem_reference._contact import followed, path
 from fem_reference._contact.edge_states import MOVES, EdgeStates, to_root
 from fem_reference._contact.event_kinds import Anchor
@@ -145,12 +158,20 @@ def exact_states(monkeypatch):
 
 
 @pytest.mark.usefixtures("exact_states")
-def test_an_extremum_follows_from_the_values_of_its_neighbours():
-    """Rates on one mesh put that of a narrow edge beside it: none is used."""
-    states = EdgeStates(None, _States(0.0).at(math.exp(1.7)), 4, 1.4)
-    radius, bend = states.extremum(lambda point: point.state.load)
+@pytest.mark.parametrize("kinks", [(), (math.exp(2.01),)])
+def test_an_extremum_follows_from_the_values_of_its_neighbours(kinks):
+    """Rates on one mesh put that of a narrow edge beside it: none is used.  No value is from beyond a kink."""
+    problem, radii = SimpleNamespace(punch=SimpleNamespace(kinks=kinks)), []
+    states = EdgeStates(SimpleNamespace(problem=problem), _States(0.0).at(math.exp(1.9)), 4, 1.4)
+
+    def load(point):
+        radii.append(point.edge_radius)
+        return point.state.load
+
+    radius, bend = states.extremum(load)
     assert math.log(radius) == pytest.approx(2.0, abs=1e-9)
-    assert bend == pytest.approx(0.5 / radius**2, rel=1e-6)
+    assert bend == pytest.approx(0.5 / radius**2, rel=1e-4)
+    assert all(radius < kink for radius in radii for kink in kinks)
 
 
 @pytest.mark.usefixtures("exact_states")
@@ -332,8 +353,19 @@ class _KinkedStates:
 def test_rates_of_both_sides_of_a_kink_decide_what_the_test_of_each_side_does_not_see(monkeypatch):
     """Five states see a rate of -0.8 at the kink, where it is 2."""
     monkeypatch.setattr(path, "complete_branch", lambda points, *_: points)
+    monkeypatch.setattr(path, "edge_width", lambda point: 0.0)
     at = _KinkedStates().at
     points = completed(at, contact_points(at, 0.33, (1.0,), 0.0))
     within = [(a, b) for a, b in pairwise(points) if b.edge_radius > a.edge_radius * (1.0 + 1e-6)]
     ((a, b),) = [pair for pair in within if pair[0].load_rate < 0.0 <= pair[1].load_rate]
     assert a.edge_radius <= math.exp(0.005 * math.log(1.0 / 3.0)) <= b.edge_radius <= 1.0
+
+
+def test_states_beside_a_kink_show_a_minimum_within_the_width_of_the_edge():
+    """The load turns 0.5 % before the kink: five states a part, and values from beyond the kink, had 53.17."""
+    law = CohesiveTrapezoid(work_of_adhesion=1.0, strength=1.0, rise_end=0.318, fall_start=0.35)
+    profile = MeasuredPunch(radii=(0.0, 6.0, 13.3), heights=(0.0, 1.8, 9.0), growth=2.9)
+    force = solve(Problem(Homogeneous(E=0.133, nu=0.236), profile, law), "pull_off_force", "quick")
+    # By the integral equation.
+    assert force.value == pytest.approx(53.527162188, abs=force.u_num)
+    assert force.u_num <= 1e-4
