@@ -167,13 +167,14 @@ def linear_response(block: Block, pressure: Array, stiffness: Array) -> tuple[Ar
         That of the surface elements.
     """
     core, trace = block.core, block.trace
-    zero = np.zeros(core.size)
-    elements = core.condensed(zero, core.no_pressure(), 1.0)
-    if elements is None:
+    at_rest = np.zeros(core.size), core.no_pressure(), 1.0
+    linear, forces = core.condensed(*at_rest), core.forces(*at_rest)
+    if linear is None or forces is None:
         raise AssertionError("the undeformed solid is not turned inside out")
-    factors = factorised(block.matrix(elements.tangent, stiffness))
+    tangent, condensed = linear
+    factors = factorised(block.matrix(tangent, stiffness))
     down = (trace.weight * trace.s * pressure).reshape(trace.local.shape[0], 1, -1) @ trace.local
     load = summed(block.surface_rows[:, 1::2], down, core.size)
     u = np.zeros(core.size)
     u[block.free] = factors.solve(load[block.free])
-    return u, core.recover(elements, u)
+    return u, core.recover(condensed, forces, core.eliminated(condensed, forces)[1], u)

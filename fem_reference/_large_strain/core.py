@@ -44,28 +44,37 @@ Constants = Callable[[Array], tuple[Array, Array]]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Condensed:
-    """Linearised elements, on their sides.
+    """How elements respond: what is inside them, and their pressures, follow from their sides.
 
     Attributes
     ----------
-    tangent : ndarray, shape (e, s, s)
-    residual : ndarray, shape (e, s)
     follow : ndarray, shape (e, i, s)
         The functions inside fall by this much when those of the sides rise.
-    own : ndarray, shape (e, i)
-        And by this much if the sides stay.
+    inverse : ndarray, shape (e, i, i)
+        Of the tangent of the functions inside.
     response : ndarray, shape (e, m, s + i)
-        Rise of the pressures with all functions; zero but in the mixed form.
-    defect : ndarray, shape (e, m)
-        Rise of the pressures if all functions stay.
+        Rise of the pressures with all functions; only in the mixed form.
     """
 
-    tangent: Array
-    residual: Array
     follow: Array
-    own: Array
+    inverse: Array
     response: Array
-    defect: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Forces:
+    """What elements lack of their balance.
+
+    Attributes
+    ----------
+    residual : ndarray, shape (e, s + i)
+        Derivatives of the energy.
+    lack : ndarray, shape (e, m)
+        What the volumes lack for the pressures; only in the mixed form.
+    """
+
+    residual: Array
+    lack: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -92,6 +101,8 @@ class Core:
     measure, shear, lame, compressibility : ndarray, shape (e, q)
         Weights of r dr dz, shear modulus, the part of lambda that the displacement carries, and the inverse of the
         rest, which the pressure carries.
+    rise : ndarray, shape (e, m, m)
+        Of the pressures with what the volumes lack; only in the mixed form.
     """
 
     grid: Grid
@@ -106,6 +117,7 @@ class Core:
     shear: Array
     lame: Array
     compressibility: Array
+    rise: Array
 
     @property
     def size(self) -> int:
@@ -121,7 +133,12 @@ class Core:
         """Return the pressures of the undeformed solid, shape (e, m)."""
         return np.zeros((self.rows.shape[0], self.tests.shape[1]))
 
-    def condensed(self, u: Array, pressures: Array, finiteness: float) -> Condensed | None:
+    def has_places_of(self, other: Core) -> bool:
+        """Whether rows, elements and pressures are those of other elements, of any form."""
+        shapes = [(core.grid.r.size, core.grid.z.size, core.order, core.mixed) for core in (self, other)]
+        return self is other or shapes[0] == shapes[1]
+
+    def condensed(self, u: Array, pressures: Array, finiteness: float) -> tuple[Array, Condensed] | None:
         """Linearise every element, and eliminate what is inside; None if an element is turned inside out.
 
         Parameters
@@ -131,79 +148,111 @@ class Core:
             Not used but in the mixed form.
         finiteness : float
             Factor of the strains, see `fem_reference._large_strain.material`.
+
+        Returns
+        -------
+        tangent : ndarray, shape (e, s, s)
+            Of the sides.
+        condensed : Condensed
         """
         e, s, n = *self.sides.shape, self.rows.shape[1]
+        tangent = np.empty((e, s, s))
         result = Condensed(
-            np.empty((e, s, s)),
-            np.empty((e, s)),
-            np.empty((e, n - s, s)),
-            np.empty((e, n - s)),
-            np.zeros((e, self.tests.shape[1], n)),
-            np.zeros((e, self.tests.shape[1])),
+            np.empty((e, n - s, s)), np.empty((e, n - s, n - s)), np.zeros((*self.no_pressure().shape, n))
         )
         for start in range(0, e, CHUNK):
             chunk = slice(start, start + CHUNK)
             linear = self._linearised(chunk, u, pressures[chunk], finiteness)
             if linear is None:
                 return None
-            K, r, result.response[chunk], result.defect[chunk] = linear
-            inner = np.linalg.solve(K[:, s:, s:], np.concatenate([K[:, s:, :s], r[:, s:, None]], axis=2))
-            result.follow[chunk], result.own[chunk] = inner[:, :, :s], inner[:, :, s]
-            result.tangent[chunk] = K[:, :s, :s] - K[:, :s, s:] @ inner[:, :, :s]
-            result.residual[chunk] = r[:, :s] - (K[:, :s, s:] @ inner[:, :, s:])[:, :, 0]
-        return result
+            K, response = linear
+            if response is not None:
+                result.response[chunk] = response
+            result.inverse[chunk] = np.linalg.inv(K[:, s:, s:])
+            np.matmul(result.inverse[chunk], K[:, s:, :s], out=result.follow[chunk])
+            tangent[chunk] = K[:, :s, :s] - K[:, :s, s:] @ result.follow[chunk]
+        return tangent, result
+
+    def forces(self, u: Array, pressures: Array, finiteness: float) -> Forces | None:
+        """Return what the elements lack of their balance, as in `condensed`; None if one is turned inside out."""
+        state = kinematics(self._gradients(slice(None), u), finiteness)
+        if state is None:
+            return None
+        volume = state.log_J / finiteness
+        carried = pressures @ self.tests.T
+        P = stress(state, self.shear, self.lame * volume + carried)
+        e, n = self.rows.shape[0], self.functions.shape[2]
+        residual = np.zeros((e, n, 2))
+        for of_gradient, (i, kind) in zip(P, KINDS, strict=True):
+            residual[:, :, int(i > HOOP)] += (of_gradient * self.scale[kind] * self.measure) @ self.functions[kind]
+        lack = (self.measure * (volume - self.compressibility * carried)) @ self.tests
+        return Forces(residual.reshape(e, 2 * n), lack)
 
     def _gradients(self, chunk: slice, u: Array) -> Array:
         """Displacement gradients of some elements, shape (5, e, q)."""
-        local = u[self.rows[chunk]].reshape(-1, self.functions.shape[2], 2)
-        along = self.functions[:, None] @ local
-        return np.stack([along[kind, :, :, int(i > HOOP)] * self.scale[kind, chunk] for i, kind in KINDS])
+        kinds, points, n = self.functions.shape
+        local = u[self.rows[chunk]].reshape(-1, n, 2).swapaxes(1, 2)
+        along = (local.reshape(-1, n) @ self.functions.reshape(-1, n).T).reshape(-1, 2, kinds, points)
+        return np.stack([along[:, int(i > HOOP), kind] * self.scale[kind, chunk] for i, kind in KINDS])
 
     def _linearised(
         self, chunk: slice, u: Array, pressure: Array, finiteness: float
-    ) -> tuple[Array, Array, Array | float, Array | float] | None:
-        """Tangent and residual of some elements; how their pressures follow."""
+    ) -> tuple[Array, Array | None] | None:
+        """Tangent of some elements, and how their pressures follow."""
         state = kinematics(self._gradients(chunk, u), finiteness)
         if state is None:
             return None
         shear, lame, measure = self.shear[chunk], self.lame[chunk], self.measure[chunk]
-        volume = state.log_J / finiteness
-        carried = pressure @ self.tests.T
-        q = lame * volume + carried
+        q = lame * state.log_J / finiteness + pressure @ self.tests.T
         scale = np.stack([self.scale[kind, chunk] for _, kind in KINDS])
-        P = stress(state, shear, q) * scale * measure
-        D = tangent(state, shear, q, lame) * scale * (scale[:, None] * measure)
-        K, r = _contracted(self.functions, P, D)
+        K = _contracted(self.functions, tangent(state, shear, q, lame) * scale * (scale[:, None] * measure))
         if not self.mixed:
-            return K, r, 0.0, 0.0
+            return K, None
         couplings = state.inverse * scale * measure
-        B = np.empty((r.shape[0], self.tests.shape[1], r.shape[1]))
+        B = np.empty((K.shape[0], self.tests.shape[1], K.shape[1]))
         for component, kinds in enumerate((KINDS[:3], KINDS[3:])):
             B[:, :, component::2] = sum(
                 (couplings[i][:, :, None] * self.tests).swapaxes(1, 2) @ self.functions[kind] for i, kind in kinds
             )
-        softness = self.compressibility[chunk]
-        softened = (softness + np.where(softness > 0.0, 0.0, TANGENT_COMPRESSIBILITY / shear)) * measure
-        C = self.tests.T @ (softened[:, :, None] * self.tests)
-        lack = (measure * (volume - softness * carried)) @ self.tests
-        solved = np.linalg.solve(C, np.concatenate([B, lack[:, :, None]], axis=2))
-        response, defect = solved[:, :, :-1], solved[:, :, -1]
+        response = self.rise[chunk] @ B
         K += B.swapaxes(1, 2) @ response
-        r += (defect[:, None, :] @ B)[:, 0]
-        return K, r, response, defect
+        return K, response
 
-    def recover(self, condensed: Condensed, step: Array) -> Array:
+    def eliminated(self, condensed: Condensed, forces: Forces) -> tuple[Array, Array]:
+        """Return the forces on the sides, shape (e, s), and how the functions inside fall if the sides stay.
+
+        What is inside and the pressures then are in balance, by the tangent.
+
+        Parameters
+        ----------
+        condensed : Condensed
+        forces : Forces
+            Where the tangent was taken, or near it.
+        """
+        s, r = self.sides.shape[1], forces.residual
+        if self.mixed:
+            r = r + (forces.lack[:, None] @ condensed.response)[:, 0]
+        inner = r[:, None, s:]
+        # The tangent is symmetric.
+        return r[:, :s] - (inner @ condensed.follow)[:, 0], (inner @ condensed.inverse)[:, 0]
+
+    def recover(self, condensed: Condensed, forces: Forces, own: Array, step: Array) -> Array:
         """Fill in the step inside the elements, in place, from that of their sides; return that of the pressures.
 
         Parameters
         ----------
         condensed : Condensed
-            The linearised elements whose step this is.
+        forces : Forces
+        own : ndarray, shape (e, i)
+            Of `eliminated`.
         step : ndarray, shape (2 N,)
         """
         s = self.sides.shape[1]
-        step[self.rows[:, s:]] = -condensed.own - (condensed.follow @ step[self.sides][:, :, None])[:, :, 0]
-        return condensed.defect + (condensed.response @ step[self.rows][:, :, None])[:, :, 0]
+        step[self.rows[:, s:]] = -own - (condensed.follow @ step[self.sides][:, :, None])[:, :, 0]
+        if not self.mixed:
+            return self.no_pressure()
+        risen = condensed.response @ step[self.rows][:, :, None] + self.rise @ forces.lack[:, :, None]
+        return np.asarray(risen[:, :, 0])
 
     def energy(self, u: Array, finiteness: float = 1.0) -> float:
         """Elastic energy of the core per radian; inf if an element is turned inside out."""
@@ -215,13 +264,12 @@ class Core:
         return float((self.measure * energy(state, self.shear, lame)).sum())
 
 
-def _contracted(functions: Array, P: Array, D: Array) -> tuple[Array, Array]:
-    """Tangent, shape (e, 2 n, 2 n), and residual, shape (e, 2 n), from weighted stresses and their derivatives."""
-    elements, n = P.shape[1], functions.shape[2]
-    K, r = np.empty((elements, 2 * n, 2 * n)), np.empty((elements, 2 * n))
+def _contracted(functions: Array, D: Array) -> Array:
+    """Tangent, shape (e, 2 n, 2 n), from weighted derivatives of the stresses."""
+    elements, n = D.shape[2], functions.shape[2]
+    K = np.empty((elements, 2 * n, 2 * n))
     halves = (KINDS[:3], KINDS[3:])
     for component, rows in enumerate(halves):
-        r[:, component::2] = sum(P[i] @ functions[kind] for i, kind in rows)
         for other, columns in enumerate(halves[component:], component):
             block = np.zeros((elements, n, n))
             for i, kind in rows:
@@ -230,7 +278,7 @@ def _contracted(functions: Array, P: Array, D: Array) -> tuple[Array, Array]:
             K[:, component::2, other::2] = block
             if other != component:
                 K[:, other::2, component::2] = block.swapaxes(1, 2)
-    return K, r
+    return K
 
 
 def core_of(
@@ -267,4 +315,9 @@ def core_of(
     rest = np.where(np.isinf(stiff), 0.0, 1.0 / (stiff - lame)) if mixed else np.zeros_like(stiff)
     scale = np.stack([np.broadcast_to(1.0 / wide, r.shape), np.broadcast_to(1.0 / high, r.shape), 1.0 / r])
     functions, tests = np.stack([along_r, along_z, N]), pressure_functions(X, order - 1)
-    return Core(grid, dofs, order, mixed, rows, functions, tests, scale, r * W * wide * high, shear, lame, rest)
+    measure = r * W * wide * high
+    rise = np.zeros((rows.shape[0], tests.shape[1], tests.shape[1]))
+    if mixed:
+        softened = (rest + np.where(rest > 0.0, 0.0, TANGENT_COMPRESSIBILITY / shear)) * measure
+        rise = np.linalg.inv(tests.T @ (softened[:, :, None] * tests))
+    return Core(grid, dofs, order, mixed, rows, functions, tests, scale, measure, shear, lame, rest, rise)

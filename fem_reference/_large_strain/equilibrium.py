@@ -11,13 +11,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fem_reference._large_strain.block import Block, factorised, summed
+from fem_reference._large_strain.block import Block
 from fem_reference._large_strain.faces import Faces
+from fem_reference._large_strain.linearisation import Gap, Linearisation, Step, linearised
 from fem_reference._large_strain.surface import Surface
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 
-__all__ = ["ROUGH_TOLERANCE", "Control", "State", "extrapolated", "solve_state"]
+__all__ = ["ROUGH_TOLERANCE", "Control", "State", "extrapolated", "settled", "solve_state"]
 
 #: Largest last step in lengths of the law: the next one would be about its square.
 NEWTON_TOLERANCE = 1e-6
@@ -27,6 +28,12 @@ ROUGH_TOLERANCE, ROUGH_STEPS = 1e-2, 6
 
 #: Steps before giving up.
 NEWTON_STEPS = 16
+
+#: Share of its size to which a step of a chord shrinks at least: one costs a tenth of a step of Newton's method.
+SHRINKING = 0.2
+
+#: What a chord may leave, in tolerances of the last step: rounding leaves 1e-12 of the loads, and this 1e-10.
+CHORD_REST = 1e-4
 
 #: Largest change of a gap in one step, in lengths of the law, where the faces are within a few of them.
 LARGEST_CHANGE = 0.5
@@ -66,12 +73,12 @@ class State:
         Approach in units of the size.
     iterations : int
         Newton steps.
-    load_slope : float
-        dP/d(delta) along the path at fixed friction, in units of the input.
     residual : float
         Forces that were out of balance before the last step, relative to those of the surface.
     control : Control, optional
         The one that picked the state.
+    linearisation : Linearisation, optional
+        The one whose step was the last, at this state or near it.
     """
 
     block: Block
@@ -80,9 +87,14 @@ class State:
     pressures: Array
     delta: float
     iterations: int = 0
-    load_slope: float = math.nan
     residual: float = math.nan
     control: Control | None = None
+    linearisation: Linearisation | None = None
+
+    @property
+    def light(self) -> State:
+        """The state without its linearisation, which takes most of the memory."""
+        return replace(self, linearisation=None)
 
     @property
     def faces(self) -> Faces:
@@ -112,6 +124,17 @@ class State:
         return _gap(self, vertex)[0]
 
     @property
+    def load_slope(self) -> float:
+        """dP/d(delta) along the path at fixed friction, in units of the input; it costs a factorisation."""
+        surface, block, faces = self.surface, self.block, self.faces
+        at_state = _linearised(self)
+        _, by_height = surface.pressure_slopes(faces)
+        direct = -float((block.trace.weight * by_height * faces.rho) @ faces.stretch)
+        # The tangent is symmetric but for the end of the surface: the load changes with u as the residual with delta.
+        total = direct + float(at_state.approach[block.free] @ at_state.response[block.free])
+        return 2.0 * math.pi * surface.size * surface.modulus * total
+
+    @property
     def energy(self) -> float:
         """Elastic energy and that of the faces, in units of the input."""
         c, block = self.surface.size, self.block
@@ -130,53 +153,95 @@ def _gap(state: State, vertex: int) -> tuple[float, float]:
     return height + surface.size * (float(state.u[row + 1]) - state.delta), slope
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Step:
-    """One Newton step: changes of everything, and the response to a change of the approach."""
-
-    u: Array
-    pressures: Array
-    delta: float
-    load_slope: float
-    residual: float
-
-
 def solve_state(start: State, control: Control, tolerance: float = NEWTON_TOLERANCE) -> State:
     """Solve the equilibrium with a gap given.
+
+    Steps are those of a chord, with the linearisation of the start if it has one, or of the last step of Newton's
+    method, as long as they shrink well.
 
     Parameters
     ----------
     start : State
     control : Control
     tolerance : float
-        Largest last step in lengths of the law; fewer steps are tried for a larger one.
+        Largest last step of Newton's method in lengths of the law; fewer steps are tried for a larger one.
 
     Raises
     ------
     NotConverged
         If Newton's method does not end.
     """
-    state = start
     unit = start.surface.law.z0 / start.surface.size
     steps = NEWTON_STEPS if tolerance <= NEWTON_TOLERANCE else ROUGH_STEPS
-    for iteration in range(1, steps + 1):
-        step = _newton_step(state, control)
+    state, size = start, math.inf
+    for iteration in range(steps + 1):
+        kept = state.linearisation
+        if kept is not None and kept.serves(state.block):
+            state, done = _chord(state, control, size, tolerance * unit)
+            if done:
+                return replace(state, iterations=iteration)
+        if iteration == steps:
+            break
+        state = replace(state, linearisation=_linearised(state))
+        step = _step(state, control)
         factor = _damping(state, step)
-        state = _moved(state, step, factor)
+        state = replace(_moved(state, step, factor), residual=step.imbalance, control=control)
         size = float(np.abs(step.u).max())
         if factor == 1.0 and size <= tolerance * unit:
-            return replace(
-                state,
-                iterations=iteration,
-                load_slope=step.load_slope,
-                residual=step.residual,
-                control=control,
-            )
+            return replace(state, iterations=iteration + 1)
         if not math.isfinite(size):
             break
+        if factor < 1.0:
+            state = state.light
     raise NotConverged(
         f"Newton's method for a solid of finite strain ended at a step of {size / unit:.1e} lengths of the law"
     )
+
+
+def _chord(state: State, control: Control, before: float, tolerance: float) -> tuple[State, bool]:
+    """Go on with the linearisation of a state as long as the steps shrink well.
+
+    Parameters
+    ----------
+    state : State
+    control : Control
+    before : float
+        Size of the step to the state; infinite if its linearisation is that of another state.
+    tolerance : float
+        Largest last step, in units of the size.
+
+    Returns
+    -------
+    state : State
+        The last one to which the steps shrank.
+    done : bool
+        Whether it is the equilibrium.
+    """
+    good = tried = state
+    while True:
+        try:
+            step = _step(tried, control)
+            full = _damping(tried, step) == 1.0
+        except NotConverged:
+            return good, False
+        size = float(np.abs(step.u).max())
+        if not (full and size <= SHRINKING * before):
+            return good, False
+        tried = replace(_moved(tried, step, 1.0), residual=step.imbalance, control=control)
+        # What is left is the sum of the next steps.
+        shrinking = size / before if math.isfinite(before) else SHRINKING
+        if math.isfinite(before):
+            good = tried
+        if size <= tolerance and size * shrinking <= CHORD_REST * tolerance:
+            return tried, True
+        before = size
+
+
+def settled(state: State) -> State:
+    """Return the state after a further step of the chord, if it is an equilibrium."""
+    if state.control is None or state.linearisation is None:
+        return state
+    return _moved(state, _step(state, state.control), 1.0)
 
 
 def extrapolated(before: State, state: State, ratio: float) -> State:
@@ -189,7 +254,7 @@ def extrapolated(before: State, state: State, ratio: float) -> State:
     )
 
 
-def _moved(state: State, step: _Step, factor: float) -> State:
+def _moved(state: State, step: Step, factor: float) -> State:
     return replace(
         state,
         u=state.u + factor * step.u,
@@ -198,7 +263,7 @@ def _moved(state: State, step: _Step, factor: float) -> State:
     )
 
 
-def _damping(state: State, step: _Step) -> float:
+def _damping(state: State, step: Step) -> float:
     """Share of a step that changes no gap within a few lengths of the law too much."""
     near = state.faces
     after = _moved(state, step, 1.0).faces
@@ -219,45 +284,16 @@ def _upright(state: State) -> bool:
     return math.isfinite(state.block.core.energy(state.u, state.surface.finiteness))
 
 
-def _newton_step(state: State, control: Control) -> _Step:
-    """Linearise, and solve for the step and the response to the approach."""
-    block, surface = state.block, state.surface
-    elements = block.core.condensed(state.u, state.pressures, surface.finiteness)
-    if elements is None:
-        raise NotConverged("an element is turned inside out: the strains are too large for this mesh")
-    faces = state.faces
-    by_surface, by_delta = surface.tangent(faces)
-    across, down = surface.residual(faces)
-    rows = block.surface_rows
-    residual = summed(block.core.sides, elements.residual, block.core.size)
-    residual[block.boundary] += block.exterior @ state.u[block.boundary]
-    forces = np.stack([across, down], axis=2).reshape(rows.shape)
-    residual += summed(rows, forces, block.core.size)
-    approach = summed(rows, by_delta, block.core.size)
-    factors = factorised(block.matrix(elements.tangent, by_surface))
-    solved = factors.solve(np.stack([-residual[block.free], -approach[block.free]], axis=1))
-    step, response = np.zeros((2, block.core.size))
-    step[block.free], response[block.free] = solved.T
+def _linearised(state: State) -> Linearisation:
+    return linearised(state.block, state.surface, state.u, state.pressures, state.faces)
+
+
+def _step(state: State, control: Control) -> Step:
+    """Step into balance by the linearisation of a state."""
+    if state.linearisation is None:
+        raise AssertionError("a step needs a linearisation")
+    surface = state.surface
     gap, slope = _gap(state, control.vertex)
-    row = block.radial[control.vertex]
-    lack = (control.gap - gap) / surface.size
-
-    def gap_change(u: Array) -> float:
-        return surface.finiteness * slope * float(u[row]) + float(u[row + 1])
-
-    delta = (lack - gap_change(step)) / (gap_change(response) - 1.0)
-    step += delta * response
-    pressures = block.core.recover(elements, step)
-    imbalance = float(np.linalg.norm(residual[block.free]) / np.linalg.norm(forces))
-    return _Step(step, pressures, delta, _load_slope(state, response, approach), imbalance)
-
-
-def _load_slope(state: State, response: Array, approach: Array) -> float:
-    """Change of the load with the approach along the path: P is the derivative of the energy by delta."""
-    surface, block = state.surface, state.block
-    faces = state.faces
-    _, by_height = surface.pressure_slopes(faces)
-    direct = -float((block.trace.weight * by_height * faces.rho) @ faces.stretch)
-    # The tangent is symmetric but for the end of the surface: the load changes with u as the residual with delta.
-    total = direct + float(approach[block.free] @ response[block.free])
-    return 2.0 * math.pi * surface.size * surface.modulus * total
+    row = int(state.block.radial[control.vertex])
+    to_gap = Gap(row, surface.finiteness * slope, (control.gap - gap) / surface.size)
+    return state.linearisation.step(state.block, surface, state.u, state.pressures, state.faces, to_gap)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from fem_reference._elastic.exterior import EXTERIOR_RATIO
 from fem_reference._large_strain.discretisation import Discretisation, LinearEvent
-from fem_reference._large_strain.equilibrium import State, solve_state
+from fem_reference._large_strain.equilibrium import State, settled
 from fem_reference._large_strain.events import Family, PathEvent, found_event
 from fem_reference.errors import NotConverged
 
@@ -132,7 +132,7 @@ def estimate(
         "core": differences["core"] + EXTERIOR_ERROR * abs(base),
         "quadrature": differences["quadrature"] + differences.get("force", 0.0),
         "search": abs(value(rough) - functional({name: event.previous for name, event in rough.items()})),
-        "algebra": abs(functional({name: _settled(event.state) for name, event in events.items()}) - base),
+        "algebra": abs(functional({name: settled(event.state) for name, event in events.items()}) - base),
     }
     return Estimate(base, parts, events, values["degree"])
 
@@ -153,7 +153,7 @@ def state_bounds(state: State, base: Discretisation, linear: LinearEvent) -> tup
         If the state is not found on one of the meshes.
     """
     origin = PathEvent(0.0, state, state)
-    changed = [Family(variant, linear, origin).state(0.0) for variant in variants_of(base).values()]
+    changed = [Family(variant, linear, origin).state(0.0).light for variant in variants_of(base).values()]
 
     def bound(measure: Callable[[State], float]) -> float:
         value = measure(state)
@@ -167,8 +167,3 @@ def _variants_by_event(bases: Mapping[str, Discretisation]) -> dict[str, dict[st
     by_event = {name: variants_of(base) for name, base in bases.items()}
     names = next(iter(by_event.values()))
     return {variant: {name: variants[variant] for name, variants in by_event.items()} for variant in names}
-
-
-def _settled(state: State) -> State:
-    """The state after more Newton steps."""
-    return state if state.control is None else solve_state(state, state.control)

@@ -89,7 +89,7 @@ def path_states(
 
 def _state_at(linear: LinearEvent, discretisation: Discretisation) -> PathState:
     state = Family(discretisation, linear).state(0.0)
-    return PathState(state, linear, *state_bounds(state, discretisation, linear))
+    return PathState(state.light, linear, *state_bounds(state, discretisation, linear))
 
 
 def _refined(points: list[Point]) -> list[Point]:
