@@ -221,11 +221,10 @@ def _chord(state: State, control: Control, before: float, tolerance: float) -> t
     while True:
         try:
             step = _step(tried, control)
-            full = _damping(tried, step) == 1.0
         except NotConverged:
             return good, False
         size = float(np.abs(step.u).max())
-        if not (full and size <= SHRINKING * before):
+        if not (size <= SHRINKING * before and _share(tried, step) == 1.0):
             return good, False
         tried = replace(_moved(tried, step, 1.0), residual=step.imbalance, control=control)
         # What is left is the sum of the next steps.
@@ -264,19 +263,24 @@ def _moved(state: State, step: Step, factor: float) -> State:
 
 
 def _damping(state: State, step: Step) -> float:
-    """Share of a step that changes no gap within a few lengths of the law too much."""
-    near = state.faces
-    after = _moved(state, step, 1.0).faces
-    law, size = state.surface.law, state.surface.size
-    reach = np.minimum(near.gap, after.gap) * size < 3.0 * law.z0
-    change = float(np.max(np.abs(after.gap - near.gap)[reach], initial=0.0)) * size
-    factor = min(1.0, LARGEST_CHANGE * law.z0 / change) if change > 0.0 else 1.0
+    """Share of a step that changes no gap within a few lengths of the law too much, and turns no element inside out."""
+    factor = _share(state, step)
     while factor > SMALLEST_DAMPING:
         moved = _moved(state, step, factor)
         if _upright(moved):
             return factor
         factor *= 0.5
     raise NotConverged("a Newton step turns an element inside out: the strains are too large for this mesh")
+
+
+def _share(state: State, step: Step) -> float:
+    """Share of a step that changes no gap within a few lengths of the law too much."""
+    near = state.faces
+    after = _moved(state, step, 1.0).faces
+    law, size = state.surface.law, state.surface.size
+    reach = np.minimum(near.gap, after.gap) * size < 3.0 * law.z0
+    change = float(np.max(np.abs(after.gap - near.gap)[reach], initial=0.0)) * size
+    return min(1.0, LARGEST_CHANGE * law.z0 / change) if change > 0.0 else 1.0
 
 
 def _upright(state: State) -> bool:

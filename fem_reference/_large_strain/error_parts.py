@@ -31,6 +31,10 @@ EXTERIOR_ERROR = 2.0 * (0.5 - EXTERIOR_RATIO)
 #: Events and the name of the one whose displacement is their level.
 LEVELS = {"landing": "jump_in", "separated": "jump_out"}
 
+#: Change of the logarithm of a radius from which on lines of the mesh get their places anew: they do not lie where the
+#: punch or the solid has them by that share, whose square is what the forces lack.
+MISPLACED = 1e-3
+
 Functional = Callable[[Mapping[str, State]], float]
 
 
@@ -108,14 +112,12 @@ def estimate(
     NotConverged
         If an event is not found on one of the meshes.
     """
-    rough = _events_of(bases, linear, _first_events(bases, linear), stationary=False)
-    # Lines of the punch or the solid, which lay where the edge of small strain puts them, get their places.
-    placed = {
-        name: base.at(linear[name].radius * math.exp(rough[name].x)) if linear[name].point.branch.touching else base
-        for name, base in bases.items()
-    }
-    moved = any(placed[name].spec != bases[name].spec for name in bases)
-    events = _events_of(placed, linear, rough, stationary) if moved else rough
+    rough = _first_events(bases, linear) or _events_of(bases, linear, {}, stationary=False)
+    placed = _placed(bases, linear, rough)
+    events = _events_of(placed, linear, rough, stationary=False)
+    if any(abs(events[name].x - event.x) > MISPLACED for name, event in rough.items()):
+        placed = _placed(bases, linear, events)
+        events = _events_of(placed, linear, events, stationary=False)
 
     def value(results: Mapping[str, PathEvent]) -> float:
         return functional({name: event.state for name, event in results.items()})
@@ -131,10 +133,20 @@ def estimate(
         "first layer": differences["first layer"],
         "core": differences["core"] + EXTERIOR_ERROR * abs(base),
         "quadrature": differences["quadrature"] + differences.get("force", 0.0),
-        "search": abs(value(rough) - functional({name: event.previous for name, event in rough.items()})),
+        "search": abs(base - functional({name: event.previous for name, event in events.items()})),
         "algebra": abs(functional({name: settled(event.state) for name, event in events.items()}) - base),
     }
     return Estimate(base, parts, events, values["degree"])
+
+
+def _placed(
+    bases: Mapping[str, Discretisation], linear: Mapping[str, LinearEvent], events: Mapping[str, PathEvent]
+) -> dict[str, Discretisation]:
+    """Elements whose lines of the punch or the solid, placed for the edges of small strain, are so for events."""
+    return {
+        name: base.at(linear[name].radius * math.exp(events[name].x)) if linear[name].point.branch.touching else base
+        for name, base in bases.items()
+    }
 
 
 def state_bounds(state: State, base: Discretisation, linear: LinearEvent) -> tuple[float, float]:

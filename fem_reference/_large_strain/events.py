@@ -22,7 +22,7 @@ __all__ = ["EVENTS", "Family", "PathEvent", "found_event"]
 
 #: Steps of the parameter towards an extremum, each tried where the one before fails, and change of the parameter at
 #: which the search ends: what is left of the extremum is its square.
-FIRST_STEPS, LAST_CHANGE = (0.04, 0.01), 2e-4
+FIRST_STEPS, LAST_CHANGE = (0.04, 0.01), 2e-5
 
 #: Step of the parameter below which none is halved, and the largest between two states that predict a third.
 SMALLEST_STEP, LARGEST_BASE = 2e-3, 0.1
@@ -210,6 +210,6 @@ def _root(family: Family, measure: Measure) -> PathEvent:
         slope = (second - first) / (x - before)
         step = -second / slope if slope else math.inf
         if abs(step) <= ROOT_CHANGE:
-            return PathEvent(x, family.state(x), family.state(before))
+            return PathEvent(x + step, family.state(x + step), family.state(x))
         before, x = x, x + math.copysign(min(abs(step), 4.0 * FIRST_STEPS[0]), step)
     raise NotConverged("the path of finite strain has no such event near that of small strain")
