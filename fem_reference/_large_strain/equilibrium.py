@@ -32,8 +32,8 @@ NEWTON_STEPS = 16
 #: Share of its size to which a step of a chord shrinks at least: one costs a tenth of a step of Newton's method.
 SHRINKING = 0.2
 
-#: What a chord may leave, in tolerances of the last step: rounding leaves 1e-12 of the loads, and this 1e-10.
-CHORD_REST = 1e-4
+#: What a chord may leave, in tolerances of the last step of Newton's method: that leaves as much, its square.
+CHORD_REST = 1e-6
 
 #: Largest change of a gap in one step, in lengths of the law, where the faces are within a few of them.
 LARGEST_CHANGE = 0.5
