@@ -77,8 +77,8 @@ def test_a_chord_that_does_not_shrink_is_given_up(factorisations):
     count = len(factorisations)
     exact = solve_state(state, replace(state.control, gap=0.97 * state.control.gap))
     kept = state.linearisation
-    # Factors of something else: the steps are twice or three times as long as they should be.
-    wrong = replace(kept, factors=_Longer(kept.factors, 3.0), response=3.0 * kept.response)
+    # Factors of something else, with which steps shrink to 0.6 of their size.
+    wrong = replace(kept, factors=_Longer(kept.factors, 1.6))
     found = solve_state(replace(state, linearisation=wrong), exact.control)
     assert len(factorisations) > count
     assert found.load == pytest.approx(exact.load, rel=CHORD)
