@@ -328,12 +328,14 @@ class FollowedPath:
             if kinks_within(self.meshes.problem):
                 # Near a kink the path bends within the width of the edge, which its states do not tell.
                 fall = here - _height(event, states.similar(spec, radius * math.exp(-BESIDE_EXTREMUM)))
-                bend = (rise - fall) / BESIDE_EXTREMUM**2
+                turned, bend = bend < 0.0, (rise - fall) / BESIDE_EXTREMUM**2
+                slope = bend / radius**2
+                if turned != (bend < 0.0):
+                    return self._extremum(event, states.start)
             moved = (rise / BESIDE_EXTREMUM - radius * excess(states.start)) / bend if bend else math.inf
             radius_error = abs(moved - 0.5 * BESIDE_EXTREMUM)
-            if radius_error > FARTHEST or bend * slope < 0.0:
+            if radius_error > FARTHEST:
                 return self._extremum(event, states.start)
-            slope = bend / radius**2
             return (spec, radius), Anchor(states.start, slope, radius_error)
         if pinned:
             radius -= excess(states.start) / slope
