@@ -74,7 +74,8 @@ def test_the_tangent_is_exact(state):
 
     numeric = (left(1.0) - left(-1.0)) / (2.0 * step)
     system = linearised(state)
-    exact = [*system.times(direction), system.load_gradient @ direction, system.axis_gap_gradient @ direction]
+    by_left_side = system.times(direction)[:-1]
+    exact = [*by_left_side, system.load_gradient @ direction, system.axis_gap_gradient @ direction]
     # The mesh ends far away, where heights are 1e6 times the gaps at the edge.
     near = np.append(state.radius < 3.0 * state.scale, [True] * 3)
     assert numeric[near] == pytest.approx(np.array(exact)[near], rel=1e-5, abs=1e-6)
