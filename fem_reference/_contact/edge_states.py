@@ -81,7 +81,8 @@ CUBIC_STEPS = 1.5
 #: to 3e-7 for a load of the limit of a short range (by its fifth derivative), which changes the load by 2e-13.
 EXTREMUM_STEP = 0.02
 
-#: The same, as a share of the distance to the nearest kink of the punch, and the least; steps of one move.
+#: The same, as a share of the distance to the nearest kink of the punch, before which two steps end, and the least,
+#: whose values are told apart from rounding; steps of one move.
 SHARE_TO_KINK, LEAST_EXTREMUM_STEP, MOST_STEPS_AT_ONCE = 0.4, 1e-4, 5.0
 
 

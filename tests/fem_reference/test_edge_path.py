@@ -361,6 +361,16 @@ def test_rates_of_both_sides_of_a_kink_decide_what_the_test_of_each_side_does_no
     assert a.edge_radius <= math.exp(0.005 * math.log(1.0 / 3.0)) <= b.edge_radius <= 1.0
 
 
+def test_a_path_has_states_at_one_three_and_nine_widths_from_a_kink(monkeypatch):
+    width = 0.005
+    monkeypatch.setattr(path, "edge_width", lambda point: width)
+    at = _KinkedStates().at
+    points = completed(at, contact_points(at, 0.33, (1.0,), 0.0))
+    places = np.log([point.edge_radius for point in points]) / width
+    for place in (-9.0, -3.0, -1.0, 1.0, 3.0, 9.0):
+        assert np.min(np.abs(places - place)) < 1e-5
+
+
 def test_states_beside_a_kink_show_a_minimum_within_the_width_of_the_edge():
     """The load turns 0.5 % before the kink: five states a part, and values from beyond the kink, had 53.17."""
     law = CohesiveTrapezoid(work_of_adhesion=1.0, strength=1.0, rise_end=0.318, fall_start=0.35)
